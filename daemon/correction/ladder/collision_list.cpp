@@ -115,6 +115,20 @@ void CollisionList::widen(double begin_s, double end_s, const std::pair<double, 
   }
 }
 
+void CollisionList::set_range(const ChangedPart& part, const std::pair<double, double>& range_s) {
+  const auto end_s = [](const ListedCollision& listed) {
+    return listed.correction.interval.t_end_s;
+  };
+  auto next = std::ranges::lower_bound(list_, part.begin_s, {}, end_s);
+  for (; next != list_.end() && next->correction.interval.t_begin_s <= part.end_s; ++next) {
+    Correction& correction = next->correction;
+    const bool is_here = correction.t_begin_s >= part.begin_s && correction.t_end_s <= part.end_s;
+    if (next->is_open() || !is_here) continue;
+    correction.t_begin_s = range_s.first;
+    correction.t_end_s = range_s.second;
+  }
+}
+
 std::vector<Correction> CollisionList::corrections() const {
   std::vector<Correction> corrections;
   corrections.reserve(list_.size());

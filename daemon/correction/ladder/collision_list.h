@@ -52,6 +52,9 @@ class CollisionList {
   /// Extends the corrections that reach into the time from `begin_s` to `end_s` by `range_s`.
   void widen(double begin_s, double end_s, const std::pair<double, double>& range_s);
 
+  /// Sets the range of the corrections within a changed part to `range_s`.
+  void set_range(const ChangedPart& part, const std::pair<double, double>& range_s);
+
   /// Returns the corrections, in order of time.
   [[nodiscard]] std::vector<Correction> corrections() const;
 

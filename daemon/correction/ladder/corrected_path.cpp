@@ -5,9 +5,12 @@
 #include <iterator>
 #include <memory>
 
+#include "daemon/motion/path/bezier.h"
+
 namespace camway::correction {
 
 using motion::CubicPath;
+using motion::CubicPiece;
 
 namespace {
 
@@ -26,6 +29,38 @@ std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& part,
   // If the camera only turns, corrections move it by about its own size.
   places.same_s = motion::least_piece_s(leg_s, std::max(chord_m, ball_radius_m), size_m);
   return std::make_shared<const motion::KnotPlaces>(std::move(places));
+}
+
+bool turns(const Candidate& candidate) {
+  return std::ranges::any_of(candidate.rows, [](const motion::BumpRow& row) {
+    return std::ranges::any_of(
+        row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
+  });
+}
+
+/// The part of `original` from `begin_s` to `end_s`, which are joints of `path`: it joins the
+/// pieces of `path` before and after bit for bit.
+CubicPath cut(const CubicPath& original, const CubicPath& path, double begin_s, double end_s) {
+  CubicPath part = original.around(begin_s, end_s);
+  for (CubicPiece& piece : part.pieces) {
+    const double duration_s = piece.t1_s - piece.t0_s;
+    const double u0 = std::max(0.0, (begin_s - piece.t0_s) / duration_s);
+    const double u1 = piece.t1_s <= end_s ? 1.0 : (end_s - piece.t0_s) / duration_s;
+    piece = {std::max(piece.t0_s, begin_s), std::min(piece.t1_s, end_s),
+             motion::bezier::sub_curve(piece.position, u0, u1),
+             motion::bezier::sub_curve(piece.image, u0, u1)};
+  }
+  for (const CubicPiece& piece : path.pieces) {
+    if (piece.t1_s == begin_s) {
+      part.pieces.front().position[0] = piece.position[3];
+      part.pieces.front().image[0] = piece.image[3];
+    }
+    if (piece.t0_s == end_s) {
+      part.pieces.back().position[3] = piece.position[0];
+      part.pieces.back().image[3] = piece.image[0];
+    }
+  }
+  return part;
 }
 
 }  // namespace
@@ -66,24 +101,70 @@ Problem CorrectedPath::part_about(std::size_t leg, const motion::TimeOrigin& ori
 
 bool CorrectedPath::take(const Candidate& candidate) {
   const auto most = static_cast<std::size_t>(limits_.max_inserted_keyframes);
-  if (count_inserted() + count_added(candidate) > most) return false;
+  if (count_with(candidate) > most) return false;
   path_.replace(candidate.path);
+  const auto [begin_s, end_s] = range_of(candidate);
+  add_changed({begin_s, end_s, turns(candidate)});
   leave_time_for_the_rest();
   return true;
 }
 
+void CorrectedPath::add_changed(ChangedPart part) {
+  std::erase_if(changed_, [&](const ChangedPart& known) {
+    if (known.end_s < part.begin_s || known.begin_s > part.end_s) return false;
+    part = {std::min(part.begin_s, known.begin_s), std::max(part.end_s, known.end_s),
+            part.turns || known.turns, part.corrections + known.corrections};
+    return true;
+  });
+  changed_.insert(std::ranges::upper_bound(changed_, part.begin_s, {}, &ChangedPart::begin_s),
+                  part);
+}
+
+Problem CorrectedPath::restored(const ChangedPart& part, const motion::TimeOrigin& origin,
+                                double ball_radius_m) const {
+  const auto after_begin = std::ranges::upper_bound(keyframes_s_, part.begin_s);
+  const auto first = std::max(after_begin, keyframes_s_.begin() + 1) - 1;
+  const auto last =
+      std::min(std::ranges::lower_bound(keyframes_s_, part.end_s), keyframes_s_.end() - 1);
+  Problem problem;
+  problem.path = path_.around(*first, *last);
+  problem.original = interpolated_.around(*first, *last);
+  problem.keyframes_s.assign(first, last + 1);
+  problem.has_path_begin = first == keyframes_s_.begin();
+  problem.has_path_end = last + 1 == keyframes_s_.end();
+  problem.interval = {part.begin_s, part.end_s};
+  problem.places = places_for(problem, origin, ball_radius_m);
+
+  // From the changed part before to the one after, or to keyframes.
+  double begin_s = *first;
+  double end_s = *last;
+  const auto here = std::ranges::lower_bound(changed_, part.begin_s, {}, &ChangedPart::begin_s);
+  if (here != changed_.begin()) begin_s = std::max(begin_s, std::prev(here)->end_s);
+  if (here + 1 != changed_.end()) end_s = std::min(end_s, (here + 1)->begin_s);
+  problem.path.replace(cut(problem.original, problem.path, begin_s, end_s));
+  return problem;
+}
+
+bool CorrectedPath::take_instead(const ChangedPart& part, const Candidate& candidate) {
+  std::erase_if(changed_, [&](const ChangedPart& known) { return known.begin_s == part.begin_s; });
+  if (take(candidate)) return true;
+  add_changed(part);
+  return false;
+}
+
 void CorrectedPath::count_refused(const Candidate& candidate) {
-  refused_keyframes_ += count_added(candidate);
+  refused_keyframes_ += count_with(candidate) - count_inserted();
 }
 
 std::size_t CorrectedPath::count_inserted() const {
   return path_.pieces.size() - interpolated_.pieces.size();
 }
 
-// Candidates split pieces, and join none.
-std::size_t CorrectedPath::count_added(const Candidate& candidate) const {
+// The inserted keyframes of the path with the candidate.
+std::size_t CorrectedPath::count_with(const Candidate& candidate) const {
   const CubicPath& part = candidate.path;
-  return part.pieces.size() - path_.around(part.begin_s(), part.end_s()).pieces.size();
+  return count_inserted() + part.pieces.size() -
+         path_.around(part.begin_s(), part.end_s()).pieces.size();
 }
 
 std::vector<double> CorrectedPath::inserted_s() const {

@@ -22,6 +22,14 @@ struct CorrectionLimits {
   double rest_s_per_piece = 0.0;
 };
 
+/// A part of the path that corrections changed, with unchanged path before and after it.
+struct ChangedPart {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+  bool turns = false;   ///< whether it turns the body
+  int corrections = 1;  ///< number of candidates that changed it
+};
+
 /// A path while it is corrected: takes candidates as long as the keyframes that they insert stay
 /// within the limit. Every joint of the path that the interpolated path does not have is an
 /// inserted keyframe.
@@ -54,6 +62,16 @@ class CorrectedPath {
   /// exceed the limit of inserted keyframes.
   bool take(const Candidate& candidate);
 
+  /// The changed parts, in order of time.
+  [[nodiscard]] const std::vector<ChangedPart>& changed_parts() const { return changed_; }
+  /// Returns the path about a changed part as a problem in which that part is as interpolated. Its
+  /// knots may be at the joints of the corrected path.
+  [[nodiscard]] Problem restored(const ChangedPart& part, const motion::TimeOrigin& origin,
+                                 double ball_radius_m) const;
+  /// Replaces a changed part by a candidate for the problem that `restored` returned. Returns false
+  /// as `take` does.
+  bool take_instead(const ChangedPart& part, const Candidate& candidate);
+
   /// Counts the keyframes of a candidate that `take` refused.
   void count_refused(const Candidate& candidate);
 
@@ -72,7 +90,8 @@ class CorrectedPath {
 
  private:
   [[nodiscard]] std::size_t count_inserted() const;
-  [[nodiscard]] std::size_t count_added(const Candidate& candidate) const;
+  [[nodiscard]] std::size_t count_with(const Candidate& candidate) const;
+  void add_changed(ChangedPart part);
   void leave_time_for_the_rest();
 
   const motion::CubicPath& interpolated_;
@@ -81,6 +100,7 @@ class CorrectedPath {
   base::Deadline deadline_;
   std::vector<double> keyframes_s_;
   motion::CubicPath path_;
+  std::vector<ChangedPart> changed_;  ///< in order of time, apart from one another
   std::size_t refused_keyframes_ = 0;
 };
 

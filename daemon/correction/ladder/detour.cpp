@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/correction/ladder/follow_guide.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/search/cell_search.h"
@@ -27,7 +28,10 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
-constexpr int kLegsAsInterpolated = 16;        // what lattices keep to, where there is a choice
+constexpr double kAlike = 1.6;                 // cost of another way, relative to the first
+constexpr double kLeastApart = 1.5;      // of another way from the apex of the first, in radii, ...
+constexpr double kApart = 0.7;           // ... or as a share of the apex's distance from the path
+constexpr int kLegsAsInterpolated = 16;  // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
 class Detour {
@@ -52,25 +56,64 @@ class Detour {
   }
 
  private:
-  // Detours with room for every orientation.
+  // Detours with room for every orientation: the cheaper one of two on different sides.
   std::optional<Candidate> with_ball(Lattices lattices) {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
     if (!begin || !end) return std::nullopt;
+    BallMotion ball{.radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
     std::vector<Vec3> about_W;
     for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
       about_W.push_back(space_.center_W(pose));
     }
-    // Any orientation fits in the ball, so the path keeps its own.
-    const Turning turning = Turning::kAsPath;
-    std::optional<Candidate> candidate;
-    const auto use = [&](const std::vector<Vec3>& way_W) {
-      candidate = followed(oriented(way_W, *begin, *end), turning);
-      return candidate.has_value();
+    const auto draw = [&](const LatticeResult& way) {
+      // Any orientation fits in the ball, so the path keeps its own.
+      return followed(oriented(way.way_W, *begin, *end), Turning::kAsPath);
     };
-    count_points(for_each_lattice_way(space_, {radius_m_, center_W(*begin), center_W(*end)},
-                                      lattices, about_W, {use, is_hopeless_}, deadline_));
-    return candidate;
+    std::optional<DrawnWay> first = drawn_way(ball, lattices, about_W, draw);
+    if (!first) return std::nullopt;
+    ball.avoided = {apex_of(first->way.way_W, about_W)};
+    ball.max_cost_m = kAlike * first->way.cost_m;
+    std::optional<DrawnWay> second = drawn_way(ball, Lattices::kCoarse, about_W, draw);
+    const bool is_better = second && cost(second->candidate) < cost(first->candidate);
+    return std::move(is_better ? second->candidate : first->candidate);
+  }
+
+  struct DrawnWay {
+    LatticeResult way;
+    Candidate candidate;
+  };
+
+  // The first way that `draw` turns into a candidate.
+  template <class Draw>
+  std::optional<DrawnWay> drawn_way(const BallMotion& ball, Lattices lattices,
+                                    const std::vector<Vec3>& about_W, const Draw& draw) {
+    std::optional<DrawnWay> drawn;
+    const auto use = [&](const LatticeResult& way) {
+      std::optional<Candidate> candidate = draw(way);
+      if (candidate) drawn = {way, *std::move(candidate)};
+      return drawn.has_value();
+    };
+    count_points(
+        for_each_lattice_way(space_, ball, lattices, about_W, {use, is_hopeless_}, deadline_));
+    return drawn;
+  }
+
+  [[nodiscard]] double cost(const Candidate& candidate) const {
+    return closeness_cost(candidate.path, problem_.original, space_.closeness());
+  }
+
+  /// The ball about the place of a way that is farthest from `about_W`, which other ways avoid.
+  [[nodiscard]] AvoidedBall apex_of(const std::vector<Vec3>& way_W,
+                                    const std::vector<Vec3>& about_W) const {
+    AvoidedBall apex;
+    for (const Vec3& place_W : way_W) {
+      double away_m = std::numeric_limits<double>::infinity();
+      for (const Vec3& other_W : about_W) away_m = std::min(away_m, (place_W - other_W).norm());
+      if (away_m > apex.radius_m) apex = {place_W, away_m};
+    }
+    apex.radius_m = std::max(kLeastApart * radius_m_, kApart * apex.radius_m);
+    return apex;
   }
 
   // Detours on which the body must turn: narrow passages and trees along the way of a smaller ball.

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/correction/path/closeness.h"
-#include "daemon/correction/smoothing/fit.h"
 #include "daemon/correction/smoothing/relaxation.h"
 
 namespace camway::correction {
@@ -18,8 +16,6 @@ namespace {
 // Chosen by measurement; none changes what is proved.
 constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
 constexpr std::array<int, 4> kFine = {8, 16, 32, 64};
-constexpr std::array<int, 5> kSparse = {4, 5, 6, 8, 12};
-constexpr double kSparing = 1.3;  // largest growth of the cost for fewer knots
 constexpr int kMostRefinements = 40;  // finer rows of bumps
 constexpr int kFinest = 2048;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // shares of the ball's radius
@@ -139,51 +135,12 @@ class Follower {
     return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
-  /// Relaxes a path that follows the guide, then draws it with fewer knots as long as that costs
-  /// little more.
   Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {
-    Relaxed best = relaxed_from(offsets, ends, std::move(found));
-    const double most_cost = kSparing * cost(best.candidate);
-    for (const int count : kSparse) {
-      if (count >= best.offsets.knots.count || deadline_.passed()) break;
-      std::optional<Relaxed> sparser = with_fewer_knots(best, count);
-      if (sparser && cost(sparser->candidate) <= most_cost) return std::move(sparser->candidate);
-    }
-    return std::move(best.candidate);
-  }
-
-  Relaxed relaxed_from(const Offsets& offsets, Ends ends, Candidate candidate) {
-    const Improvement improvement{.may_turn = turning_ == Turning::kAsGuide,
-                                  .fade_s = fade_s(offsets)};
-    Relaxed better = relaxed(problem_, {offsets, std::move(candidate)}, ends, improvement, budget_,
+    const Improvement improvement{.may_turn = turning_ == Turning::kAsGuide};
+    Relaxed better = relaxed(problem_, {offsets, std::move(found)}, ends, improvement, budget_,
                              space_, deadline_);
     paths_ += better.paths;
-    return better;
-  }
-
-  /// The path that is nearest to `known` on so many knots, relaxed; nothing if it collides.
-  std::optional<Relaxed> with_fewer_knots(const Relaxed& known, int count) {
-    const motion::KnotRow knots = problem_.knots(count);
-    if (!knots.fits()) return std::nullopt;
-    const Offsets offsets = fitted(FreeCoefficients(problem_, knots, Ends::kFixed),
-                                   known.candidate.path, problem_.path);
-    std::optional<Candidate> found = tried(offsets, Ends::kFixed);
-    if (!found) return std::nullopt;
-    return relaxed_from(offsets, Ends::kFixed, std::move(*found));
-  }
-
-  [[nodiscard]] double cost(const Candidate& candidate) const {
-    return closeness_cost(candidate.path, problem_.original, space_.closeness());
-  }
-
-  /// The fade time that suits the largest offset.
-  [[nodiscard]] double fade_s(const Offsets& offsets) const {
-    double height_m = 0.0;
-    for (const motion::CubicPoint& offset : offsets.at) {
-      height_m = std::max(height_m, offset.position.norm());
-    }
-    height_m = std::max(height_m, space_.ball_radius_m());
-    return space_.closeness().best_spacing_s(height_m) / kSpacingsAFade;
+    return std::move(better.candidate);
   }
 
   const Problem& problem_;

@@ -14,6 +14,7 @@
 #include "daemon/correction/ladder/detour.h"
 #include "daemon/correction/ladder/nudge.h"
 #include "daemon/correction/ladder/polish.h"
+#include "daemon/correction/ladder/redraw.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/viewing_distance.h"
 
@@ -38,8 +39,7 @@ class Ladder {
          const base::Deadline& deadline)
       : space_(space),
         options_(options),
-        corrected_(path, keyframes,
-                   {options.max_inserted_keyframes, options.rest_s_per_piece},
+        corrected_(path, keyframes, {options.max_inserted_keyframes, options.rest_s_per_piece},
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
         prover_(mesh, space.body(), keyframes, options.max_shrink),
@@ -50,6 +50,7 @@ class Ladder {
     LadderResult result;
     result.timed_out = timed_out_;
     if (is_corrected) {
+      redraw(options_.origin, space_, corrected_, collisions_);
       polish(options_.objective, options_.origin, space_, corrected_, collisions_);
       result.needed_keyframes = corrected_.needed_keyframes();
     }
@@ -117,8 +118,8 @@ class Ladder {
     const std::size_t leg = collisions_[index].leg;
     const std::optional<Candidate> turned =
         space_.may_turn() ? nudged({&index, 1}, NudgeKind::kTurn) : std::nullopt;
-    const double most_cost = turned ? kTurnPenalty * cost(index, *turned)
-                                    : std::numeric_limits<double>::infinity();
+    const double most_cost =
+        turned ? kTurnPenalty * cost(index, *turned) : std::numeric_limits<double>::infinity();
     if (!has_no_way[leg]) {
       has_no_way[leg] = !replace_leg(index, Search::kWithRoom, most_cost) && !turned;
     }
@@ -145,8 +146,7 @@ class Ladder {
 
   // The open collisions from `index` on that are too near to one another for bumps of their own.
   [[nodiscard]] std::vector<std::size_t> group_from(std::size_t index) const {
-    const double near_s =
-        kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
+    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
     std::vector<std::size_t> group = {index};
     for (std::size_t i = index + 1; i < collisions_.size(); ++i) {
       const ListedCollision& last = collisions_[group.back()];

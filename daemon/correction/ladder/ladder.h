@@ -30,7 +30,7 @@ struct LadderOptions {
   /// Viewing distance of the cost of corrections (`closeness.h`); 0 takes it from the scene.
   /// [Limit: 0 <= value]
   double viewing_distance_m = 0.0;
-  std::uint64_t seed = 1;     ///< random seed of searches for detours
+  std::uint64_t seed = 1;  ///< random seed of searches for detours
   /// Largest share by which the camera may shrink about its eye. A proof that there is no path must
   /// hold for every such size. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;
@@ -48,7 +48,7 @@ struct LadderResult {
   std::optional<Separation> separation;
   std::optional<Cage> cage;
   std::vector<ShutIn> shut_in;  ///< keyframes found to be shut in, in the order of discovery
-  Closeness closeness;  ///< the scale by which corrections were compared
+  Closeness closeness;          ///< the scale by which corrections were compared
   bool timed_out = false;
   /// If the limit was exceeded: the number of inserted keyframes that all corrections found would
   /// need.

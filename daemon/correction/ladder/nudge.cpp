@@ -261,7 +261,7 @@ class Nudger {
       if (!offsets) return std::nullopt;
       Attempt tried = attempt(problem_, {bumps_for(*offsets, Ends::kFixed)}, space_, deadline_);
       ++effort_.paths;
-      if (tried.candidate) return improved(*offsets, std::move(*tried.candidate), spacing_s);
+      if (tried.candidate) return improved(*offsets, std::move(*tried.candidate));
       const collision::CollisionInterval& left = *tried.collision;
       if (left.t_begin_s < about.t_end_s && left.t_end_s > about.t_begin_s) {
         amount *= kMoreEachTime;
@@ -277,9 +277,8 @@ class Nudger {
     return std::nullopt;
   }
 
-  Candidate improved(const Offsets& offsets, Candidate candidate, double spacing_s) {
-    const Improvement improvement{.may_turn = kind_ == NudgeKind::kTurn,
-                                  .fade_s = spacing_s / kSpacingsAFade};
+  Candidate improved(const Offsets& offsets, Candidate candidate) {
+    const Improvement improvement{.may_turn = kind_ == NudgeKind::kTurn};
     Relaxed better = relaxed(problem_, {offsets, std::move(candidate)}, Ends::kFixed, improvement,
                              budget_, space_, deadline_);
     effort_.paths += better.paths;

@@ -15,7 +15,7 @@ namespace {
 // Chosen by measurement; none changes what is proved.
 constexpr int kPursuitStepsPerLeg = 40;
 constexpr double kPursuitWorth = 0.03;
-constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
+constexpr std::array<int, 4> kPursuitKnots = {6, 12, 24, 48};
 
 class Polisher {
  public:

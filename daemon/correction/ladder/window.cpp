@@ -41,8 +41,7 @@ struct Side {
       return knots_s;
     }
     knots_s.push_back(keyframe_s);
-    const double beyond_s =
-        next_s ? std::abs(*next_s - keyframe_s) : 2.0 * kStretched * spacing_s;
+    const double beyond_s = next_s ? std::abs(*next_s - keyframe_s) : 2.0 * kStretched * spacing_s;
     add_two(keyframe_s, beyond_s, knots_s);
     if (next_s && beyond_s < kStretched * spacing_s) knots_s.back() = *next_s;
     return knots_s;

@@ -157,8 +157,8 @@ double reference_acceleration_m_per_s2(const CubicPath& interpolated, double vie
     if (so_far_s >= kPercentile * whole_s) break;
   }
   const double speed = length_m / whole_s;
-  const double least = std::max(speed * speed / viewing_distance_m,
-                                std::numeric_limits<double>::min());
+  const double least =
+      std::max(speed * speed / viewing_distance_m, std::numeric_limits<double>::min());
   return std::max(percentile, least);
 }
 

@@ -29,7 +29,7 @@ struct Closeness {
 
 /// Price of a correction that accelerates as much as the path itself: the trade-off between short
 /// and gentle corrections. [Units: radians]
-inline constexpr double kAccelerationWeight_rad = 0.025;
+inline constexpr double kAccelerationWeight_rad = 0.018;
 
 /// Largest and mean shift of a part of a path. [Units: radians]
 struct Shift {

@@ -12,8 +12,8 @@ namespace {
 using geometry::Vec3;
 
 constexpr int kRays = 9;
-constexpr int kMostSteps = 40;           // along a ray
-constexpr double kNearEnough = 0.02;     // share of the distance: the ray has met the scene
+constexpr int kMostSteps = 40;        // along a ray
+constexpr double kNearEnough = 0.02;  // share of the distance: the ray has met the scene
 constexpr double kLeastAdvance_m = 0.01;
 
 /// Sphere tracing (Hart 1996): no obstacle is nearer than the gap, so the ray may advance by it.
@@ -45,9 +45,9 @@ double viewing_distance_m(const motion::CubicPath& interpolated, const FreeSpace
 Closeness closeness_of(const motion::CubicPath& interpolated, const FreeSpace& space,
                        double viewing_distance_m) {
   Closeness closeness;
-  closeness.viewing_distance_m =
-      viewing_distance_m > 0.0 ? viewing_distance_m
-                               : correction::viewing_distance_m(interpolated, space);
+  closeness.viewing_distance_m = viewing_distance_m > 0.0
+                                     ? viewing_distance_m
+                                     : correction::viewing_distance_m(interpolated, space);
   closeness.turn_lever_m =
       space.body().is_camera() ? closeness.viewing_distance_m : space.ball_radius_m();
   closeness.acceleration_m_per_s2 =

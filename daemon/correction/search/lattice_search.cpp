@@ -65,10 +65,12 @@ class LatticeSearch {
     LatticeResult result;
     while (!queue_.empty()) {
       const Waiting best = queue_.top();
+      if (best.estimate_m > options_.max_cost_m) return result;
       queue_.pop();
       if (!settles(best)) continue;
       if (is_goal(best.point)) {
         result.way_W = way(best.point);
+        result.cost_m = points_[best.point].claim_m;
         return result;
       }
       if (points_.size() >= options_.max_points || is_late()) return result;
@@ -133,6 +135,12 @@ class LatticeSearch {
     return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
   }
 
+  [[nodiscard]] bool is_avoided(const Vec3& place) const {
+    return std::ranges::any_of(options_.avoided, [&](const AvoidedBall& ball) {
+      return (place - ball.center_W).norm() < ball.radius_m;
+    });
+  }
+
   [[nodiscard]] Vec3 place_W(CellKey key) const {
     const Cell cell = cell_of(key);
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
@@ -165,7 +173,7 @@ class LatticeSearch {
 
   void ask(Point& point) const {
     const Vec3 place = place_W(point.key);
-    point.gap_m = gap_m(place);
+    point.gap_m = is_avoided(place) ? 0.0 : gap_m(place);
     point.near = std::max(0.0, 1.0 - point.gap_m / comfort_m_);
     if (legs_.empty()) return;
     const double far_m = kFarAway * options_.spacing_m;

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "daemon/correction/path/free_space.h"
 
 namespace camway::correction {
+
+/// A ball that a way must not enter with its centre.
+struct AvoidedBall {
+  geometry::Vec3 center_W = geometry::Vec3::Zero();
+  double radius_m = 0.0;
+};
 
 struct LatticeOptions {
   /// Radius of the ball. A ball that holds the body in every orientation is conservative; a smaller
@@ -17,6 +24,9 @@ struct LatticeOptions {
   std::size_t max_points = 20000;  ///< points that may be visited [Limit: value < 2^20]
   /// A polyline to prefer among ways of about equal length; may be empty.
   std::span<const geometry::Vec3> about_W = {};
+  std::span<const AvoidedBall> avoided = {};
+  /// Largest cost of a way: its length, times up to 2 near the scene.
+  double max_cost_m = std::numeric_limits<double>::infinity();
 };
 
 struct LatticeResult {
@@ -25,6 +35,7 @@ struct LatticeResult {
   /// Whether all points that are reachable at this spacing were visited, without the end among
   /// them.
   bool exhausted = false;
+  double cost_m = 0.0;     ///< cost of the way
   std::size_t points = 0;  ///< number of points visited
 };
 

@@ -40,12 +40,12 @@ class LatticeWays {
       if (i == kFirstCostlyLevel && use.is_hopeless()) return;
       if (level.is_wide && times_run_out < kOftenRunOut) continue;
       const LatticeResult found = searched(level, from_end);
-      if (!found.way_W.empty() && use.use(found.way_W)) return;
+      if (!found.way_W.empty() && use.use(found)) return;
       if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted) continue;
       if (++times_run_out != kOftenRunOut) continue;
       // If less is reachable from the other end, this search finds a way or ends quickly.
       const LatticeResult back = searched(level, true);
-      if (!back.way_W.empty() && use.use(back.way_W)) return;
+      if (!back.way_W.empty() && use.use(back)) return;
       from_end = back.exhausted;
       if (from_end) times_run_out = 0;
     }
@@ -59,6 +59,8 @@ class LatticeWays {
     LatticeOptions options{ball_.radius_m, level.spacing * coarse_m, level.max_points};
     // Preferring a polyline expands more nodes, and wide lattices search far from it anyway.
     if (!level.is_wide) options.about_W = about_W_;
+    options.avoided = ball_.avoided;
+    options.max_cost_m = ball_.max_cost_m;
     LatticeResult found = lattice_way(space_, from_end ? ball_.to_W : ball_.from_W,
                                       from_end ? ball_.from_W : ball_.to_W, options, deadline_);
     points_ += found.points;
@@ -73,14 +75,18 @@ class LatticeWays {
   std::size_t points_ = 0;
 };
 
+std::size_t last_level(Lattices lattices) {
+  if (lattices == Lattices::kCoarse) return kFirstCostlyLevel - 1;
+  return lattices == Lattices::kAllButFinest ? kFinestLattice - 1 : kFinestLattice;
+}
+
 }  // namespace
 
 std::size_t for_each_lattice_way(const FreeSpace& space, const BallMotion& ball, Lattices lattices,
                                  std::span<const geometry::Vec3> about_W, const LatticeWayUse& use,
                                  const base::Deadline& deadline) {
   LatticeWays ways(space, ball, about_W, deadline);
-  ways.search(lattices == Lattices::kFinest ? kFinestLattice : 0,
-              lattices == Lattices::kAllButFinest ? kFinestLattice - 1 : kFinestLattice, use);
+  ways.search(lattices == Lattices::kFinest ? kFinestLattice : 0, last_level(lattices), use);
   return ways.points();
 }
 

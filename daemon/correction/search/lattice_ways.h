@@ -8,6 +8,7 @@
 
 #include "daemon/base/deadline.h"
 #include "daemon/correction/path/free_space.h"
+#include "daemon/correction/search/lattice_search.h"
 
 namespace camway::correction {
 
@@ -16,6 +17,8 @@ struct BallMotion {
   double radius_m = 0.0;
   geometry::Vec3 from_W = geometry::Vec3::Zero();
   geometry::Vec3 to_W = geometry::Vec3::Zero();
+  std::vector<AvoidedBall> avoided = {};
+  double max_cost_m = std::numeric_limits<double>::infinity();
 };
 
 /// The lattices on which a way is searched.
@@ -23,12 +26,13 @@ enum class Lattices {
   kAll,
   kAllButFinest,  ///< detours that need the finest one mostly need turning as well
   kFinest,
+  kCoarse,  ///< the two coarsest ones
 };
 
 /// Receives the ways of `for_each_lattice_way`.
 struct LatticeWayUse {
   /// Uses a way, which joins `from_W` to `to_W`. The search ends if it returns true.
-  std::function<bool(const std::vector<geometry::Vec3>& way_W)> use;
+  std::function<bool(const LatticeResult& way)> use;
   /// Called before lattices become costly. The search ends if it returns true.
   std::function<bool()> is_hopeless;
 };

@@ -20,6 +20,11 @@ ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, Objective obje
       settled_m_(kForceSettled * ball_radius_m),
       may_turn_(may_turn) {}
 
+void ConstrainedMinimum::forget_form() {
+  unforced_.resize(0, 7);
+  response_.resize(0, 0);
+}
+
 StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
                                        std::vector<PathSample>& samples) {
   StackedPoints result = form_.minimum();

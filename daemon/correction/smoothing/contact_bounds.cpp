@@ -10,17 +10,18 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr double kWanted = 0.5;     // gap that is kept where there is room for it, ...
-constexpr double kWantedShift = 0.015;  // ... or this share of the viewing distance, if less
-constexpr double kKeptShare = 0.8;  // share of a smaller gap that is kept
-constexpr double kYield = 0.15;     // compliance: 0 keeps the wanted gap at any price
-constexpr double kHardReach = 0.5;  // `kSafest` has hard bounds only for nearer vertices
+constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
+constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
+constexpr double kKeptShare = 0.8;     // share of a smaller gap that is kept
+constexpr double kYield = 0.08;        // compliance: 0 keeps the wanted gap at any price
+constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 
 }  // namespace
 
 ContactBounds::ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m)
     : is_safest_(objective == Objective::kSafest),
+      makes_room_(objective == Objective::kClosest),
       wanted_m_(is_safest_ ? kComfort * ball_radius_m
                            : std::min(kWanted * ball_radius_m, kWantedShift * viewing_distance_m)),
       hard_reach_m_(kHardReach * ball_radius_m) {}
@@ -62,7 +63,7 @@ void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, Cont
   const double offset_m = row.direction.dot(moved) - row.room_m;
   const bool has_room = row.room_m >= wanted_m_;
   add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
-  if (has_room) {
+  if (has_room || !makes_room_) {
     contact.soft_multiplier = 0.0;
   } else {
     add_soft(sample, row.direction, offset_m + wanted_m_, kYield, contact.soft_multiplier);

@@ -22,7 +22,9 @@ struct Contact {
 ///
 ///     objective                         hard bound             soft bound
 ///     any but kSafest, gap >= wanted_m  wanted_m               none
-///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m
+///     kClosest, gap < wanted_m          a share of the gap     wanted_m
+///     kShortest, kSmoothest, likewise   a share of the gap     none: they start from the closest
+///                                                              path, which made room
 ///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
 ///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
@@ -51,6 +53,7 @@ class ContactBounds {
                 double compliance, double& force);
 
   const bool is_safest_;
+  const bool makes_room_;  ///< whether a gap below `wanted_m_` has a soft bound
   const double wanted_m_;
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;

@@ -9,8 +9,8 @@ namespace camway::correction {
 
 namespace {
 
-constexpr int kTimesAStep = 6;    // between two knots
-constexpr double kSmall = 1e-9;   // decides where a coefficient has no effect on the path
+constexpr int kTimesAStep = 6;   // between two knots
+constexpr double kSmall = 1e-9;  // decides where a coefficient has no effect on the path
 
 }  // namespace
 
@@ -20,8 +20,8 @@ Offsets fitted(const FreeCoefficients& free, const motion::CubicPath& wanted,
   StackedPoints sums = StackedPoints::Zero(free.size(), 7);
   for (int k = free.first() - 2; k < free.last() + 2; ++k) {
     for (int i = 0; i < kTimesAStep; ++i) {
-      const double time_s = std::lerp(free.knots().knot_s(k), free.knots().knot_s(k + 1),
-                                      (i + 0.5) / kTimesAStep);
+      const double time_s =
+          std::lerp(free.knots().knot_s(k), free.knots().knot_s(k + 1), (i + 0.5) / kTimesAStep);
       if (time_s < base.begin_s() || time_s > base.end_s()) continue;
       const motion::CubicPoint to = wanted.at(time_s);
       const motion::CubicPoint from = base.at(time_s);

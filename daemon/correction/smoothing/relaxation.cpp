@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/smoothing/constrained_minimum.h"
 #include "daemon/correction/smoothing/objective_cost.h"
 #include "daemon/correction/smoothing/path_sample.h"
@@ -30,8 +31,9 @@ constexpr double kHorizon = 1.0;   // largest gap that is measured; `kSafest` ad
 constexpr double kSettled = 0.05;  // a step that moves the body less is the last
 constexpr double kGained = 0.01;   // share of the objective: a step that gains less is the last
 constexpr int kMostSteps = 12;
-constexpr int kMostCuts = 3;  // attempts at a step, each with more contacts
-constexpr int kRounds = 3;    // rounds of relaxing, with more samples each time
+constexpr double kPriceOfRoom = 1.1;  // largest growth of the cost for wider gaps
+constexpr int kMostCuts = 3;          // attempts at a step, each with more contacts
+constexpr int kRounds = 3;            // rounds of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;  // moves back towards the initial correction
 
@@ -53,14 +55,17 @@ class Relaxation {
              const Improvement& improvement, FreeSpace& space)
       : radius_m_(space.ball_radius_m()),
         lever_m_(4.0 * lever_of(improvement.objective, space)),
+        problem_(problem),
+        objective_(improvement.objective),
         is_safest_(improvement.objective == Objective::kSafest),
         may_turn_(space.may_turn() && improvement.may_turn),
+        closeness_(space.closeness()),
         free_(problem, offsets.knots, ends),
-        form_(problem, free_, improvement.objective, lever_m_, improvement.fade_s),
+        variables_(free_.variables_of(offsets, lever_m_)),
+        form_(problem, free_, objective_, lever_m_, closeness_, variables_),
         minimum_(form_, improvement.objective, radius_m_, space.closeness().viewing_distance_m,
                  may_turn_),
-        probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)),
-        variables_(free_.variables_of(offsets, lever_m_)) {
+        probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)) {
     for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
       add_samples(problem, offsets.knots.knot_s(k), offsets.knots.knot_s(k + 1));
     }
@@ -78,24 +83,28 @@ class Relaxation {
 
   /// Avoiding obstacles may cost more than the other terms gain. Always true for `kSafest`, which
   /// gains gaps that the form does not contain.
-  [[nodiscard]] bool is_no_worse(const Offsets& now, const Offsets& before) const {
-    return is_safest_ || form_.value(free_.variables_of(now, lever_m_)) <=
-                             form_.value(free_.variables_of(before, lever_m_));
+  [[nodiscard]] bool is_no_worse(const Relaxed& now, const Relaxed& before) const {
+    if (objective_ == Objective::kClosest) {
+      return closeness_cost(now.candidate.path, problem_.original, closeness_) <=
+             kPriceOfRoom * closeness_cost(before.candidate.path, problem_.original, closeness_);
+    }
+    return is_safest_ || form_.value(free_.variables_of(now.offsets, lever_m_)) <=
+                             form_.value(free_.variables_of(before.offsets, lever_m_));
   }
 
   /// Takes steps until the budget is spent, or a step gains little.
   void run(base::Budget& budget, const base::Deadline& deadline) {
-    const double first_value = form_.value(variables_);
     double trust_m = kFirstTrust * radius_m_;
     while (budget.covers(1) && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
       budget.spend(1);
+      bound_cost();
       const double before = form_.value(variables_);
       const std::optional<double> moved_m = take_step(trust_m);
       if (!moved_m) return;
       if (*moved_m == 0.0) continue;
       if (*moved_m < kSettled * radius_m_) return;
       const bool was_whole = *moved_m < 0.99 * trust_m;
-      if (was_whole && !is_safest_ && before - form_.value(variables_) < kGained * first_value) {
+      if (was_whole && !is_safest_ && before - form_.value(variables_) < kGained * before) {
         return;
       }
       trust_m = std::min(2.0 * trust_m, kMostTrust * radius_m_);
@@ -122,6 +131,13 @@ class Relaxation {
   }
 
  private:
+  /// Makes the form of the closest path touch the cost at the path as it is.
+  void bound_cost() {
+    if (objective_ != Objective::kClosest) return;
+    form_ = SmoothingForm(problem_, free_, objective_, lever_m_, closeness_, variables_);
+    minimum_.forget_form();
+  }
+
   void add_sample(double time_s) {
     std::optional<PathSample> sample = probe_.sample_at(time_s, free_, variables_);
     if (sample) samples_.push_back(std::move(*sample));
@@ -236,13 +252,16 @@ class Relaxation {
 
   const double radius_m_;
   const double lever_m_;
+  const Problem& problem_;
+  const Objective objective_;
   const bool is_safest_;
   const bool may_turn_;
+  const Closeness& closeness_;
   const FreeCoefficients free_;
-  const SmoothingForm form_;
+  StackedPoints variables_;
+  SmoothingForm form_;
   ConstrainedMinimum minimum_;
   SampleProbe probe_;
-  StackedPoints variables_;
   std::vector<PathSample> samples_;
 };
 
@@ -266,8 +285,8 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
     ++free.paths;
     if (tried.candidate) {
-      if (!relaxation.is_no_worse(better, free.offsets)) return free;
-      return {better, std::move(*tried.candidate), free.paths};
+      Relaxed found{better, std::move(*tried.candidate), free.paths};
+      return relaxation.is_no_worse(found, free) ? found : free;
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);
@@ -277,9 +296,9 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     const Offsets between = mixed(free.offsets, better, share);
     Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
     ++free.paths;
-    if (tried.candidate && relaxation.is_no_worse(between, free.offsets)) {
-      return {between, std::move(*tried.candidate), free.paths};
-    }
+    if (!tried.candidate) continue;
+    Relaxed found{between, std::move(*tried.candidate), free.paths};
+    if (relaxation.is_no_worse(found, free)) return found;
   }
   return free;
 }

@@ -13,8 +13,7 @@ namespace camway::correction {
 struct Improvement {
   Objective objective = Objective::kClosest;
   bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
-  double fade_s = 1.0;   ///< parameter `fade_s` of `SmoothingForm`
-  double worth = 0.1;  ///< least relative gain of the objective for which `polished` takes steps
+  double worth = 0.1;    ///< least relative gain of the objective for which `polished` takes steps
 };
 
 /// A correction that is proved free: `problem.path` plus `bumps_for(offsets, ends)`.

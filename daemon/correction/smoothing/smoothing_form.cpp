@@ -16,7 +16,8 @@ namespace {
 
 using motion::CubicPoint;
 
-constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its support
+constexpr double kRoundedShare = 0.05;  // of the largest offset: δ
+constexpr int kBumpReach = 2;           // knots from a bump's peak to the end of its support
 constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
 constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner
 
@@ -182,11 +183,12 @@ Offsets FreeCoefficients::offsets_of(const StackedPoints& variables, double leve
 }
 
 SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& free,
-                             Objective objective, double lever_m, double fade_s)
+                             Objective objective, double lever_m, const Closeness& closeness,
+                             const StackedPoints& about)
     : hessian_(Eigen::MatrixXd::Zero(free.size(), free.size())),
       slope_(StackedPoints::Zero(free.size(), 7)) {
   if (objective == Objective::kClosest) {
-    count_offset(problem, free, lever_m, fade_s);
+    count_offset(problem, free, lever_m, closeness, about);
   } else {
     count_differences(problem, free, objective, lever_m);
   }
@@ -198,9 +200,19 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
 // Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
 // Gauss's rule with four points is exact for the products.
 void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients& free,
-                                 double lever_m, double fade_s) {
+                                 double lever_m, const Closeness& closeness,
+                                 const StackedPoints& about) {
+  struct Place {
+    double share_s;
+    Terms value;
+    Terms bent;
+    StackedPoint offset;
+    StackedPoint bending;
+    double size_m;
+  };
+  std::vector<Place> places;
+  double largest_m = 0.0;
   const motion::KnotRow& knots = free.knots();
-  const double bend = std::pow(fade_s, 4.0);
   for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
     const double begin_s = std::max(knots.knot_s(k), problem.path.begin_s());
     const double end_s = std::min(knots.knot_s(k + 1), problem.path.end_s());
@@ -215,13 +227,22 @@ void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients&
         free.add(bump, at.value, value);
         free.add(bump, at.second_derivative, bent);
       }
-      count(share_s, value,
-            stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m));
-      count(share_s * bend, bent,
-            stacked(difference(problem.path.second_derivative(time_s),
-                               problem.original.second_derivative(time_s)),
-                    lever_m));
+      const StackedPoint offset =
+          stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
+      const StackedPoint bending = stacked(difference(problem.path.second_derivative(time_s),
+                                                      problem.original.second_derivative(time_s)),
+                                           lever_m);
+      const double size_m = (offset + combined(value, about)).norm();
+      largest_m = std::max(largest_m, size_m);
+      places.push_back({share_s, std::move(value), std::move(bent), offset, bending, size_m});
     }
+  }
+  const double floor_m = largest_m > 0.0 ? kRoundedShare * largest_m : 1.0;
+  const double a = closeness.acceleration_m_per_s2;
+  const double bend = 2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a);
+  for (const Place& place : places) {
+    count(place.share_s / std::hypot(place.size_m, floor_m), place.value, place.offset);
+    count(place.share_s * bend, place.bent, place.bending);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "daemon/correction/path/candidate.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/guide.h"
 
@@ -89,25 +90,25 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
   return sum;
 }
 
-/// The spacing of knots of a single bump that is nearest to the optimal offset beside a contact, in
-/// fade times: it minimises ∫ N² + τ⁴ N''² dt for a cubic B-spline N of a given peak.
-inline constexpr double kSpacingsAFade = 2.02;
-
 /// An objective as a quadratic form of the free coefficients.
-/// - `kClosest`: ∫ d² + τ⁴ d''² dt, exactly, where d is the offset from the original and τ the
-///   *fade time*: the time in which the optimal offset fades out beside a contact.
+/// - `kClosest`: 2·D times the cost of `closeness.h`, up to a constant, with the shift d at its
+///   quadratic bound about the offset e of given coefficients: ∫ d²/√(|e|² + δ²) + 2·w·D·(d''/a)²
+///   dt, where d is the offset from the original, and δ a small share of the largest |e|. Where the
+///   form falls, the cost falls (majorisation; Hunter & Lange 2004, "A tutorial on MM algorithms",
+///   with the square root rounded at 0).
 ///
-/// The others are weighted sums of squares (Farin 2002, section 9.4, for bending) of control points'
-/// distances from the original and of the first and second differences of the path's control
-/// points. They require equidistant knots.
+/// The others are weighted sums of squares (Farin 2002, section 9.4, for bending) of control
+/// points' distances from the original and of the first and second differences of the path's
+/// control points. They require equidistant knots.
 /// - `kSafest`: distances and second differences; it also wants gaps, which are not part of the
 ///   form.
 /// - `kShortest`: first differences, and second differences with a small weight.
 /// - `kSmoothest`: second differences.
 class SmoothingForm {
  public:
+  /// `closeness` and `about`, the coefficients whose offset is e, count for `kClosest` only.
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
-                double lever_m, double fade_s);
+                double lever_m, const Closeness& closeness, const StackedPoints& about);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
   /// The minimiser.
@@ -119,7 +120,7 @@ class SmoothingForm {
   void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
                          double lever_m);
   void count_offset(const Problem& problem, const FreeCoefficients& free, double lever_m,
-                    double fade_s);
+                    const Closeness& closeness, const StackedPoints& about);
   void count(double weight, const Terms& terms, const StackedPoint& constant);
 
   Eigen::MatrixXd hessian_;

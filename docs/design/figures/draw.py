@@ -83,7 +83,7 @@ def ladder():
             figure.arrow([(120, y + 44), (120, y + 61)])
             figure.text(128, y + 57, "nothing was proved free" if not name.endswith("?") else "no proof", "small", "start")
         figure.arrow([(510, y + 22), (618, y + 22)], "proof" if name.endswith("?") else "proved free")
-    figure.box(620, 14, 220, 170, ["accepted", "relaxed: the picture shifts", "little, the path bends little,", "and all is proved again"], "accent")
+    figure.box(620, 14, 220, 170, ["accepted", "relaxed: the picture shifts", "little; drawn on few knots;", "and all is proved again"], "accent")
     figure.box(620, 203, 220, 44, ["infeasible", "the answer holds the proof"], "warm")
     figure.box(620, 266, 220, 107, ["accepted", "as above"], "accent")
     return figure

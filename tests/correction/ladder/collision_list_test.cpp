@@ -81,6 +81,19 @@ TEST(CollisionList, WidensOnlyCorrectionsThatReachIntoTheTime) {
   EXPECT_EQ(list[2].correction.t_end_s, 0.0) << "it is open";
 }
 
+TEST(CollisionList, SetsTheRangesWithinAChangedPartOnly) {
+  CollisionList list({{0.5, 1.0}, {1.2, 1.4}, {2.5, 3.0}, {5.0, 5.5}}, kKeyframes_s);
+  correct(list[0], 0.2, 1.5);
+  correct(list[2], 1.8, 3.5);
+  correct(list[3], 4.0, 6.0);
+  list.set_range({0.2, 3.5}, {0.4, 3.2});
+  EXPECT_EQ(list[0].correction.t_begin_s, 0.4);
+  EXPECT_EQ(list[0].correction.t_end_s, 3.2);
+  EXPECT_EQ(list[1].correction.t_end_s, 0.0) << "it is open";
+  EXPECT_EQ(list[2].correction.t_end_s, 3.2);
+  EXPECT_EQ(list[3].correction.t_end_s, 6.0);
+}
+
 TEST(CollisionList, TellsTheIntervalsThatCorrectionsChanged) {
   const motion::CubicPath path = straight_path();
   std::vector<motion::Keyframe> keyframes;

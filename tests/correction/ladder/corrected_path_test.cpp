@@ -84,6 +84,59 @@ TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {
   EXPECT_EQ(middle.path.end_s(), 30.0);
 }
 
+TEST_F(CorrectedPathTest, JoinsChangesThatTouch) {
+  CorrectedPath corrected = with_limit(100);
+  EXPECT_TRUE(corrected.take(bump(corrected, 15.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
+  ASSERT_EQ(corrected.changed_parts().size(), 2u);
+  EXPECT_EQ(corrected.changed_parts()[0].end_s, 7.0);
+  EXPECT_TRUE(corrected.take(bump(corrected, 9.0, 0.5)));
+  ASSERT_EQ(corrected.changed_parts().size(), 2u);
+  EXPECT_EQ(corrected.changed_parts()[0].end_s, 11.0);
+  EXPECT_TRUE(corrected.take(bump(corrected, 12.0, 0.5)));
+  ASSERT_EQ(corrected.changed_parts().size(), 1u);
+  EXPECT_EQ(corrected.changed_parts()[0].begin_s, 3.0);
+  EXPECT_EQ(corrected.changed_parts()[0].end_s, 17.0);
+  EXPECT_FALSE(corrected.changed_parts()[0].turns);
+  EXPECT_EQ(corrected.changed_parts()[0].corrections, 4);
+}
+
+TEST_F(CorrectedPathTest, RestoresOneChangedPartAndKeepsTheOthersBitForBit) {
+  CorrectedPath corrected = with_limit(100);
+  EXPECT_TRUE(corrected.take(bump(corrected, 3.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 8.0, 0.4)));
+  const Problem problem = corrected.restored(corrected.changed_parts()[1], {}, 0.1);
+  EXPECT_EQ(problem.keyframes_s, (std::vector<double>{0.0, 10.0}));
+  std::vector<double> joints_s;
+  for (const motion::CubicPiece& piece : problem.path.pieces) joints_s.push_back(piece.t0_s);
+  EXPECT_EQ(joints_s, (std::vector<double>{0, 1, 2, 3, 4, 5})) << "none of the second part";
+  for (double time_s = 0.0; time_s <= 10.0; time_s += 0.125) {
+    const CubicPath& kept = time_s <= 5.0 ? corrected.path() : interpolated_;
+    const geometry::Vec3 difference = problem.path.at(time_s).position - kept.at(time_s).position;
+    EXPECT_LE(difference.norm(), time_s <= 5.0 ? 0.0 : 1e-14) << time_s;
+  }
+  for (std::size_t i = 1; i < problem.path.pieces.size(); ++i) {
+    EXPECT_EQ(problem.path.pieces[i - 1].position[3], problem.path.pieces[i].position[0]);
+  }
+}
+
+TEST_F(CorrectedPathTest, TakesACandidateInsteadOfAPart) {
+  CorrectedPath corrected = with_limit(10);
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 15.0, 0.4)));
+  const ChangedPart part = corrected.changed_parts()[0];
+  const Problem problem = corrected.restored(part, {}, 0.1);
+  const motion::CubicPoint peak{{0, 0.3, 0}, geometry::Vec4::Zero()};
+  const std::vector<BumpRow> rows = {{KnotRow::about(6.0, 1.0, nullptr), 2, {peak}}};
+  EXPECT_TRUE(corrected.take_instead(part, {motion::with_bumps(problem.path, rows), rows}));
+  EXPECT_EQ(corrected.inserted_s(), (std::vector<double>{4, 5, 6, 7, 8, 13, 14, 15, 16, 17}));
+  EXPECT_DOUBLE_EQ(corrected.path().at(6.0).position.y(), 0.2);
+  const std::vector<ChangedPart>& parts = corrected.changed_parts();
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].begin_s, 4.0);
+  EXPECT_EQ(parts[0].end_s, 8.0);
+}
+
 TEST_F(CorrectedPathTest, RangesOfCandidatesEndWithThePath) {
   const CorrectedPath corrected = with_limit(9);
   const auto [begin_s, end_s] = corrected.range_of(bump(corrected, 15.0, 0.5));

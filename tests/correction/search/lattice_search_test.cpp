@@ -142,6 +142,38 @@ TEST(LatticeWay, StraightThroughTheOpen) {
   EXPECT_LT(length_m(result.way_W), 3.2);
 }
 
+TEST(LatticeWay, GoesRoundBallsToAvoid) {
+  const SearchScene scene({});
+  const std::array<AvoidedBall, 2> balls = {{{{1, 0, 0}, 0.5}, {{2, 0.4, 0}, 0.4}}};
+  LatticeOptions options{0.2, 0.1, 40000};
+  options.avoided = balls;
+  const LatticeResult result =
+      lattice_way(scene.space(), {0, 0, 0}, {3, 0.1, 0}, options, Deadline::never());
+  expect_way(scene, result, {0, 0, 0}, {3, 0.1, 0}, 0.2);
+  for (const Vec3& place_W : result.way_W) {
+    for (const AvoidedBall& ball : balls) {
+      EXPECT_GE((place_W - ball.center_W).norm(), ball.radius_m);
+    }
+  }
+}
+
+TEST(LatticeWay, EndsAtItsLargestCost) {
+  const SearchScene scene(wall_with_gap(0.8, 2.0));
+  const auto search = [&](double max_cost_m) {
+    LatticeOptions options{0.1, 0.2, 20000};
+    options.max_cost_m = max_cost_m;
+    return lattice_way(scene.space(), {0, 0, 1.5}, {0, 0, -1.5}, options, Deadline::never());
+  };
+  const LatticeResult whole = search(std::numeric_limits<double>::infinity());
+  ASSERT_FALSE(whole.way_W.empty());
+  EXPECT_GE(whole.cost_m, length_m(whole.way_W) - 0.4) << "but for the last step";
+  const LatticeResult none = search(0.8 * whole.cost_m);
+  EXPECT_TRUE(none.way_W.empty());
+  EXPECT_FALSE(none.exhausted);
+  EXPECT_LT(none.points, whole.points);
+  EXPECT_EQ(search(1.3 * whole.cost_m).way_W, whole.way_W);
+}
+
 TEST(LatticeWay, IsFreeForTheBall) {
   testing::Random random(1);
   const Vec3 from_W(-2.0, 0.03, 0.02);

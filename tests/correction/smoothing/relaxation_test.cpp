@@ -47,14 +47,18 @@ struct Case {
   [[nodiscard]] FreeSpace space() const {
     return FreeSpace({collision::Obstacles(index), body, detect}, policy);
   }
-  /// Returns the value of the objective; the lever arm is that of the relaxation.
+  /// Returns the value of the objective.
   [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
-    const double lever_m =
-        4.0 * (objective == Objective::kClosest ? space().closeness().turn_lever_m
-                                                : space().ball_radius_m());
+    const Closeness closeness = space().closeness();
+    if (objective == Objective::kClosest) {
+      const motion::BumpRow row = bumps_for(offsets, ends);
+      return closeness_cost(motion::with_bumps(problem.path, std::vector{row}), problem.original,
+                            closeness);
+    }
+    const double lever_m = 4.0 * space().ball_radius_m();
     const FreeCoefficients free(problem, offsets.knots, ends);
-    return SmoothingForm(problem, free, objective, lever_m, Improvement().fade_s)
-        .value(free.variables_of(offsets, lever_m));
+    const StackedPoints variables = free.variables_of(offsets, lever_m);
+    return SmoothingForm(problem, free, objective, lever_m, closeness, variables).value(variables);
   }
 };
 
@@ -283,15 +287,20 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   ASSERT_TRUE(free);
   for (const Objective objective : kObjectives) {
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
-    const double lever_m =
-        4.0 * (objective == Objective::kClosest ? c.space().closeness().turn_lever_m
-                                                : c.space().ball_radius_m());
+    const Closeness closeness = c.space().closeness();
+    const double lever_m = 4.0 * (objective == Objective::kClosest ? closeness.turn_lever_m
+                                                                   : c.space().ball_radius_m());
     const FreeCoefficients coefficients(c.problem, free->offsets.knots, Ends::kFree);
-    const SmoothingForm form(c.problem, coefficients, objective, lever_m, Improvement().fade_s);
-    const double start = form.value(coefficients.variables_of(free->offsets, lever_m));
-    const double reached = form.value(coefficients.variables_of(result.offsets, lever_m));
-    const double least = form.value(form.minimum());
-    EXPECT_LE(reached - least, 1e-3 * (start - least)) << static_cast<int>(objective);
+    StackedPoints best = coefficients.variables_of(free->offsets, lever_m);
+    for (int i = 0; i < 200; ++i) {
+      best = SmoothingForm(c.problem, coefficients, objective, lever_m, closeness, best).minimum();
+    }
+    const double start = c.value(free->offsets, Ends::kFree, objective);
+    const double reached = c.value(result.offsets, Ends::kFree, objective);
+    const double least = c.value(coefficients.offsets_of(best, lever_m), Ends::kFree, objective);
+    // The closest path is reached by steps that end when they gain little.
+    const double share = objective == Objective::kClosest ? 0.02 : 1e-3;
+    EXPECT_LE(reached - least, share * (start - least)) << static_cast<int>(objective);
   }
 }
 
@@ -371,9 +380,10 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     int passing = 0;
     for (int i = 0; i <= 100000; ++i) {
       const Vec3 eye = path.at(8.0 * i / 100000).position;
-      if (std::abs(eye.z() - 0.1 - z) > 1e-4 || std::abs(eye.x()) > 0.1) continue;
+      if (std::abs(eye.z() - 0.1 - z) > 1e-4 || std::abs(eye.x()) > 0.15) continue;
       ++passing;
-      ASSERT_GT(eye.y(), edge_m - 0.04);  // the tip, beside which it may be lower
+      // The tip, beside which it may be lower.
+      ASSERT_GT(eye.y(), edge_m - (std::abs(eye.x()) > 0.1 ? 0.1 : 0.04));
       if (objective != Objective::kSafest) {
         ASSERT_LT(eye.y(), 0.5);
       }

@@ -23,7 +23,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 // Bound on the rounding of some hundred sums and products of numbers up to 10.
 constexpr double kRounding = 1e-12;
 constexpr double kLever_m = 0.4;
-constexpr double kFade_s = 0.7;
+constexpr Closeness kCloseness{
+    .viewing_distance_m = 2.0, .turn_lever_m = kLever_m / 4.0, .acceleration_m_per_s2 = 0.8};
 
 /// An interval of a random tour: at its beginning, at its end, between others, or alone.
 struct Case {
@@ -213,8 +214,11 @@ constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
 template <class Check>
 void for_many_forms(Draw& draw, int count, const Check& check) {
   for_many(draw, count, [&](const Case& c, Ends, const FreeCoefficients& free) {
-    for (const Objective objective : kObjectives)
-      check(c, free, objective, SmoothingForm(c.problem, free, objective, kLever_m, kFade_s));
+    const StackedPoints about = draw.points(free.size(), 1.0);
+    for (const Objective objective : kObjectives) {
+      check(c, free, objective,
+            SmoothingForm(c.problem, free, objective, kLever_m, kCloseness, about));
+    }
   });
 }
 
@@ -232,7 +236,8 @@ TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
                  });
 }
 
-/// Half of ∫ d² + τ⁴ d''² dt over the row, by Simpson's rule on many steps between two knots.
+/// Half of ∫ d² + 2·w·D·(d''/a)² dt over the row, by Simpson's rule on many steps between two
+/// knots.
 double integral_of_offset(const Case& c, const FreeCoefficients& free, const CubicPath& path) {
   constexpr int kSteps = 64;
   const auto integrand = [&](double time_s) {
@@ -242,7 +247,9 @@ double integral_of_offset(const Case& c, const FreeCoefficients& free, const Cub
     const CubicPoint was_bent = c.problem.original.second_derivative(time_s);
     const StackedPoint d = stacked(now, kLever_m) - stacked(was, kLever_m);
     const StackedPoint dd = stacked(bent, kLever_m) - stacked(was_bent, kLever_m);
-    return d.squaredNorm() + std::pow(kFade_s, 4.0) * dd.squaredNorm();
+    const double a = kCloseness.acceleration_m_per_s2;
+    const double bend = 2.0 * kAccelerationWeight_rad * kCloseness.viewing_distance_m / (a * a);
+    return d.squaredNorm() + bend * dd.squaredNorm();
   };
   double sum = 0.0;
   for (int k = free.first() - 2; k < free.last() + 2; ++k) {
@@ -261,11 +268,13 @@ double integral_of_offset(const Case& c, const FreeCoefficients& free, const Cub
   return 0.5 * sum;
 }
 
+// About no offset at all, all times have the same weight.
 TEST(SmoothingForm, OfTheClosestPathIsTheIntegralOfTheOffsetAndItsBending) {
   Draw draw(4109);
   for_many(draw, 40, [&](Case c, Ends ends, const FreeCoefficients& free) {
     c.problem.path = c.problem.original;
-    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kFade_s);
+    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kCloseness,
+                             StackedPoints::Zero(free.size(), 7));
     const StackedPoints variables = draw.points(free.size(), 1.0);
     const BumpRow row = bumps_for(free.offsets_of(variables, kLever_m), ends);
     const double expected =
@@ -273,6 +282,43 @@ TEST(SmoothingForm, OfTheClosestPathIsTheIntegralOfTheOffsetAndItsBending) {
     // Simpson's rule is of fourth order: 1/64^4 is 6e-8; the insets weigh 1e-9.
     ASSERT_NEAR(form.value(variables), expected, 1e-6 * expected);
   });
+}
+
+// The form bounds the cost from above, up to the share that rounds the shift off at 0.
+TEST(SmoothingForm, OfTheClosestPathFallsOnlyWhereTheCostFalls) {
+  constexpr double kRoundedShare = 0.05;
+  Draw draw(4111);
+  int falling = 0;
+  for_many(draw, 60, [&](Case c, Ends ends, const FreeCoefficients& free) {
+    if (free.size() == 0) return;
+    c.problem.path = c.problem.original;
+    const auto moves = [&](double size_m) {
+      StackedPoints points = draw.points(free.size(), size_m);
+      points.rightCols<4>().setZero();
+      return points;
+    };
+    const auto path_of = [&](const StackedPoints& variables) {
+      const BumpRow row = bumps_for(free.offsets_of(variables, kLever_m), ends);
+      return motion::with_bumps(c.problem.path, std::vector{row});
+    };
+    const StackedPoints about = moves(0.5);
+    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kCloseness, about);
+    const CubicPath path = path_of(about);
+    const double cost = closeness_cost(path, c.problem.original, kCloseness);
+    double largest_m = 0.0;
+    for (Eigen::Index i = 0; i < about.rows(); ++i)
+      largest_m = std::max(largest_m, about.row(i).norm());
+    const double slack =
+        kRoundedShare * largest_m * (path.end_s() - path.begin_s()) / kCloseness.viewing_distance_m;
+    for (const double share : {0.1, 0.5, 1.0}) {
+      const StackedPoints next = about + share * (form.minimum() - about) + moves(0.05);
+      const double gained = form.value(about) - form.value(next);
+      const double now = closeness_cost(path_of(next), c.problem.original, kCloseness);
+      falling += gained > 0.0 ? 1 : 0;
+      ASSERT_LE(now, cost - gained / kCloseness.viewing_distance_m + slack);
+    }
+  });
+  EXPECT_GT(falling, 100);
 }
 
 // A row about a keyframe keeps it: the coefficient there follows from its neighbours.
@@ -284,10 +330,10 @@ TEST(FreeCoefficients, KeepAKeyframeWithinARowWithFixedEnds) {
     const double keyframe_s = keyframes[1].time_s;
     const double before_s = (keyframe_s - keyframes[0].time_s) / draw.integer(3, 6);
     const double after_s = (keyframes[2].time_s - keyframe_s) / draw.integer(4, 8);
-    const KnotRow knots = KnotRow::at({keyframe_s - 2 * before_s, keyframe_s - before_s, keyframe_s,
-                                       keyframe_s + after_s, keyframe_s + 2 * after_s,
-                                       keyframe_s + 3 * after_s},
-                                      nullptr);
+    const KnotRow knots =
+        KnotRow::at({keyframe_s - 2 * before_s, keyframe_s - before_s, keyframe_s,
+                     keyframe_s + after_s, keyframe_s + 2 * after_s, keyframe_s + 3 * after_s},
+                    nullptr);
     const FreeCoefficients free(problem, knots, Ends::kFixed);
     ASSERT_EQ(free.size(), 1);
     ASSERT_TRUE(free.is_held(2));
@@ -299,7 +345,8 @@ TEST(FreeCoefficients, KeepAKeyframeWithinARowWithFixedEnds) {
         problem.path, std::vector{bumps_for(free.offsets_of(variables, 1.0), Ends::kFixed)});
     const double middle_s = keyframe_s + 0.7 * after_s;
     const StackedPoint added = combined(free.at(middle_s), variables);
-    const StackedPoint is = stacked(after.at(middle_s), 1.0) - stacked(problem.path.at(middle_s), 1.0);
+    const StackedPoint is =
+        stacked(after.at(middle_s), 1.0) - stacked(problem.path.at(middle_s), 1.0);
     ASSERT_LT((added - is).norm(), kRounding);
   }
 }

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/knot_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace camway::correction {
+
+namespace {
+
+using motion::CubicPath;
+using motion::CubicPiece;
+
+// Chosen by measurement; none changes what is proved.
+constexpr std::size_t kFewestKnots = 5;  // one bump
+constexpr int kBeyondEnd = 3;            // knots beyond an end of the whole path
+constexpr double kEven = 0.3;            // weight of even spacing, relative to that by the error
+constexpr double kNearStep = 0.4;        // in steps: a knot that is nearer to a joint moves there
+
+geometry::Vec3 third_derivative(const CubicPath& path, double time_s) {
+  const auto later = std::ranges::upper_bound(path.pieces, time_s, {}, &CubicPiece::t0_s);
+  if (later == path.pieces.begin()) return geometry::Vec3::Zero();
+  const CubicPiece& piece = *std::prev(later);
+  if (time_s > piece.t1_s) return geometry::Vec3::Zero();
+  const auto& p = piece.position;
+  return 6.0 / std::pow(piece.t1_s - piece.t0_s, 3.0) * (p[3] - p[0] + 3.0 * (p[1] - p[2]));
+}
+
+/// The steps before and after a knot. Beyond an end, the path goes on as without the row, and the
+/// step is that on the other side.
+std::pair<double, double> steps_about(const std::vector<double>& knots_s, std::size_t i) {
+  const std::size_t last = knots_s.size() - 1;
+  const double before_s = i > 0 ? knots_s[i] - knots_s[i - 1] : knots_s[1] - knots_s[0];
+  const double after_s = i < last ? knots_s[i + 1] - knots_s[i] : before_s;
+  return {before_s, after_s};
+}
+
+/// Size of the jump of the third derivative at a knot.
+double jump_at(const std::vector<double>& knots_s, std::size_t i, const CubicPath& path) {
+  const auto [before_s, after_s] = steps_about(knots_s, i);
+  const geometry::Vec3 before = third_derivative(path, knots_s[i] - 0.5 * before_s);
+  const geometry::Vec3 after = third_derivative(path, knots_s[i] + 0.5 * after_s);
+  return (after - before).norm();
+}
+
+/// About the largest offset that the removal of a knot causes, up to a factor.
+double harm_of(const std::vector<double>& knots_s, std::size_t i, const CubicPath& path) {
+  const auto [before_s, after_s] = steps_about(knots_s, i);
+  const bool is_end = i == 0 || i + 1 == knots_s.size();
+  const double reach_s = is_end ? before_s : before_s * after_s / (before_s + after_s);
+  return jump_at(knots_s, i, path) * std::pow(reach_s, 3.0);
+}
+
+/// The share of each step in the error of a cubic spline: the fourth root of the fourth derivative,
+/// times the step.
+std::vector<double> shares_of_error(const std::vector<double>& knots_s, const CubicPath& path) {
+  const auto density = [&](std::size_t i) {
+    const auto [before_s, after_s] = steps_about(knots_s, i);
+    return std::pow(jump_at(knots_s, i, path) / (0.5 * (before_s + after_s)), 0.25);
+  };
+  std::vector<double> shares;
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
+    shares.push_back(0.5 * (density(i) + density(i + 1)) * (knots_s[i + 1] - knots_s[i]));
+    sum += shares.back();
+  }
+  const double even = sum > 0.0 ? kEven * sum : 1.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i] += even * (knots_s[i + 1] - knots_s[i]) / (knots_s.back() - knots_s.front());
+  }
+  return shares;
+}
+
+}  // namespace
+
+KnotChoice::KnotChoice(const Problem& problem, const ChangedPart& part)
+    : problem_(problem), part_(part) {
+  for (const CubicPiece& piece : problem.path.pieces) joints_s_.push_back(piece.t0_s);
+  joints_s_.push_back(problem.path.end_s());
+}
+
+bool KnotChoice::is_keyframe(double time_s) const {
+  return std::ranges::binary_search(problem_.keyframes_s, time_s);
+}
+
+bool KnotChoice::is_joint(double time_s) const {
+  return std::ranges::binary_search(joints_s_, time_s);
+}
+
+bool KnotChoice::is_valid(const std::vector<double>& knots_s) const {
+  const std::size_t count = knots_s.size();
+  if (count < kFewestKnots) return false;
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    if (!is_keyframe(knots_s[i])) continue;
+    if (i == 1 || i + 2 == count || is_keyframe(knots_s[i + 1])) return false;
+  }
+  return true;
+}
+
+std::vector<double> KnotChoice::joints_of(const CubicPath& path) const {
+  std::vector<double> knots_s;
+  for (const CubicPiece& piece : path.pieces) {
+    if (part_.begin_s <= piece.t0_s && piece.t0_s <= part_.end_s) knots_s.push_back(piece.t0_s);
+  }
+  if (path.end_s() <= part_.end_s) knots_s.push_back(path.end_s());
+  if (knots_s.size() < 2) return {};
+  const double first_s = knots_s[1] - knots_s[0];
+  const double last_s = knots_s.back() - knots_s[knots_s.size() - 2];
+  if (problem_.has_path_begin && knots_s.front() == problem_.path.begin_s()) {
+    for (int i = 0; i < kBeyondEnd; ++i) knots_s.insert(knots_s.begin(), knots_s.front() - first_s);
+  }
+  if (problem_.has_path_end && knots_s.back() == problem_.path.end_s()) {
+    for (int i = 0; i < kBeyondEnd; ++i) knots_s.push_back(knots_s.back() + last_s);
+  }
+  return completed(knots_s);
+}
+
+std::vector<double> KnotChoice::completed(const std::vector<double>& knots_s) const {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < knots_s.size(); ++i) {
+    const bool is_after = i > 0 && is_keyframe(knots_s[i - 1]);
+    const bool is_here = is_keyframe(knots_s[i]);
+    const bool is_alone = (is_after && (is_here || i + 1 == knots_s.size())) || (is_here && i == 1);
+    if (is_alone) result.push_back(0.5 * (knots_s[i - 1] + knots_s[i]));
+    result.push_back(knots_s[i]);
+  }
+  return result;
+}
+
+std::vector<double> KnotChoice::with_joints(std::vector<double> knots_s) const {
+  for (const double joint_s : joints_s_) {
+    if (joint_s <= knots_s.front() || joint_s >= knots_s.back()) continue;
+    const auto next = std::ranges::lower_bound(knots_s, joint_s);
+    const auto last = std::prev(next);
+    const auto near = *next - joint_s < joint_s - *last ? next : last;
+    const bool is_inner = near != knots_s.begin() && near + 1 != knots_s.end();
+    const bool is_near = std::abs(*near - joint_s) < kNearStep * (*next - *last);
+    if (is_near && is_inner && !is_joint(*near)) {
+      *near = joint_s;
+    } else if (*next != joint_s) {
+      knots_s.insert(next, joint_s);
+    }
+  }
+  return completed(knots_s);
+}
+
+std::vector<double> KnotChoice::spaced(const std::vector<double>& knots_s, const CubicPath& path,
+                                       std::size_t count) const {
+  const std::vector<double> shares = shares_of_error(knots_s, path);
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  std::vector<double> result = {knots_s.front()};
+  double before = 0.0;
+  std::size_t i = 0;
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const double wanted = sum * static_cast<double>(k) / static_cast<double>(count - 1);
+    while (i + 1 < shares.size() && before + shares[i] < wanted) before += shares[i++];
+    const double place = std::clamp((wanted - before) / shares[i], 0.0, 1.0);
+    result.push_back(std::lerp(knots_s[i], knots_s[i + 1], place));
+  }
+  result.push_back(knots_s.back());
+  return with_joints(std::move(result));
+}
+
+std::vector<std::size_t> KnotChoice::removable(const std::vector<double>& knots_s,
+                                               const CubicPath& path) const {
+  std::vector<std::pair<double, std::size_t>> by_harm;
+  for (std::size_t i = 0; i < knots_s.size(); ++i) {
+    const bool is_inside = joints_s_.front() < knots_s[i] && knots_s[i] < joints_s_.back();
+    if (!is_inside || is_joint(knots_s[i])) continue;
+    std::vector<double> left_s = knots_s;
+    left_s.erase(left_s.begin() + static_cast<std::ptrdiff_t>(i));
+    if (is_valid(left_s)) by_harm.emplace_back(harm_of(knots_s, i, path), i);
+  }
+  std::ranges::sort(by_harm);
+  std::vector<bool> stays(knots_s.size() + 1, false);
+  std::vector<std::size_t> removable;
+  for (const auto& [harm, i] : by_harm) {
+    if (stays[i]) continue;
+    removable.push_back(i);
+    if (i > 0) stays[i - 1] = true;
+    stays[i + 1] = true;
+  }
+  return removable;
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "daemon/correction/ladder/corrected_path.h"
+#include "daemon/correction/path/candidate.h"
+#include "daemon/motion/spline/cubic_path.h"
+
+namespace camway::correction {
+
+/// Chooses the knots on which a changed part of a path may be drawn again. A list of knots is
+/// *valid* if one row of bumps on it can keep every keyframe within: no two keyframes are
+/// neighbours, none is next to an end of the list, and there are at least five knots. Joints that
+/// the path has without corrections cost no keyframe, so lists keep them. All times are in seconds,
+/// increasing.
+class KnotChoice {
+ public:
+  /// `problem`: as `CorrectedPath::restored` returns it for `part`.
+  KnotChoice(const Problem& problem, const ChangedPart& part);
+
+  [[nodiscard]] bool is_valid(const std::vector<double>& knots_s) const;
+
+  /// Returns the joints of `path` in the part, and what else a valid list needs. Where the part
+  /// reaches an end of the whole path, the list goes on beyond it, so that the slope there is free.
+  [[nodiscard]] std::vector<double> joints_of(const motion::CubicPath& path) const;
+
+  /// Returns about `count` knots in place of `knots_s`, on which `path` was drawn: denser where the
+  /// third derivative changes more, so that each step has about the same share of the error of a
+  /// cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).
+  [[nodiscard]] std::vector<double> spaced(const std::vector<double>& knots_s,
+                                           const motion::CubicPath& path, std::size_t count) const;
+
+  /// Returns the indices of knots each of which may be removed, no two of them neighbours. Those
+  /// come first whose removal changes `path` least, judged by the jump of the third derivative
+  /// (knot removal, Lyche & Mørken 1987).
+  [[nodiscard]] std::vector<std::size_t> removable(const std::vector<double>& knots_s,
+                                                   const motion::CubicPath& path) const;
+
+ private:
+  [[nodiscard]] bool is_keyframe(double time_s) const;
+  [[nodiscard]] bool is_joint(double time_s) const;
+  [[nodiscard]] std::vector<double> with_joints(std::vector<double> knots_s) const;
+  [[nodiscard]] std::vector<double> completed(const std::vector<double>& knots_s) const;
+
+  const Problem& problem_;
+  const ChangedPart part_;
+  std::vector<double> joints_s_;  ///< of the path without the corrections
+};
+
+}  // namespace camway::correction

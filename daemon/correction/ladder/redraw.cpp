@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/redraw.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "daemon/base/budget.h"
+#include "daemon/correction/ladder/knot_choice.h"
+#include "daemon/correction/path/closeness.h"
+#include "daemon/correction/smoothing/fit.h"
+#include "daemon/correction/smoothing/relaxation.h"
+
+namespace camway::correction {
+
+namespace {
+
+using motion::CubicPath;
+
+// Chosen by measurement; none changes what is proved.
+constexpr double kMostGrowth = 1.2;           // of the cost, for fewer knots ...
+constexpr double kPriceOfKnot_rad_s = 0.004;  // ... and so much more for each
+// Steps of the first and of the last relaxation, and of all between.
+constexpr int kStepsOfRelaxation = 12;
+constexpr std::array<std::size_t, 8> kCounts = {5, 6, 7, 8, 10, 12, 16, 20};  // of knots
+/// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
+constexpr std::array<double, 2> kScales = {1.0, 1.15};
+
+/// A changed part, drawn as one row of bumps on `knots_s`.
+struct Drawing {
+  std::vector<double> knots_s;
+  Relaxed drawn;
+  double cost = 0.0;
+};
+
+class Redrawer {
+ public:
+  /// Refers to all arguments, which must outlive it. `path`: the corrected path.
+  Redrawer(const Problem& problem, const ChangedPart& part, const CubicPath& path, FreeSpace& space,
+           const base::Deadline& deadline)
+      : problem_(problem),
+        part_(part),
+        path_(path),
+        space_(space),
+        deadline_(deadline),
+        choice_(problem, part) {}
+
+  /// Returns the part drawn again; nothing if it is not worth it.
+  std::optional<Candidate> run() {
+    std::optional<Drawing> best = drawing(choice_.joints_of(path_), path_);
+    if (!best) return std::nullopt;
+    // A correction was relaxed by itself.
+    if (part_.corrections > 1) relax(*best, kStepsOfRelaxation);
+    most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
+    most_knots_ = best->knots_s.size();
+    place_anew(*best);
+    thin_out(*best);
+    if (best->knots_s.size() < most_knots_) relax(*best, kStepsOfRelaxation);
+    if (!is_worth(*best)) return std::nullopt;
+    return std::move(best->drawn.candidate);
+  }
+
+ private:
+  [[nodiscard]] double cost(const CubicPath& path) const {
+    return closeness_cost(path, problem_.original, space_.closeness());
+  }
+
+  [[nodiscard]] bool is_worth(const Drawing& drawing) const {
+    const auto spared = static_cast<double>(most_knots_ - drawing.knots_s.size());
+    return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared;
+  }
+
+  /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
+  [[nodiscard]] std::optional<Drawing> drawing(std::vector<double> knots_s,
+                                               const CubicPath& wanted) const {
+    if (!choice_.is_valid(knots_s)) return std::nullopt;
+    const motion::KnotRow knots = motion::KnotRow::at(knots_s, problem_.places);
+    const FreeCoefficients free(problem_, knots, Ends::kFixed);
+    if (!knots.fits() || free.size() == 0) return std::nullopt;
+    const Offsets nearest = fitted(free, wanted, problem_.path);
+    for (const double scale : kScales) {
+      Offsets offsets = nearest;
+      for (motion::CubicPoint& offset : offsets.at) {
+        offset.position *= scale;
+        // Where nothing turns, what the fit finds is rounding.
+        offset.image *= part_.turns ? scale : 0.0;
+      }
+      Attempt tried = attempt(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
+      if (!tried.candidate) continue;
+      const double drawn_cost = cost(tried.candidate->path);
+      return Drawing{
+          std::move(knots_s), {std::move(offsets), std::move(*tried.candidate)}, drawn_cost};
+    }
+    return std::nullopt;
+  }
+
+  void relax(Drawing& drawing, int steps) const {
+    base::Budget budget(steps);
+    relax(drawing, budget);
+  }
+  void relax(Drawing& drawing, base::Budget& budget) const {
+    drawing.drawn = relaxed(problem_, std::move(drawing.drawn), Ends::kFixed,
+                            {.may_turn = part_.turns}, budget, space_, deadline_);
+    drawing.cost = cost(drawing.drawn.candidate.path);
+  }
+
+  /// Draws `best` on other knots; returns false if that is not worth it.
+  bool redraw_on(std::vector<double> knots_s, Drawing& best) {
+    std::optional<Drawing> sparser = drawing(std::move(knots_s), best.drawn.candidate.path);
+    if (!sparser) return false;
+    if (!is_worth(*sparser)) relax(*sparser, budget_);
+    if (!is_worth(*sparser)) return false;
+    best = *std::move(sparser);
+    return true;
+  }
+
+  /// Draws on as few knots as possible, placed anew.
+  void place_anew(Drawing& best) {
+    for (const std::size_t count : kCounts) {
+      std::vector<double> knots_s = choice_.spaced(best.knots_s, best.drawn.candidate.path, count);
+      if (knots_s.size() >= best.knots_s.size() || deadline_.passed()) return;
+      if (redraw_on(std::move(knots_s), best)) return;
+    }
+  }
+
+  /// Removes knots in batches, halved where that is too much at once.
+  void thin_out(Drawing& best) {
+    const auto removable = [&] {
+      return choice_.removable(best.knots_s, best.drawn.candidate.path);
+    };
+    std::vector<std::size_t> knots = removable();
+    std::size_t batch = (knots.size() + 1) / 2;
+    while (batch > 0 && !deadline_.passed()) {
+      knots.resize(batch);
+      std::ranges::sort(knots);
+      std::vector<double> left_s = best.knots_s;
+      for (std::size_t i = batch; i-- > 0;) {
+        left_s.erase(left_s.begin() + static_cast<std::ptrdiff_t>(knots[i]));
+      }
+      const bool is_less = redraw_on(std::move(left_s), best);
+      if (!is_less) batch /= 2;
+      knots = removable();
+      batch = std::min(batch, is_less ? (knots.size() + 1) / 2 : knots.size());
+    }
+  }
+
+  const Problem& problem_;
+  const ChangedPart& part_;
+  const CubicPath& path_;
+  FreeSpace& space_;
+  const base::Deadline& deadline_;
+  const KnotChoice choice_;
+  base::Budget budget_{kStepsOfRelaxation};
+  double most_cost_ = 0.0;
+  std::size_t most_knots_ = 0;
+};
+
+}  // namespace
+
+void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& corrected,
+            CollisionList& collisions) {
+  const std::vector<ChangedPart> parts = corrected.changed_parts();
+  for (const ChangedPart& part : parts) {
+    if (corrected.deadline().passed()) return;
+    const Problem problem =
+        collisions.with_open_collisions(corrected.restored(part, origin, space.ball_radius_m()));
+    const CubicPath path = corrected.path().around(problem.path.begin_s(), problem.path.end_s());
+    const std::optional<Candidate> drawn =
+        Redrawer(problem, part, path, space, corrected.deadline()).run();
+    if (drawn && corrected.take_instead(part, *drawn)) {
+      collisions.set_range(part, corrected.range_of(*drawn));
+    }
+  }
+}
+
+}  // namespace camway::correction

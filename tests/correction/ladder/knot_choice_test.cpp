@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/knot_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/gap_problems.h"
+
+namespace camway::correction {
+namespace {
+
+using motion::CubicPath;
+using testing::Draw;
+
+/// A tour, a changed part of it, and the path there with a row of bumps on `knots_s`.
+struct Case {
+  Problem problem;
+  ChangedPart part;
+  std::vector<double> knots_s;
+  CubicPath path;
+};
+
+/// Keyframes every 10 s, from 0 to 40 s, and a row on the knots.
+Case case_on(std::vector<double> knots_s) {
+  std::vector<motion::Keyframe> keyframes;
+  for (const double time_s : {0.0, 10.0, 20.0, 30.0, 40.0}) {
+    keyframes.push_back({time_s, {{time_s, std::sin(time_s), 0}, geometry::Quat::Identity()}});
+  }
+  Case c;
+  c.problem.path = motion::interpolate_cubic(keyframes);
+  c.problem.original = c.problem.path;
+  for (const motion::Keyframe& keyframe : keyframes) {
+    c.problem.keyframes_s.push_back(keyframe.time_s);
+  }
+  c.problem.has_path_begin = true;
+  c.problem.has_path_end = true;
+  c.part = {knots_s.front(), knots_s.back()};
+  const FreeCoefficients free(c.problem, motion::KnotRow::at(knots_s, nullptr), Ends::kFixed);
+  StackedPoints variables = StackedPoints::Zero(free.size(), 7);
+  for (Eigen::Index i = 0; i < free.size(); ++i)
+    variables(i, 2) = 1.0 + 0.3 * std::cos(3.0 * double(i));
+  c.path = motion::with_bumps(
+      c.problem.path, std::vector{bumps_for(free.offsets_of(variables, 1.0), Ends::kFixed)});
+  c.knots_s = std::move(knots_s);
+  return c;
+}
+
+bool has(const std::vector<double>& list_s, double time_s) {
+  return std::ranges::find(list_s, time_s) != list_s.end();
+}
+
+TEST(KnotChoice, OnlyListsThatKeepKeyframesAreValid) {
+  const Case c = case_on({12, 13, 14, 15, 16});
+  const KnotChoice choice(c.problem, c.part);
+  EXPECT_TRUE(choice.is_valid({12, 13, 14, 15, 16}));
+  EXPECT_TRUE(choice.is_valid({10, 13, 14, 15, 20})) << "keyframes at the ends";
+  EXPECT_TRUE(choice.is_valid({8, 9, 10, 11, 12}));
+  EXPECT_FALSE(choice.is_valid({12, 13, 14, 15})) << "no bump";
+  EXPECT_FALSE(choice.is_valid({9, 10, 11, 12, 13})) << "a keyframe beside the end";
+  EXPECT_FALSE(choice.is_valid({11, 12, 13, 20, 21}));
+  EXPECT_FALSE(choice.is_valid({8, 9, 10, 20, 21, 22})) << "neighbours";
+  EXPECT_TRUE(choice.is_valid({8, 9, 10, 15, 20, 21, 22}));
+}
+
+TEST(KnotChoice, TakesTheJointsOfThePart) {
+  const Case c = case_on({8, 9, 10, 11, 12, 14});
+  EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path), c.knots_s);
+}
+
+TEST(KnotChoice, GoesOnBeyondAnEndOfThePath) {
+  const Case c = case_on({36, 37, 38, 39, 40});
+  EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path),
+            (std::vector<double>{36, 37, 38, 39, 40, 41, 42, 43}));
+}
+
+TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
+  const Case c = case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
+  const KnotChoice choice(c.problem, c.part);
+  for (std::size_t count = 5; count < 18; ++count) {
+    const std::vector<double> spaced_s = choice.spaced(c.knots_s, c.path, count);
+    EXPECT_TRUE(std::ranges::is_sorted(spaced_s));
+    EXPECT_EQ(std::ranges::adjacent_find(spaced_s), spaced_s.end());
+    EXPECT_EQ(spaced_s.front(), 6.0);
+    EXPECT_EQ(spaced_s.back(), 23.0);
+    EXPECT_TRUE(has(spaced_s, 10.0) && has(spaced_s, 20.0)) << count;
+    EXPECT_TRUE(choice.is_valid(spaced_s)) << count;
+    EXPECT_GE(spaced_s.size(), count);
+    EXPECT_LE(spaced_s.size(), count + 4);
+  }
+}
+
+// A knot at which nothing happens goes first.
+TEST(KnotChoice, RemovesFirstWhatMattersLeast) {
+  Case c = case_on({11, 12, 13, 14, 15, 16, 17});
+  std::vector<double> more_s = c.knots_s;
+  more_s.insert(more_s.begin() + 3, 13.5);
+  const std::vector<std::size_t> removable =
+      KnotChoice(c.problem, c.part).removable(more_s, c.path);
+  ASSERT_FALSE(removable.empty());
+  EXPECT_EQ(more_s[removable.front()], 13.5);
+  for (const std::size_t i : removable) {
+    for (const std::size_t other : removable) EXPECT_NE(i, other + 1) << "neighbours";
+  }
+}
+
+TEST(KnotChoice, LeavesAValidListWithoutAnyOneOfTheRemovable) {
+  Draw draw(7501);
+  int removed = 0;
+  for (int run = 0; run < 300; ++run) {
+    std::vector<double> knots_s = {draw.uniform(0.5, 9.0)};
+    while (knots_s.back() < 34.0) knots_s.push_back(knots_s.back() + draw.uniform(0.3, 2.5));
+    for (const double keyframe_s : {10.0, 20.0, 30.0}) {
+      if (knots_s.front() < keyframe_s && keyframe_s < knots_s.back()) {
+        knots_s.insert(std::ranges::lower_bound(knots_s, keyframe_s), keyframe_s);
+      }
+    }
+    Case c = case_on(knots_s);
+    const KnotChoice choice(c.problem, c.part);
+    if (!choice.is_valid(knots_s)) continue;
+    for (const std::size_t i : choice.removable(knots_s, c.path)) {
+      std::vector<double> left_s = knots_s;
+      left_s.erase(left_s.begin() + static_cast<std::ptrdiff_t>(i));
+      ASSERT_TRUE(choice.is_valid(left_s)) << run;
+      ASSERT_FALSE(std::ranges::binary_search(c.problem.keyframes_s, knots_s[i]));
+      ++removed;
+    }
+  }
+  EXPECT_GT(removed, 500);
+}
+
+}  // namespace
+}  // namespace camway::correction

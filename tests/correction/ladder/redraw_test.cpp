@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/redraw.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "daemon/collision/detect.h"
+#include "daemon/correction/path/closeness.h"
+#include "daemon/correction/path/viewing_distance.h"
+#include "tests/support/gap_problems.h"
+#include "tests/support/scenes.h"
+
+namespace camway::correction {
+namespace {
+
+using base::Deadline;
+using geometry::Vec3;
+using motion::CubicPath;
+using testing::Draw;
+
+constexpr int kDense = 40;  // knots of the corrections before they are drawn again
+
+/// A tour over blocks, corrected by hills on many knots.
+struct Case {
+  scene::Mesh mesh;
+  scene::SceneIndex index;
+  motion::Body body{testing::small_camera()};
+  std::vector<motion::Keyframe> keyframes;
+  CubicPath interpolated;
+  std::vector<collision::CollisionInterval> collisions;
+
+  [[nodiscard]] collision::Query query() const { return {collision::Obstacles(index), body, {}}; }
+};
+
+/// `blocks[i]` stands in the interval i.
+Case tour_over(Draw& draw, const std::vector<bool>& blocks) {
+  Case c;
+  double time_s = 0.0;
+  Vec3 place(0, 0, 0);
+  const auto stop = [&] { c.keyframes.push_back({time_s, {place, geometry::Quat::Identity()}}); };
+  stop();
+  for (const bool is_blocked : blocks) {
+    const double length_m = draw.uniform(3.0, 6.0);
+    if (is_blocked) {
+      const double z = place.z() - draw.uniform(0.4, 0.6) * length_m;
+      testing::add_cuboid(c.mesh, {-3, -9, z - 0.3}, {3, draw.uniform(0.0, 0.3), z + 0.3});
+    }
+    place.z() -= length_m;
+    time_s += draw.uniform(3.0, 6.0);
+    stop();
+  }
+  c.index = scene::SceneIndex::build(c.mesh);
+  c.interpolated = motion::interpolate_cubic(c.keyframes);
+  c.collisions =
+      collision::detect_collisions(c.query(), c.interpolated.path(), 0.0, time_s, Deadline::never())
+          .value();
+  return c;
+}
+
+/// Lifts the path over the collision by a hill with a wrinkle, on many knots.
+std::optional<Candidate> hill_over(Draw& draw, const Problem& problem, const FreeSpace& space) {
+  Offsets offsets{problem.knots(kDense), 1, {}};
+  const double height_m = draw.uniform(0.9, 1.2);
+  for (int k = 1; k < kDense; ++k) {
+    const double share = std::sin(std::numbers::pi * k / kDense);
+    offsets.at.push_back(
+        {{0.05 * draw.uniform(0.0, share), height_m * share, 0}, geometry::Vec4::Zero()});
+  }
+  return attempt(problem, {bumps_for(offsets, Ends::kFixed)}, space, Deadline::never()).candidate;
+}
+
+class RedrawTest : public ::testing::Test {
+ protected:
+  /// Corrects all collisions, but for those in the intervals `open`, and draws them again.
+  void run(Draw& draw, const std::vector<bool>& blocks, const std::vector<bool>& open) {
+    c_ = tour_over(draw, blocks);
+    const Deadline never = Deadline::never();
+    const Closeness closeness =
+        closeness_of(c_.interpolated, FreeSpace(c_.query(), OrientationPolicy{}), 3.0);
+    FreeSpace space(c_.query(), OrientationPolicy{}, closeness);
+    CorrectedPath corrected(c_.interpolated, c_.keyframes, {1000, 0.0}, never);
+    CollisionList list(c_.collisions, corrected.keyframes_s());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::size_t leg = list[i].leg;
+      if (open[leg] || !list[i].is_open()) continue;
+      Problem problem = corrected.part_about(leg, {}, space.ball_radius_m());
+      problem.interval = list[i].correction.interval;
+      const std::optional<Candidate> hill = hill_over(draw, problem, space);
+      ASSERT_TRUE(hill && corrected.take(*hill));
+      const auto [begin_s, end_s] = corrected.range_of(*hill);
+      list[i].correction = {list[i].correction.interval, CorrectionKind::kMove, begin_s, end_s};
+    }
+    const CubicPath before = corrected.path();
+    inserted_before_ = corrected.inserted_s().size();
+    redraw({}, space, corrected, list);
+    inserted_after_ = corrected.inserted_s().size();
+    cost_before_ = closeness_cost(before, c_.interpolated, closeness);
+    cost_after_ = closeness_cost(corrected.path(), c_.interpolated, closeness);
+    path_ = corrected.path();
+    corrections_ = list.corrections();
+  }
+
+  [[nodiscard]] std::vector<collision::CollisionInterval> collisions() const {
+    return collision::detect_collisions(c_.query(), path_.path(), path_.begin_s(), path_.end_s(),
+                                        Deadline::never())
+        .value();
+  }
+
+  Case c_;
+  CubicPath path_;
+  std::vector<Correction> corrections_;
+  std::size_t inserted_before_ = 0;
+  std::size_t inserted_after_ = 0;
+  double cost_before_ = 0.0;
+  double cost_after_ = 0.0;
+};
+
+TEST_F(RedrawTest, DrawsOnFewKnotsWhatWasDrawnOnMany) {
+  Draw draw(7601);
+  std::size_t blocked = 0;
+  std::size_t inserted = 0;
+  for (int i = 0; i < 12; ++i) {
+    const std::vector<bool> blocks = {i % 3 != 0, i % 3 != 1, i % 3 != 2};
+    run(draw, blocks, {false, false, false});
+    if (HasFatalFailure()) return;
+    EXPECT_TRUE(collisions().empty());
+    EXPECT_LT(cost_after_, cost_before_);
+    blocked += 2;
+    inserted += inserted_after_;
+    EXPECT_LT(inserted_after_, inserted_before_ / 4);
+    for (const motion::Keyframe& keyframe : c_.keyframes) {
+      EXPECT_EQ(path_.pose(keyframe.time_s).position, keyframe.pose.position);
+    }
+    EXPECT_LT((path_.path()
+                   .pose(0.5 * path_.end_s())
+                   .orientation.angularDistance(geometry::Quat::Identity())),
+              1e-12)
+        << "it turns nothing";
+  }
+  EXPECT_LT(inserted, 8 * blocked);
+}
+
+TEST_F(RedrawTest, TellsWhatIsChangedAfterwards) {
+  Draw draw(7602);
+  for (int i = 0; i < 6; ++i) {
+    run(draw, {true, false, true}, {false, false, false});
+    if (HasFatalFailure()) return;
+    for (double time_s = path_.begin_s(); time_s < path_.end_s(); time_s += 0.01) {
+      const bool is_told = std::ranges::any_of(corrections_, [&](const Correction& correction) {
+        return correction.t_begin_s <= time_s && time_s <= correction.t_end_s;
+      });
+      const double moved_m =
+          (path_.at(time_s).position - c_.interpolated.at(time_s).position).norm();
+      if (!is_told) {
+        ASSERT_LT(moved_m, 1e-12) << time_s;
+      }
+    }
+  }
+}
+
+TEST_F(RedrawTest, LeavesOpenCollisionsAsTheyAre) {
+  Draw draw(7603);
+  for (int i = 0; i < 6; ++i) {
+    run(draw, {true, true, true}, {false, true, false});
+    if (HasFatalFailure()) return;
+    const std::vector<collision::CollisionInterval> left = collisions();
+    ASSERT_FALSE(left.empty());
+    for (const collision::CollisionInterval& interval : left) {
+      EXPECT_GT(interval.t_begin_s, c_.keyframes[1].time_s);
+      EXPECT_LT(interval.t_end_s, c_.keyframes[2].time_s);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace camway::correction
