@@ -111,7 +111,7 @@ bool CorrectedPath::take(const Candidate& candidate) {
 
 void CorrectedPath::add_changed(ChangedPart part) {
   std::erase_if(changed_, [&](const ChangedPart& known) {
-    if (known.end_s < part.begin_s || known.begin_s > part.end_s) return false;
+    if (known.end_s <= part.begin_s || known.begin_s >= part.end_s) return false;
     part = {std::min(part.begin_s, known.begin_s), std::max(part.end_s, known.end_s),
             part.turns || known.turns, part.corrections + known.corrections};
     return true;

@@ -22,7 +22,7 @@ struct CorrectionLimits {
   double rest_s_per_piece = 0.0;
 };
 
-/// A part of the path that corrections changed, with unchanged path before and after it.
+/// A part of the path that corrections changed. Other changed parts may end where it begins.
 struct ChangedPart {
   double begin_s = 0.0;
   double end_s = 0.0;

@@ -98,6 +98,24 @@ bool KnotChoice::is_valid(const std::vector<double>& knots_s) const {
   return true;
 }
 
+// Knots two away may become neighbours of the ends or of one another: only those are looked at.
+bool KnotChoice::is_valid_without(const std::vector<double>& knots_s, std::size_t i) const {
+  if (knots_s.size() <= kFewestKnots) return false;
+  const std::size_t first = i > 4 ? i - 4 : 0;
+  const std::size_t last = std::min(i + 4, knots_s.size() - 1);
+  std::vector<double> near_s(knots_s.begin() + static_cast<std::ptrdiff_t>(first),
+                             knots_s.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  near_s.erase(near_s.begin() + static_cast<std::ptrdiff_t>(i - first));
+  for (std::size_t k = 0; k < near_s.size(); ++k) {
+    if (!is_keyframe(near_s[k])) continue;
+    const std::size_t before = first + k;
+    const std::size_t after = knots_s.size() - 2 - before;
+    const bool follows = k > 0 && is_keyframe(near_s[k - 1]);
+    if (follows || before == 1 || after == 1) return false;
+  }
+  return true;
+}
+
 std::vector<double> KnotChoice::joints_of(const CubicPath& path) const {
   std::vector<double> knots_s;
   for (const CubicPiece& piece : path.pieces) {
@@ -105,6 +123,10 @@ std::vector<double> KnotChoice::joints_of(const CubicPath& path) const {
   }
   if (path.end_s() <= part_.end_s) knots_s.push_back(path.end_s());
   if (knots_s.size() < 2) return {};
+  return completed(with_beyond(std::move(knots_s)));
+}
+
+std::vector<double> KnotChoice::with_beyond(std::vector<double> knots_s) const {
   const double first_s = knots_s[1] - knots_s[0];
   const double last_s = knots_s.back() - knots_s[knots_s.size() - 2];
   if (problem_.has_path_begin && knots_s.front() == problem_.path.begin_s()) {
@@ -113,7 +135,15 @@ std::vector<double> KnotChoice::joints_of(const CubicPath& path) const {
   if (problem_.has_path_end && knots_s.back() == problem_.path.end_s()) {
     for (int i = 0; i < kBeyondEnd; ++i) knots_s.push_back(knots_s.back() + last_s);
   }
-  return completed(knots_s);
+  return knots_s;
+}
+
+std::vector<double> KnotChoice::within(const std::vector<double>& knots_s) const {
+  std::vector<double> inner_s;
+  for (const double knot_s : knots_s) {
+    if (joints_s_.front() <= knot_s && knot_s <= joints_s_.back()) inner_s.push_back(knot_s);
+  }
+  return inner_s;
 }
 
 std::vector<double> KnotChoice::completed(const std::vector<double>& knots_s) const {
@@ -142,11 +172,12 @@ std::vector<double> KnotChoice::with_joints(std::vector<double> knots_s) const {
       knots_s.insert(next, joint_s);
     }
   }
-  return completed(knots_s);
+  return completed(with_beyond(std::move(knots_s)));
 }
 
-std::vector<double> KnotChoice::spaced(const std::vector<double>& knots_s, const CubicPath& path,
+std::vector<double> KnotChoice::spaced(const std::vector<double>& all_s, const CubicPath& path,
                                        std::size_t count) const {
+  const std::vector<double> knots_s = within(all_s);
   const std::vector<double> shares = shares_of_error(knots_s, path);
   double sum = 0.0;
   for (const double share : shares) sum += share;
@@ -169,9 +200,7 @@ std::vector<std::size_t> KnotChoice::removable(const std::vector<double>& knots_
   for (std::size_t i = 0; i < knots_s.size(); ++i) {
     const bool is_inside = joints_s_.front() < knots_s[i] && knots_s[i] < joints_s_.back();
     if (!is_inside || is_joint(knots_s[i])) continue;
-    std::vector<double> left_s = knots_s;
-    left_s.erase(left_s.begin() + static_cast<std::ptrdiff_t>(i));
-    if (is_valid(left_s)) by_harm.emplace_back(harm_of(knots_s, i, path), i);
+    if (is_valid_without(knots_s, i)) by_harm.emplace_back(harm_of(knots_s, i, path), i);
   }
   std::ranges::sort(by_harm);
   std::vector<bool> stays(knots_s.size() + 1, false);

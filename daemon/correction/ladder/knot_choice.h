@@ -26,23 +26,26 @@ class KnotChoice {
   /// reaches an end of the whole path, the list goes on beyond it, so that the slope there is free.
   [[nodiscard]] std::vector<double> joints_of(const motion::CubicPath& path) const;
 
-  /// Returns about `count` knots in place of `knots_s`, on which `path` was drawn: denser where the
-  /// third derivative changes more, so that each step has about the same share of the error of a
-  /// cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).
-  [[nodiscard]] std::vector<double> spaced(const std::vector<double>& knots_s,
+  /// Returns about `count` knots in place of `all_s`, on which `path` was drawn: denser where the
+  /// third derivative of the position changes more, so that each step has about the same share of
+  /// the error of a cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).
+  [[nodiscard]] std::vector<double> spaced(const std::vector<double>& all_s,
                                            const motion::CubicPath& path, std::size_t count) const;
 
   /// Returns the indices of knots each of which may be removed, no two of them neighbours. Those
-  /// come first whose removal changes `path` least, judged by the jump of the third derivative
-  /// (knot removal, Lyche & Mørken 1987).
+  /// come first whose removal changes the positions of `path` least, judged by the jump of the
+  /// third derivative (knot removal, Lyche & Mørken 1987).
   [[nodiscard]] std::vector<std::size_t> removable(const std::vector<double>& knots_s,
                                                    const motion::CubicPath& path) const;
 
  private:
   [[nodiscard]] bool is_keyframe(double time_s) const;
   [[nodiscard]] bool is_joint(double time_s) const;
+  [[nodiscard]] bool is_valid_without(const std::vector<double>& knots_s, std::size_t i) const;
   [[nodiscard]] std::vector<double> with_joints(std::vector<double> knots_s) const;
   [[nodiscard]] std::vector<double> completed(const std::vector<double>& knots_s) const;
+  [[nodiscard]] std::vector<double> with_beyond(std::vector<double> knots_s) const;
+  [[nodiscard]] std::vector<double> within(const std::vector<double>& knots_s) const;
 
   const Problem& problem_;
   const ChangedPart part_;

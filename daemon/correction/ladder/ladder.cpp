@@ -50,9 +50,10 @@ class Ladder {
     LadderResult result;
     result.timed_out = timed_out_;
     if (is_corrected) {
+      // What the corrections need that were found: redrawing spares keyframes only of those taken.
+      result.needed_keyframes = corrected_.needed_keyframes();
       redraw(options_.origin, space_, corrected_, collisions_);
       polish(options_.objective, options_.origin, space_, corrected_, collisions_);
-      result.needed_keyframes = corrected_.needed_keyframes();
     }
     result.corrections = collisions_.corrections();
     if (is_corrected) {

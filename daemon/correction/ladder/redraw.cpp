@@ -24,6 +24,7 @@ constexpr double kMostGrowth = 1.2;           // of the cost, for fewer knots ..
 constexpr double kPriceOfKnot_rad_s = 0.004;  // ... and so much more for each
 // Steps of the first and of the last relaxation, and of all between.
 constexpr int kStepsOfRelaxation = 12;
+constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
 constexpr std::array<std::size_t, 8> kCounts = {5, 6, 7, 8, 10, 12, 16, 20};  // of knots
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
 constexpr std::array<double, 2> kScales = {1.0, 1.15};
@@ -57,17 +58,39 @@ class Redrawer {
     most_knots_ = best->knots_s.size();
     place_anew(*best);
     thin_out(*best);
-    if (best->knots_s.size() < most_knots_) relax(*best, kStepsOfRelaxation);
+    if (best->knots_s.size() < most_knots_) {
+      Drawing last = *best;
+      relax(last, kStepsOfRelaxation);
+      if (is_worth(last)) best = std::move(last);
+    }
     if (!is_worth(*best)) return std::nullopt;
     return std::move(best->drawn.candidate);
   }
 
  private:
+  /// The cost of the part alone.
   [[nodiscard]] double cost(const CubicPath& path) const {
-    return closeness_cost(path, problem_.original, space_.closeness());
+    return closeness_cost(path.around(part_.begin_s, part_.end_s), problem_.original,
+                          space_.closeness());
+  }
+
+  /// Whether the part is free where the row does not reach: there it is as interpolated again.
+  [[nodiscard]] bool is_free_beside(const Candidate& candidate) const {
+    double begin_s = part_.end_s;
+    double end_s = part_.begin_s;
+    for (const motion::BumpRow& row : candidate.rows) {
+      begin_s = std::clamp(row.begin_s(), part_.begin_s, begin_s);
+      end_s = std::clamp(row.end_s(), end_s, part_.end_s);
+    }
+    const auto is_free = [&](double from_s, double to_s) {
+      return !(from_s < to_s) ||
+             !first_new_collision(candidate.path, from_s, to_s, problem_, space_, deadline_);
+    };
+    return is_free(part_.begin_s, begin_s) && is_free(end_s, part_.end_s);
   }
 
   [[nodiscard]] bool is_worth(const Drawing& drawing) const {
+    if (!is_free_beside(drawing.drawn.candidate)) return false;
     const auto spared = static_cast<double>(most_knots_ - drawing.knots_s.size());
     return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared;
   }
@@ -75,7 +98,7 @@ class Redrawer {
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
   [[nodiscard]] std::optional<Drawing> drawing(std::vector<double> knots_s,
                                                const CubicPath& wanted) const {
-    if (!choice_.is_valid(knots_s)) return std::nullopt;
+    if (!choice_.is_valid(knots_s) || knots_s.size() > kMostKnots) return std::nullopt;
     const motion::KnotRow knots = motion::KnotRow::at(knots_s, problem_.places);
     const FreeCoefficients free(problem_, knots, Ends::kFixed);
     if (!knots.fits() || free.size() == 0) return std::nullopt;
@@ -88,7 +111,7 @@ class Redrawer {
         offset.image *= part_.turns ? scale : 0.0;
       }
       Attempt tried = attempt(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
-      if (!tried.candidate) continue;
+      if (!tried.candidate || !is_free_beside(*tried.candidate)) continue;
       const double drawn_cost = cost(tried.candidate->path);
       return Drawing{
           std::move(knots_s), {std::move(offsets), std::move(*tried.candidate)}, drawn_cost};
@@ -120,7 +143,8 @@ class Redrawer {
   void place_anew(Drawing& best) {
     for (const std::size_t count : kCounts) {
       std::vector<double> knots_s = choice_.spaced(best.knots_s, best.drawn.candidate.path, count);
-      if (knots_s.size() >= best.knots_s.size() || deadline_.passed()) return;
+      if (deadline_.passed()) return;
+      if (knots_s.size() >= best.knots_s.size()) continue;
       if (redraw_on(std::move(knots_s), best)) return;
     }
   }

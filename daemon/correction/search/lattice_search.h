@@ -25,7 +25,7 @@ struct LatticeOptions {
   /// A polyline to prefer among ways of about equal length; may be empty.
   std::span<const geometry::Vec3> about_W = {};
   std::span<const AvoidedBall> avoided = {};
-  /// Largest cost of a way: its length, times up to 2 near the scene.
+  /// Largest cost of a way, the last step to its end included.
   double max_cost_m = std::numeric_limits<double>::infinity();
 };
 
@@ -35,7 +35,7 @@ struct LatticeResult {
   /// Whether all points that are reachable at this spacing were visited, without the end among
   /// them.
   bool exhausted = false;
-  double cost_m = 0.0;     ///< cost of the way
+  double cost_m = 0.0;     ///< cost of the way, but for the last step to its end
   std::size_t points = 0;  ///< number of points visited
 };
 

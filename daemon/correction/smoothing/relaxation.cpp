@@ -286,7 +286,7 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     ++free.paths;
     if (tried.candidate) {
       Relaxed found{better, std::move(*tried.candidate), free.paths};
-      return relaxation.is_no_worse(found, free) ? found : free;
+      return relaxation.is_no_worse(found, free) ? std::move(found) : std::move(free);
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);

@@ -34,7 +34,7 @@ struct Relaxed {
 ///
 /// The result is proved. Where the path collides between the samples, a sample is added there and
 /// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
-/// became worse.
+/// became worse; the closest path may cost a tenth more where that makes room.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 

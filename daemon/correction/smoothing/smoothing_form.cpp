@@ -197,51 +197,60 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
   minimum_ = -inverse_ * slope_;
 }
 
+/// A place of Gauss's rule: the offset from the original there, as a function of the coefficients.
+struct SmoothingForm::OffsetPlace {
+  double share_s;  ///< weight in the integral
+  Terms value;
+  Terms bent;            ///< second derivative
+  StackedPoint offset;   ///< of the problem's path
+  StackedPoint bending;  ///< its second derivative
+};
+
 // Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
-// Gauss's rule with four points is exact for the products.
-void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients& free,
-                                 double lever_m, const Closeness& closeness,
-                                 const StackedPoints& about) {
-  struct Place {
-    double share_s;
-    Terms value;
-    Terms bent;
-    StackedPoint offset;
-    StackedPoint bending;
-    double size_m;
-  };
-  std::vector<Place> places;
-  double largest_m = 0.0;
+// Gauss's rule with four points is exact for the squares of both.
+std::vector<SmoothingForm::OffsetPlace> SmoothingForm::offset_places(const Problem& problem,
+                                                                     const FreeCoefficients& free,
+                                                                     double lever_m) {
+  std::vector<OffsetPlace> places;
   const motion::KnotRow& knots = free.knots();
   for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
     const double begin_s = std::max(knots.knot_s(k), problem.path.begin_s());
     const double end_s = std::min(knots.knot_s(k + 1), problem.path.end_s());
     if (!(begin_s < end_s)) continue;
-    for (const auto& [place, weight] : kGauss) {
-      const double time_s = std::lerp(begin_s, end_s, place);
-      const double share_s = weight * (end_s - begin_s);
-      Terms value;
-      Terms bent;
+    for (const auto& [share, weight] : kGauss) {
+      const double time_s = std::lerp(begin_s, end_s, share);
+      OffsetPlace& place = places.emplace_back();
+      place.share_s = weight * (end_s - begin_s);
       for (int bump = k - 1; bump <= k + 2; ++bump) {
         const BumpPoint at = bump_point(knots, bump, k, time_s);
-        free.add(bump, at.value, value);
-        free.add(bump, at.second_derivative, bent);
+        free.add(bump, at.value, place.value);
+        free.add(bump, at.second_derivative, place.bent);
       }
-      const StackedPoint offset =
+      place.offset =
           stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
-      const StackedPoint bending = stacked(difference(problem.path.second_derivative(time_s),
-                                                      problem.original.second_derivative(time_s)),
-                                           lever_m);
-      const double size_m = (offset + combined(value, about)).norm();
-      largest_m = std::max(largest_m, size_m);
-      places.push_back({share_s, std::move(value), std::move(bent), offset, bending, size_m});
+      place.bending = stacked(difference(problem.path.second_derivative(time_s),
+                                         problem.original.second_derivative(time_s)),
+                              lever_m);
     }
   }
+  return places;
+}
+
+void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients& free,
+                                 double lever_m, const Closeness& closeness,
+                                 const StackedPoints& about) {
+  const std::vector<OffsetPlace> places = offset_places(problem, free, lever_m);
+  std::vector<double> sizes_m;
+  for (const OffsetPlace& place : places) {
+    sizes_m.push_back((place.offset + combined(place.value, about)).norm());
+  }
+  const double largest_m = sizes_m.empty() ? 0.0 : *std::ranges::max_element(sizes_m);
   const double floor_m = largest_m > 0.0 ? kRoundedShare * largest_m : 1.0;
   const double a = closeness.acceleration_m_per_s2;
   const double bend = 2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a);
-  for (const Place& place : places) {
-    count(place.share_s / std::hypot(place.size_m, floor_m), place.value, place.offset);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const OffsetPlace& place = places[i];
+    count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.offset);
     count(place.share_s * bend, place.bent, place.bending);
   }
 }

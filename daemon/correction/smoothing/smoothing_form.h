@@ -91,11 +91,12 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
 }
 
 /// An objective as a quadratic form of the free coefficients.
-/// - `kClosest`: 2·D times the cost of `closeness.h`, up to a constant, with the shift d at its
-///   quadratic bound about the offset e of given coefficients: ∫ d²/√(|e|² + δ²) + 2·w·D·(d''/a)²
-///   dt, where d is the offset from the original, and δ a small share of the largest |e|. Where the
-///   form falls, the cost falls (majorisation; Hunter & Lange 2004, "A tutorial on MM algorithms",
-///   with the square root rounded at 0).
+/// - `kClosest`: D times the cost of `closeness.h`, up to a constant, with the offset's size at its
+///   quadratic bound about the offset e of given coefficients: half of
+///   ∫ d²/√(|e|² + δ²) + 2·w·D·(d''/a)² dt, where d is the offset from the original, and δ a small
+///   share of the largest |e|. Where only positions change and the form falls, the cost falls, up
+///   to what δ rounds off (majorisation; Hunter & Lange 2004, "A tutorial on MM algorithms"). A
+///   move and a turn at the same time count as the length of both together, the cost adds them.
 ///
 /// The others are weighted sums of squares (Farin 2002, section 9.4, for bending) of control
 /// points' distances from the original and of the first and second differences of the path's
@@ -119,6 +120,10 @@ class SmoothingForm {
  private:
   void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
                          double lever_m);
+  struct OffsetPlace;
+  [[nodiscard]] static std::vector<OffsetPlace> offset_places(const Problem& problem,
+                                                              const FreeCoefficients& free,
+                                                              double lever_m);
   void count_offset(const Problem& problem, const FreeCoefficients& free, double lever_m,
                     const Closeness& closeness, const StackedPoints& about);
   void count(double weight, const Terms& terms, const StackedPoint& constant);

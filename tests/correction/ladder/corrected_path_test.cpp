@@ -84,13 +84,15 @@ TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {
   EXPECT_EQ(middle.path.end_s(), 30.0);
 }
 
-TEST_F(CorrectedPathTest, JoinsChangesThatTouch) {
+TEST_F(CorrectedPathTest, JoinsChangesThatOverlap) {
   CorrectedPath corrected = with_limit(100);
   EXPECT_TRUE(corrected.take(bump(corrected, 15.0, 0.5)));
   EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
   ASSERT_EQ(corrected.changed_parts().size(), 2u);
   EXPECT_EQ(corrected.changed_parts()[0].end_s, 7.0);
   EXPECT_TRUE(corrected.take(bump(corrected, 9.0, 0.5)));
+  ASSERT_EQ(corrected.changed_parts().size(), 3u) << "they meet in a point";
+  EXPECT_TRUE(corrected.take(bump(corrected, 8.0, 0.5)));
   ASSERT_EQ(corrected.changed_parts().size(), 2u);
   EXPECT_EQ(corrected.changed_parts()[0].end_s, 11.0);
   EXPECT_TRUE(corrected.take(bump(corrected, 12.0, 0.5)));
@@ -98,7 +100,7 @@ TEST_F(CorrectedPathTest, JoinsChangesThatTouch) {
   EXPECT_EQ(corrected.changed_parts()[0].begin_s, 3.0);
   EXPECT_EQ(corrected.changed_parts()[0].end_s, 17.0);
   EXPECT_FALSE(corrected.changed_parts()[0].turns);
-  EXPECT_EQ(corrected.changed_parts()[0].corrections, 4);
+  EXPECT_EQ(corrected.changed_parts()[0].corrections, 5);
 }
 
 TEST_F(CorrectedPathTest, RestoresOneChangedPartAndKeepsTheOthersBitForBit) {

@@ -163,6 +163,56 @@ TEST_F(RedrawTest, TellsWhatIsChangedAfterwards) {
   }
 }
 
+// A low block just touches the path where the row begins, so that a shorter row is nearer to the
+// path and would collide with it.
+TEST(Redraw, KeepsTheBeginningOfAPartFree) {
+  Draw draw(7604);
+  const double half_m = std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  int redrawn = 0;
+  for (int run = 0; run < 300; ++run) {
+    Case c;
+    const double low_z = -draw.uniform(0.9, 2.5);
+    testing::add_cuboid(c.mesh, {-3, -9, low_z - 0.1},
+                        {3, draw.uniform(0.001, 0.004) - half_m, low_z});
+    testing::add_cuboid(c.mesh, {-3, -9, -6.2}, {3, draw.uniform(0.1, 0.3), -5.8});
+    for (const double time_s : {0.0, 8.0}) {
+      c.keyframes.push_back({time_s, {{0, 0, -time_s}, geometry::Quat::Identity()}});
+    }
+    c.index = scene::SceneIndex::build(c.mesh);
+    c.interpolated = motion::interpolate_cubic(c.keyframes);
+    c.collisions =
+        collision::detect_collisions(c.query(), c.interpolated.path(), 0.0, 8.0, Deadline::never())
+            .value();
+    ASSERT_GE(c.collisions.size(), 2u);
+    const Deadline never = Deadline::never();
+    FreeSpace space(c.query(), OrientationPolicy{},
+                    closeness_of(c.interpolated, FreeSpace(c.query(), OrientationPolicy{}), 3.0));
+    CorrectedPath corrected(c.interpolated, c.keyframes, {1000, 0.0}, never);
+    CollisionList list(c.collisions, corrected.keyframes_s());
+    const Problem problem = corrected.part_about(0, {}, space.ball_radius_m());
+    Offsets offsets{{draw.uniform(0.3, 0.7), 7.6, kDense}, 1, {}};
+    for (int k = 1; k < kDense; ++k) {
+      const double away = 1.5 * (offsets.knots.knot_s(k) - 6.0);
+      offsets.at.push_back({{0, 0.006 + 1.2 * std::exp(-away * away), 0}, geometry::Vec4::Zero()});
+    }
+    const std::optional<Candidate> hills =
+        attempt(problem, {bumps_for(offsets, Ends::kFixed)}, space, never).candidate;
+    if (!hills) continue;  // it begins too late
+    ASSERT_TRUE(corrected.take(*hills)) << run;
+    const auto [begin_s, end_s] = corrected.range_of(*hills);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      list[i].correction = {list[i].correction.interval, CorrectionKind::kMove, begin_s, end_s};
+    }
+    const std::size_t before = corrected.inserted_s().size();
+    redraw({}, space, corrected, list);
+    redrawn += corrected.inserted_s().size() < before ? 1 : 0;
+    EXPECT_TRUE(
+        collision::detect_collisions(c.query(), corrected.path().path(), 0.0, 8.0, never)->empty())
+        << run;
+  }
+  EXPECT_GT(redrawn, 150);
+}
+
 TEST_F(RedrawTest, LeavesOpenCollisionsAsTheyAre) {
   Draw draw(7603);
   for (int i = 0; i < 6; ++i) {
