@@ -50,7 +50,8 @@ class Ladder {
     LadderResult result;
     result.timed_out = timed_out_;
     if (is_corrected) {
-      // What the corrections need that were found: redrawing spares keyframes only of those taken.
+      // Counted before the redrawing, which spares keyframes of the corrections taken, but not of
+      // those that were refused.
       result.needed_keyframes = corrected_.needed_keyframes();
       redraw(options_.origin, space_, corrected_, collisions_);
       polish(options_.objective, options_.origin, space_, corrected_, collisions_);

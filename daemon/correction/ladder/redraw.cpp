@@ -90,9 +90,9 @@ class Redrawer {
   }
 
   [[nodiscard]] bool is_worth(const Drawing& drawing) const {
-    if (!is_free_beside(drawing.drawn.candidate)) return false;
     const auto spared = static_cast<double>(most_knots_ - drawing.knots_s.size());
-    return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared;
+    return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared &&
+           is_free_beside(drawing.drawn.candidate);
   }
 
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.

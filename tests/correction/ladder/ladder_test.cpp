@@ -397,12 +397,13 @@ TEST(Ladder, ClosestCostsLeast) {
     for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
       const double other = cost(objective);
       ++compared;
-      beaten += other < 0.95 * closest ? 1 : 0;
+      // Corrections are drawn on fewer keyframes for up to 1.2 times the cost.
+      beaten += 1.2 * other < closest ? 1 : 0;
       sum_of_closest += closest;
       sum_of_others += other;
     }
   }
-  EXPECT_LE(beaten, compared / 4);
+  EXPECT_LE(beaten, compared / 8);
   EXPECT_LT(sum_of_closest, sum_of_others);
 }
 

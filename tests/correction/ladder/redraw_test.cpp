@@ -23,6 +23,8 @@ using geometry::Vec3;
 using motion::CubicPath;
 using testing::Draw;
 
+// Bound on the rounding of some hundred sums of coordinates and angles up to 20.
+constexpr double kRounding = 1e-12;
 constexpr int kDense = 40;  // knots of the corrections before they are drawn again
 
 /// A tour over blocks, corrected by hills on many knots.
@@ -139,7 +141,7 @@ TEST_F(RedrawTest, DrawsOnFewKnotsWhatWasDrawnOnMany) {
     EXPECT_LT((path_.path()
                    .pose(0.5 * path_.end_s())
                    .orientation.angularDistance(geometry::Quat::Identity())),
-              1e-12)
+              kRounding)
         << "it turns nothing";
   }
   EXPECT_LT(inserted, 8 * blocked);
@@ -157,7 +159,7 @@ TEST_F(RedrawTest, TellsWhatIsChangedAfterwards) {
       const double moved_m =
           (path_.at(time_s).position - c_.interpolated.at(time_s).position).norm();
       if (!is_told) {
-        ASSERT_LT(moved_m, 1e-12) << time_s;
+        ASSERT_LT(moved_m, kRounding) << time_s;
       }
     }
   }
@@ -223,6 +225,13 @@ TEST_F(RedrawTest, LeavesOpenCollisionsAsTheyAre) {
     for (const collision::CollisionInterval& interval : left) {
       EXPECT_GT(interval.t_begin_s, c_.keyframes[1].time_s);
       EXPECT_LT(interval.t_end_s, c_.keyframes[2].time_s);
+    }
+    const CubicPath now = path_.around(c_.keyframes[1].time_s, c_.keyframes[2].time_s);
+    const CubicPath before = c_.interpolated.around(c_.keyframes[1].time_s, c_.keyframes[2].time_s);
+    ASSERT_EQ(now.pieces.size(), before.pieces.size());
+    for (std::size_t k = 0; k < now.pieces.size(); ++k) {
+      EXPECT_EQ(now.pieces[k].position, before.pieces[k].position);
+      EXPECT_EQ(now.pieces[k].image, before.pieces[k].image);
     }
   }
 }
