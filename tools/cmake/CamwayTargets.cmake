@@ -100,6 +100,10 @@ function(camway_executable name)
   compile_as_one(${name})
 endfunction()
 
+# The folders of tests whose code starts threads. The thread sanitizer can find nothing in the others, so
+# they are not built with it.
+set(threaded_tests base client integration process scene service tools wire)
+
 # camway_test(NAME [NETWORK] [QUICK] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest program per
 # folder of tests/, whose name is the label of its tests (`ctest -L service`). NETWORK runs each test in a
 # private network namespace of its own, for tests that use LCM. QUICK adds the label `quick` to all tests
@@ -121,6 +125,10 @@ function(camway_test name)
                                              ${PROJECT_SOURCE_DIR}/tools/scripts/netns.sh)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  if(CAMWAY_SANITIZE STREQUAL "thread" AND NOT folder IN_LIST threaded_tests)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    return()
+  endif()
   string(REPLACE ";" ":" slow "${arg_SLOW}")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${slow}" TEST_LIST ${name}_fast
                        PROPERTIES TIMEOUT 300 LABELS "${folder}")
