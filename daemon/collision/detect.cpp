@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "daemon/collision/probe.h"
@@ -58,16 +59,23 @@ struct Piece {
   [[nodiscard]] double end_s() const { return motion::segment_time_s(*segment, u1); }
 };
 
+/// When a walk ends before the end of the path.
+enum class Goal : std::uint8_t {
+  kAll,
+  kFirst,  ///< at the end of the first interval
+  kAny,    ///< at the first stretch that collides at its middle, or that is resolved
+};
+
 // Walks the path from beginning to end in steps whose length follows the distance to the scene, and
 // joins the colliding pieces to intervals. (Recursive bisection would spend most queries on pieces
 // that are far too long.)
 class Detector {
  public:
-  Detector(const Query& query, const base::Deadline& deadline, bool only_first)
+  Detector(const Query& query, const base::Deadline& deadline, Goal goal)
       : probe_(query.obstacles, query.body, query.options.clearance_m),
         options_(query.options),
         deadline_(deadline),
-        only_first_(only_first) {}
+        goal_(goal) {}
 
   void run(const motion::Path& path, double t_begin_s, double t_end_s) {
     for (const Segment& segment : path.segments()) {
@@ -122,6 +130,11 @@ class Detector {
       target_reach_m_ = std::max(next_reach_m(seen), kBelow * options_.tolerance_m);
       return true;
     }
+    if (goal_ == Goal::kAny && (seen.contains || seen.collides())) {
+      extend(piece, seen.gap_m, /*surely=*/true);
+      close();
+      return true;
+    }
     if (seen.contains) {
       extend(piece, seen.gap_m, /*surely=*/true);
       target_reach_m_ = kGrowthInCollision * seen.reach_m;
@@ -129,7 +142,8 @@ class Detector {
     }
     const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.joining_distance_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
-      extend(piece, seen.gap_m, /*surely=*/false);
+      extend(piece, seen.gap_m, /*surely=*/goal_ == Goal::kAny);
+      if (goal_ == Goal::kAny) close();
       target_reach_m_ =
           seen.collides() ? kBelow * options_.joining_distance_m : options_.tolerance_m;
       return true;
@@ -234,9 +248,9 @@ class Detector {
       return;
     }
     intervals_.push_back({begin_s_, end_s, std::nullopt});
-    if (!only_first_) intervals_.back().witness = witness(0.5 * (begin_s_ + end_s));
+    if (goal_ == Goal::kAll) intervals_.back().witness = witness(0.5 * (begin_s_ + end_s));
     last_.reset();
-    finished_ = finished_ || only_first_;
+    finished_ = finished_ || goal_ != Goal::kAll;
   }
 
   // Walks `piece` backwards from its end, which is free, and returns the end of the last part that
@@ -286,7 +300,7 @@ class Detector {
   Probe probe_;
   const DetectOptions& options_;
   const base::Deadline& deadline_;
-  const bool only_first_;
+  const Goal goal_;
 
   /// Reach of the next step, rounding apart.
   double target_reach_m_ = std::numeric_limits<double>::infinity();
@@ -322,7 +336,7 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& que
 
 Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
                          double t_end_s, const base::Deadline& deadline) {
-  Detector detector(query, deadline, /*only_first=*/false);
+  Detector detector(query, deadline, Goal::kAll);
   detector.run(path, t_begin_s, t_end_s);
   Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
   if (search.collisions.size() > 1) {
@@ -333,13 +347,27 @@ Search search_collisions(const Query& query, const motion::Path& path, double t_
   return search;
 }
 
-FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
-                               double t_end_s, const base::Deadline& deadline) {
-  Detector detector(query, deadline, /*only_first=*/true);
+namespace {
+
+FirstCollision searched(const Query& query, const motion::Path& path, double t_begin_s,
+                        double t_end_s, const base::Deadline& deadline, Goal goal) {
+  Detector detector(query, deadline, goal);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return {false, std::nullopt};
   if (detector.intervals().empty()) return {};
   return {true, detector.intervals().front()};
+}
+
+}  // namespace
+
+FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
+                               double t_end_s, const base::Deadline& deadline) {
+  return searched(query, path, t_begin_s, t_end_s, deadline, Goal::kFirst);
+}
+
+FirstCollision any_collision(const Query& query, const motion::Path& path, double t_begin_s,
+                             double t_end_s, const base::Deadline& deadline) {
+  return searched(query, path, t_begin_s, t_end_s, deadline, Goal::kAny);
 }
 
 }  // namespace camway::collision

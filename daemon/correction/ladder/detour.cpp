@@ -30,9 +30,11 @@ constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ba
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
 constexpr double kAlike = 1.6;                 // cost of another way, relative to the first
-constexpr double kLeastApart = 1.5;      // of another way from the apex of the first, in radii, ...
-constexpr double kApart = 0.7;           // ... or as a share of the apex's distance from the path
-constexpr int kLegsAsInterpolated = 16;  // what lattices keep to, where there is a choice
+constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...
+constexpr double kApart = 0.7;       // ... or as a share of the apex's distance from the path
+constexpr double kFarther = 1.4;     // a way whose apex is so much farther off was never worth it
+constexpr std::size_t kMorePoints = 8;    // of the search of another way, relative to the first
+constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
 class Detour {
@@ -62,58 +64,71 @@ class Detour {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
     if (!begin || !end) return std::nullopt;
-    BallMotion ball{.radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
+    const BallMotion ball{
+        .radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
     std::vector<Vec3> about_W;
     for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
       about_W.push_back(space_.center_W(pose));
     }
-    const auto draw = [&](const LatticeResult& way) {
+    const Draw draw = [&](const LatticeResult& way) {
       // Any orientation fits in the ball, so the path keeps its own.
       return followed(oriented(way.way_W, *begin, *end), Turning::kAsPath);
     };
-    std::optional<DrawnWay> first = drawn_way(ball, lattices, about_W, draw);
+    LatticeResult way;
+    std::optional<Candidate> first;
+    search_ways(ball, lattices, about_W, [&](const LatticeResult& found) {
+      way = found;
+      first = draw(found);
+      return first.has_value();
+    });
     if (!first) return std::nullopt;
-    ball.avoided = {apex_of(first->way.way_W, about_W)};
-    ball.max_cost_m = kAlike * first->way.cost_m;
-    std::optional<DrawnWay> second = drawn_way(ball, Lattices::kCoarse, about_W, draw);
-    const bool is_better = second && cost(second->candidate) < cost(first->candidate);
-    return std::move(is_better ? second->candidate : first->candidate);
+    std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
+    const bool is_better = second && cost(*second) < cost(*first);
+    return std::move(is_better ? second : first);
   }
 
-  struct DrawnWay {
-    LatticeResult way;
-    Candidate candidate;
-  };
+  using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
 
-  // The first way that `draw` turns into a candidate.
-  template <class Draw>
-  std::optional<DrawnWay> drawn_way(const BallMotion& ball, Lattices lattices,
-                                    const std::vector<Vec3>& about_W, const Draw& draw) {
-    std::optional<DrawnWay> drawn;
-    const auto use = [&](const LatticeResult& way) {
-      std::optional<Candidate> candidate = draw(way);
-      if (candidate) drawn = {way, *std::move(candidate)};
-      return drawn.has_value();
-    };
+  // A way that avoids the apex of `first`; nothing if it leads much farther off.
+  std::optional<Candidate> on_another_side(BallMotion ball, const LatticeResult& first,
+                                           const std::vector<Vec3>& about_W, const Draw& draw) {
+    const Apex apex = apex_of(first.way_W, about_W);
+    ball.avoided = {{apex.place_W, std::max(kLeastApart * radius_m_, kApart * apex.away_m)}};
+    ball.max_cost_m = kAlike * first.cost_m;
+    ball.max_points = kMorePoints * first.points;
+    std::optional<Candidate> second;
+    search_ways(ball, Lattices::kCoarse, about_W, [&](const LatticeResult& found) {
+      const bool is_farther = apex_of(found.way_W, about_W).away_m > kFarther * apex.away_m;
+      if (!is_farther) second = draw(found);
+      return is_farther || second.has_value();
+    });
+    return second;
+  }
+
+  // Searches ways until `use` returns true.
+  void search_ways(const BallMotion& ball, Lattices lattices, const std::vector<Vec3>& about_W,
+                   const std::function<bool(const LatticeResult&)>& use) {
     count_points(
         for_each_lattice_way(space_, ball, lattices, about_W, {use, is_hopeless_}, deadline_));
-    return drawn;
   }
 
   [[nodiscard]] double cost(const Candidate& candidate) const {
     return closeness_cost(candidate.path, problem_.original, space_.closeness());
   }
 
-  /// The ball about the place of a way that is farthest from `about_W`, which other ways avoid.
-  [[nodiscard]] AvoidedBall apex_of(const std::vector<Vec3>& way_W,
-                                    const std::vector<Vec3>& about_W) const {
-    AvoidedBall apex;
+  /// The place of a way that is farthest from the path as interpolated.
+  struct Apex {
+    Vec3 place_W = Vec3::Zero();
+    double away_m = 0.0;
+  };
+  [[nodiscard]] static Apex apex_of(const std::vector<Vec3>& way_W,
+                                    const std::vector<Vec3>& about_W) {
+    Apex apex;
     for (const Vec3& place_W : way_W) {
       double away_m = std::numeric_limits<double>::infinity();
       for (const Vec3& other_W : about_W) away_m = std::min(away_m, (place_W - other_W).norm());
-      if (away_m > apex.radius_m) apex = {place_W, away_m};
+      if (away_m > apex.away_m) apex = {place_W, away_m};
     }
-    apex.radius_m = std::max(kLeastApart * radius_m_, kApart * apex.radius_m);
     return apex;
   }
 

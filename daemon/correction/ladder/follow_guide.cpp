@@ -132,7 +132,7 @@ class Follower {
 
   std::optional<Candidate> tried(const Offsets& offsets, Ends ends) {
     ++paths_;
-    return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
+    return free_candidate(problem_, {bumps_for(offsets, ends)}, space_, deadline_);
   }
 
   Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {

@@ -84,7 +84,7 @@ class Redrawer {
     }
     const auto is_free = [&](double from_s, double to_s) {
       return !(from_s < to_s) ||
-             !first_new_collision(candidate.path, from_s, to_s, problem_, space_, deadline_);
+             !new_collision(candidate.path, from_s, to_s, problem_, space_, deadline_);
     };
     return is_free(part_.begin_s, begin_s) && is_free(end_s, part_.end_s);
   }
@@ -110,11 +110,11 @@ class Redrawer {
         // Where nothing turns, what the fit finds is rounding.
         offset.image *= part_.turns ? scale : 0.0;
       }
-      Attempt tried = attempt(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
-      if (!tried.candidate || !is_free_beside(*tried.candidate)) continue;
-      const double drawn_cost = cost(tried.candidate->path);
-      return Drawing{
-          std::move(knots_s), {std::move(offsets), std::move(*tried.candidate)}, drawn_cost};
+      std::optional<Candidate> found =
+          free_candidate(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
+      if (!found || !is_free_beside(*found)) continue;
+      const double drawn_cost = cost(found->path);
+      return Drawing{std::move(knots_s), {std::move(offsets), *std::move(found)}, drawn_cost};
     }
     return std::nullopt;
   }

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "daemon/collision/detect.h"
+#include "daemon/collision/probe.h"
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/motion/path/stretch.h"
 
 namespace camway::correction {
 
@@ -17,6 +20,9 @@ namespace {
 // A keyframe is kept if the bumps cancel there up to the rounding of a few sums, relative to the
 // position there and the largest coefficient of a bump.
 constexpr double kCancelled = 64.0 * std::numeric_limits<double>::epsilon();
+
+// Steps to the end of a collision, as a share of what was changed. Chosen by measurement.
+constexpr double kStepToEnd = 1.0 / 200.0;
 
 struct Span {
   double begin_s;
@@ -86,18 +92,13 @@ std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, cons
 
 }  // namespace
 
-std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& path,
-                                                     double t_begin_s, double t_end_s,
-                                                     const Problem& problem, const FreeSpace& space,
-                                                     const base::Deadline& deadline) {
-  const motion::Path segments = path.around(t_begin_s, t_end_s).path();
-  const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
-    if (!(from_s < to_s)) return std::nullopt;
-    const collision::FirstCollision found =
-        collision::first_collision(space.query(), segments, from_s, to_s, deadline);
-    if (!found.decided) return CollisionInterval{from_s, to_s};
-    return found.interval;
-  };
+namespace {
+
+/// Searches [t_begin_s, t_end_s] outside of the problem's foreign collisions. Calls
+/// `search(from_s, to_s)` for each part, until it finds a collision.
+template <class Search>
+std::optional<CollisionInterval> outside_foreign(double t_begin_s, double t_end_s,
+                                                 const Problem& problem, const Search& search) {
   double from_s = t_begin_s;
   for (const CollisionInterval& other : problem.foreign_collisions) {
     if (other.t_end_s <= from_s) continue;
@@ -108,29 +109,89 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
   return search(from_s, t_end_s);
 }
 
-Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
-                const base::Deadline& deadline) {
+/// About the end of a collision: the first sample behind it at which the body is free.
+double end_of_collision_s(const CollisionInterval& found, const Span& changed,
+                          const Candidate& candidate, const FreeSpace& space) {
+  const collision::Query& query = space.query();
+  collision::Probe probe(query.obstacles, query.body, query.options.clearance_m);
+  const double step_s = kStepToEnd * (changed.end_s - changed.begin_s);
+  double time_s = found.t_end_s;
+  while (time_s < changed.end_s &&
+         !probe.check(motion::standing_at(candidate.path.pose(time_s))).free) {
+    time_s += step_s;
+  }
+  return std::min(time_s, changed.end_s);
+}
+
+/// Returns the path with `rows`, and the range that they change; nothing if they do not fit, or if
+/// a keyframe would move.
+std::optional<std::pair<Candidate, Span>> with_rows(const Problem& problem,
+                                                    std::vector<motion::BumpRow> rows) {
   // Rows without bumps change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);
   const bool all_fit =
       std::ranges::all_of(rows, [](const motion::BumpRow& row) { return row.knots.fits(); });
-  if (!changed || !all_fit) return {std::nullopt, problem.interval};
+  if (!changed || !all_fit) return std::nullopt;
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
-  if (!keeps_keyframes(candidate.path, candidate.rows, problem))
-    return {std::nullopt, problem.interval};
-  if (auto breach = breach_of_rule(candidate, *changed, problem, space))
-    return {std::nullopt, std::move(breach), true};
-  // Check the corrected collision first: it is the likeliest to remain.
+  if (!keeps_keyframes(candidate.path, candidate.rows, problem)) return std::nullopt;
+  return std::pair{std::move(candidate), *changed};
+}
+
+/// Returns a collision in the range that was changed. The corrected collision is checked first: it
+/// is the likeliest to remain.
+std::optional<CollisionInterval> collision_in(const Span& changed, const Candidate& candidate,
+                                              const Problem& problem, const FreeSpace& space,
+                                              const base::Deadline& deadline) {
   const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
-                                     changed->begin_s, changed->end_s);
-  for (const Span& part : {Span{middle_s, changed->end_s}, Span{changed->begin_s, middle_s}}) {
-    Attempt result;
-    result.collision =
-        first_new_collision(candidate.path, part.begin_s, part.end_s, problem, space, deadline);
-    if (result.collision) return result;
+                                     changed.begin_s, changed.end_s);
+  std::optional<CollisionInterval> found =
+      new_collision(candidate.path, middle_s, changed.end_s, problem, space, deadline);
+  if (found) return found;
+  return new_collision(candidate.path, changed.begin_s, middle_s, problem, space, deadline);
+}
+
+}  // namespace
+
+std::optional<CollisionInterval> new_collision(const motion::CubicPath& path, double t_begin_s,
+                                               double t_end_s, const Problem& problem,
+                                               const FreeSpace& space,
+                                               const base::Deadline& deadline) {
+  const motion::Path segments = path.around(t_begin_s, t_end_s).path();
+  return outside_foreign(
+      t_begin_s, t_end_s, problem,
+      [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
+        if (!(from_s < to_s)) return std::nullopt;
+        const collision::FirstCollision found =
+            collision::any_collision(space.query(), segments, from_s, to_s, deadline);
+        if (!found.decided) return CollisionInterval{from_s, to_s};
+        return found.interval;
+      });
+}
+
+std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,
+                                        const FreeSpace& space, const base::Deadline& deadline) {
+  std::optional<std::pair<Candidate, Span>> made = with_rows(problem, std::move(rows));
+  if (!made) return std::nullopt;
+  const auto& [candidate, changed] = *made;
+  if (breach_of_rule(candidate, changed, problem, space)) return std::nullopt;
+  if (collision_in(changed, candidate, problem, space, deadline)) return std::nullopt;
+  return std::move(made->first);
+}
+
+Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
+                const base::Deadline& deadline) {
+  std::optional<std::pair<Candidate, Span>> made = with_rows(problem, std::move(rows));
+  if (!made) return {std::nullopt, problem.interval};
+  const auto& [candidate, changed] = *made;
+  if (auto breach = breach_of_rule(candidate, changed, problem, space)) {
+    return {std::nullopt, std::move(breach), true};
   }
-  return {std::move(candidate), std::nullopt};
+  std::optional<CollisionInterval> found =
+      collision_in(changed, candidate, problem, space, deadline);
+  if (!found) return {std::move(made->first), std::nullopt};
+  found->t_end_s = end_of_collision_s(*found, changed, candidate, space);
+  return {std::nullopt, std::move(found)};
 }
 
 }  // namespace camway::correction

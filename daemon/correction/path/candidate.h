@@ -45,26 +45,30 @@ struct Candidate {
   std::vector<motion::BumpRow> rows;  ///< the bumps that were added to it
 };
 
-/// Returns the first collision of `path` in [t_begin_s, t_end_s] outside
-/// `problem.foreign_collisions`; nothing if `path` is proved free there. If the deadline strikes,
-/// the part not searched counts as colliding.
-std::optional<collision::CollisionInterval> first_new_collision(const motion::CubicPath& path,
-                                                                double t_begin_s, double t_end_s,
-                                                                const Problem& problem,
-                                                                const FreeSpace& space,
-                                                                const base::Deadline& deadline);
+/// Returns a time range in which `path` collides, in [t_begin_s, t_end_s] and outside
+/// `problem.foreign_collisions` (`collision::any_collision`); nothing if `path` is proved free
+/// there. If the deadline strikes, the part not searched counts as colliding.
+std::optional<collision::CollisionInterval> new_collision(const motion::CubicPath& path,
+                                                          double t_begin_s, double t_end_s,
+                                                          const Problem& problem,
+                                                          const FreeSpace& space,
+                                                          const base::Deadline& deadline);
+
+/// Adds `rows` to `problem.path`. Returns a candidate if the sender's times are fine enough for the
+/// knots, all keyframes are still met, and everything that `rows` change is proved to meet the
+/// orientation policy and to be free.
+std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,
+                                        const FreeSpace& space, const base::Deadline& deadline);
 
 /// Result of adding bumps to the path of a problem.
 struct Attempt {
   std::optional<Candidate> candidate;
-  /// If there is no candidate: the first collision, or the time range in which the orientation
-  /// policy is violated; `problem.interval` if the rows do not fit.
+  /// If there is no candidate: about where a collision is, or the time range in which the
+  /// orientation policy is violated; `problem.interval` if the rows do not fit.
   std::optional<collision::CollisionInterval> collision;
   bool breaks_rule = false;
 };
-/// Adds `rows` to `problem.path`. Returns a candidate if the sender's times are fine enough for the
-/// knots, all keyframes are still met, and everything that `rows` change is proved to meet the
-/// orientation policy and to be free.
+/// Does what `free_candidate` does, and says what is in the way.
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const base::Deadline& deadline);
 

@@ -32,6 +32,15 @@ class LatticeWays {
               std::span<const geometry::Vec3> about_W, const base::Deadline& deadline)
       : space_(space), ball_(ball), about_W_(about_W), deadline_(deadline) {}
 
+  /// Searches the two coarsest lattices, the second only if the first was exhausted.
+  void search_coarse(const LatticeWayUse& use) {
+    for (std::size_t i = 0; i < kFirstCostlyLevel; ++i) {
+      const LatticeResult found = searched(kLevels[i], false);
+      if (!found.way_W.empty() && use.use(found)) return;
+      if (found.way_W.empty() && !found.exhausted) return;
+    }
+  }
+
   void search(std::size_t first_level, std::size_t last_level, const LatticeWayUse& use) {
     bool from_end = false;
     int times_run_out = 0;
@@ -56,7 +65,8 @@ class LatticeWays {
  private:
   LatticeResult searched(const Level& level, bool from_end) {
     const double coarse_m = std::max(ball_.radius_m, (ball_.to_W - ball_.from_W).norm() / 8.0);
-    LatticeOptions options{ball_.radius_m, level.spacing * coarse_m, level.max_points};
+    LatticeOptions options{ball_.radius_m, level.spacing * coarse_m,
+                           std::min(level.max_points, ball_.max_points)};
     // Preferring a polyline expands more nodes, and wide lattices search far from it anyway.
     if (!level.is_wide) options.about_W = about_W_;
     options.avoided = ball_.avoided;
@@ -76,7 +86,6 @@ class LatticeWays {
 };
 
 std::size_t last_level(Lattices lattices) {
-  if (lattices == Lattices::kCoarse) return kFirstCostlyLevel - 1;
   return lattices == Lattices::kAllButFinest ? kFinestLattice - 1 : kFinestLattice;
 }
 
@@ -86,7 +95,11 @@ std::size_t for_each_lattice_way(const FreeSpace& space, const BallMotion& ball,
                                  std::span<const geometry::Vec3> about_W, const LatticeWayUse& use,
                                  const base::Deadline& deadline) {
   LatticeWays ways(space, ball, about_W, deadline);
-  ways.search(lattices == Lattices::kFinest ? kFinestLattice : 0, last_level(lattices), use);
+  if (lattices == Lattices::kCoarse) {
+    ways.search_coarse(use);
+  } else {
+    ways.search(lattices == Lattices::kFinest ? kFinestLattice : 0, last_level(lattices), use);
+  }
   return ways.points();
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct BallMotion {
   geometry::Vec3 to_W = geometry::Vec3::Zero();
   std::vector<AvoidedBall> avoided = {};
   double max_cost_m = std::numeric_limits<double>::infinity();
+  /// Limit of the points of each lattice, beside the lattice's own.
+  std::size_t max_points = std::numeric_limits<std::size_t>::max();
 };
 
 /// The lattices on which a way is searched.
@@ -26,7 +29,7 @@ enum class Lattices {
   kAll,
   kAllButFinest,  ///< detours that need the finest one mostly need turning as well
   kFinest,
-  kCoarse,  ///< the two coarsest ones
+  kCoarse,  ///< the coarsest, and the next one where all that it can reach was visited
 };
 
 /// Receives the ways of `for_each_lattice_way`.

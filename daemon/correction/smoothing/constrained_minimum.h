@@ -9,9 +9,8 @@
 
 namespace camway::correction {
 
-/// The minimum of a smoothing form subject to the contacts of samples. Keeps the response of the
-/// samples, and their contacts keep the multipliers, so that the next solution starts from the last
-/// one.
+/// The minimum of a smoothing form subject to the contacts of samples. The contacts keep the
+/// multipliers, so that the next solution starts from the last one.
 /// Not thread-safe.
 class ConstrainedMinimum {
  public:
@@ -21,27 +20,22 @@ class ConstrainedMinimum {
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return bounds_.wanted_m(); }
-  /// Forgets what it knows of the form, which was replaced.
-  void forget_form();
   /// Sets the least gap that `kSafest` must keep. [Units: metres]
   void keep(double least_gap_m) { bounds_.keep(least_gap_m); }
 
-  /// Returns the minimiser. Requires contacts with up to date rows, and at each call the samples of
-  /// the one before, in their order, with any new ones after them.
+  /// Returns the minimiser. Requires contacts with up to date rows.
   StackedPoints find(const StackedPoints& variables, std::vector<PathSample>& samples);
 
  private:
-  void find_bounds(const StackedPoints& variables, std::vector<PathSample>& samples);
-  const StackedPoints& unforced(const StackedPoints& minimum,
-                                const std::vector<PathSample>& samples);
-  const Eigen::MatrixXd& response(const std::vector<PathSample>& samples);
+  /// Finds the samples with contacts, and how they respond to one another.
+  void find_touching(std::vector<PathSample>& samples);
 
   const SmoothingForm& form_;
   ContactBounds bounds_;
   const double settled_m_;  ///< convergence threshold of the multipliers
   const bool may_turn_;
-  StackedPoints unforced_{0, 7};  ///< the samples at the unconstrained minimum
-  Eigen::MatrixXd response_;      ///< displacement of each sample per unit force on each
+  std::vector<PathSample*> touching_;  ///< the samples with contacts, numbered in the bounds
+  Eigen::MatrixXd response_;           ///< displacement of each of them per unit force on each
 };
 
 }  // namespace camway::correction

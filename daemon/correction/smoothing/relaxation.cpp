@@ -134,8 +134,7 @@ class Relaxation {
   /// Makes the form of the closest path touch the cost at the path as it is.
   void bound_cost() {
     if (objective_ != Objective::kClosest) return;
-    form_ = SmoothingForm(problem_, free_, objective_, lever_m_, closeness_, variables_);
-    minimum_.forget_form();
+    form_.bound_about(variables_);
   }
 
   void add_sample(double time_s) {
@@ -294,10 +293,11 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
   double share = kRetreat;
   for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
     const Offsets between = mixed(free.offsets, better, share);
-    Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
+    std::optional<Candidate> tried =
+        free_candidate(problem, {bumps_for(between, ends)}, space, deadline);
     ++free.paths;
-    if (!tried.candidate) continue;
-    Relaxed found{between, std::move(*tried.candidate), free.paths};
+    if (!tried) continue;
+    Relaxed found{between, *std::move(tried), free.paths};
     if (relaxation.is_no_worse(found, free)) return found;
   }
   return free;

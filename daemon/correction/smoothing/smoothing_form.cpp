@@ -66,26 +66,6 @@ CubicPoint difference(const CubicPoint& a, const CubicPoint& b) {
   return {a.position - b.position, a.image - b.image};
 }
 
-struct BumpPoint {
-  double value = 0.0;
-  double second_derivative = 0.0;
-};
-
-/// A bump at a time between knots `k` and `k + 1`.
-BumpPoint bump_point(const motion::KnotRow& knots, int bump, int k, double time_s) {
-  const int part = k - (bump - kBumpReach);
-  if (part < 0 || part >= 2 * kBumpReach) return {};
-  const auto pieces =
-      motion::b_spline_pieces({knots.knot_s(bump - 2), knots.knot_s(bump - 1), knots.knot_s(bump),
-                               knots.knot_s(bump + 1), knots.knot_s(bump + 2)});
-  const std::array<double, 4>& b = pieces[static_cast<std::size_t>(part)];
-  const double begin_s = knots.knot_s(k);
-  const double step_s = knots.knot_s(k + 1) - begin_s;
-  const double u = (time_s - begin_s) / step_s;
-  const double bent = (1.0 - u) * (b[0] - 2.0 * b[1] + b[2]) + u * (b[1] - 2.0 * b[2] + b[3]);
-  return {motion::bezier::value_at(b, u), 6.0 * bent / (step_s * step_s)};
-}
-
 /// Number of knots beyond a keyframe, to one side, at which a bump may have its peak without
 /// reaching the next keyframe; 0 also where not even a bump at the keyframe itself stays clear of
 /// it.
@@ -123,7 +103,10 @@ FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow
       if (std::ranges::binary_search(problem.keyframes_s, knots.knot_s(k))) hold(k);
     }
   }
-  for (int k = first_; k <= last_; ++k) size_ += is_held(k) ? 0 : 1;
+  for (int k = first_; k <= last_; ++k) {
+    size_ += is_held(k) ? 0 : 1;
+    bumps_.push_back(knots.bump(k));
+  }
 }
 
 void FreeCoefficients::hold(int knot) {
@@ -157,9 +140,10 @@ void FreeCoefficients::add(int k, double factor, Terms& terms) const {
 Terms FreeCoefficients::at(double time_s) const {
   Terms terms;
   for (int k = first_; k <= last_; ++k) {
-    if (knots_.knot_s(k + kBumpReach) <= time_s) continue;
-    if (knots_.knot_s(k - kBumpReach) >= time_s) break;
-    add(k, knots_.bump_value(k, time_s), terms);
+    const motion::KnotBump& bump = this->bump(k);
+    if (bump.knots_s.back() <= time_s) continue;
+    if (bump.knots_s.front() >= time_s) break;
+    add(k, bump.value(time_s), terms);
   }
   return terms;
 }
@@ -188,30 +172,20 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
     : hessian_(Eigen::MatrixXd::Zero(free.size(), free.size())),
       slope_(StackedPoints::Zero(free.size(), 7)) {
   if (objective == Objective::kClosest) {
-    count_offset(problem, free, lever_m, closeness, about);
+    const double a = closeness.acceleration_m_per_s2;
+    bend_weight_ = 2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a);
+    find_places(problem, free, lever_m);
+    bound_about(about);
   } else {
     count_differences(problem, free, objective, lever_m);
+    solve();
   }
-  const Eigen::LLT<Eigen::MatrixXd> factors(hessian_);
-  inverse_ = factors.solve(Eigen::MatrixXd::Identity(free.size(), free.size()));
-  minimum_ = -inverse_ * slope_;
 }
-
-/// A place of Gauss's rule: the offset from the original there, as a function of the coefficients.
-struct SmoothingForm::OffsetPlace {
-  double share_s;  ///< weight in the integral
-  Terms value;
-  Terms bent;            ///< second derivative
-  StackedPoint offset;   ///< of the problem's path
-  StackedPoint bending;  ///< its second derivative
-};
 
 // Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
 // Gauss's rule with four points is exact for the squares of both.
-std::vector<SmoothingForm::OffsetPlace> SmoothingForm::offset_places(const Problem& problem,
-                                                                     const FreeCoefficients& free,
-                                                                     double lever_m) {
-  std::vector<OffsetPlace> places;
+void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& free,
+                                double lever_m) {
   const motion::KnotRow& knots = free.knots();
   for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
     const double begin_s = std::max(knots.knot_s(k), problem.path.begin_s());
@@ -219,12 +193,11 @@ std::vector<SmoothingForm::OffsetPlace> SmoothingForm::offset_places(const Probl
     if (!(begin_s < end_s)) continue;
     for (const auto& [share, weight] : kGauss) {
       const double time_s = std::lerp(begin_s, end_s, share);
-      OffsetPlace& place = places.emplace_back();
+      OffsetPlace& place = places_.emplace_back();
       place.share_s = weight * (end_s - begin_s);
-      for (int bump = k - 1; bump <= k + 2; ++bump) {
-        const BumpPoint at = bump_point(knots, bump, k, time_s);
-        free.add(bump, at.value, place.value);
-        free.add(bump, at.second_derivative, place.bent);
+      for (int near = std::max(k - 1, free.first()); near <= std::min(k + 2, free.last()); ++near) {
+        free.add(near, free.bump(near).value(time_s), place.value);
+        free.add(near, free.bump(near).second_derivative(time_s), place.bent);
       }
       place.offset =
           stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
@@ -233,26 +206,30 @@ std::vector<SmoothingForm::OffsetPlace> SmoothingForm::offset_places(const Probl
                               lever_m);
     }
   }
-  return places;
 }
 
-void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients& free,
-                                 double lever_m, const Closeness& closeness,
-                                 const StackedPoints& about) {
-  const std::vector<OffsetPlace> places = offset_places(problem, free, lever_m);
+void SmoothingForm::bound_about(const StackedPoints& about) {
   std::vector<double> sizes_m;
-  for (const OffsetPlace& place : places) {
+  for (const OffsetPlace& place : places_) {
     sizes_m.push_back((place.offset + combined(place.value, about)).norm());
   }
   const double largest_m = sizes_m.empty() ? 0.0 : *std::ranges::max_element(sizes_m);
   const double floor_m = largest_m > 0.0 ? kRoundedShare * largest_m : 1.0;
-  const double a = closeness.acceleration_m_per_s2;
-  const double bend = 2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const OffsetPlace& place = places[i];
+  hessian_.setZero();
+  slope_.setZero();
+  at_zero_ = 0.0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const OffsetPlace& place = places_[i];
     count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.offset);
-    count(place.share_s * bend, place.bent, place.bending);
+    count(place.share_s * bend_weight_, place.bent, place.bending);
   }
+  solve();
+}
+
+void SmoothingForm::solve() {
+  const Eigen::LLT<Eigen::MatrixXd> factors(hessian_);
+  inverse_ = factors.solve(Eigen::MatrixXd::Identity(hessian_.rows(), hessian_.cols()));
+  minimum_ = -inverse_ * slope_;
 }
 
 void SmoothingForm::count_differences(const Problem& problem, const FreeCoefficients& free,

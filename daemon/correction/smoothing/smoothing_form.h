@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
 #include "daemon/correction/path/candidate.h"
 #include "daemon/correction/path/closeness.h"
@@ -33,7 +34,8 @@ struct Term {
   Eigen::Index variable;
   double share;
 };
-using Terms = std::vector<Term>;
+/// Terms of a point of a row of bumps: four bumps reach it, and each may be held by two others.
+using Terms = boost::container::static_vector<Term, 8>;
 
 /// Whether a row of bumps on `knots` can have free ends. The bumps that keep the two keyframes of
 /// the interval reach two knots beyond them, and must not reach the next keyframes.
@@ -62,6 +64,10 @@ class FreeCoefficients {
   void add(int k, double factor, Terms& terms) const;
   /// Value of the row of bumps at a time; empty outside of the supports.
   [[nodiscard]] Terms at(double time_s) const;
+  /// The bump at knot `k`. [Limit: first() <= k <= last()]
+  [[nodiscard]] const motion::KnotBump& bump(int k) const {
+    return bumps_[static_cast<std::size_t>(k - first_)];
+  }
 
   [[nodiscard]] StackedPoints variables_of(const Offsets& offsets, double lever_m) const;
   [[nodiscard]] Offsets offsets_of(const StackedPoints& variables, double lever_m) const;
@@ -78,6 +84,7 @@ class FreeCoefficients {
   void hold(int knot);
 
   motion::KnotRow knots_;
+  std::vector<motion::KnotBump> bumps_;  ///< from `first_` to `last_`
   int first_ = 0;
   int last_ = 0;
   Eigen::Index size_ = 0;
@@ -111,6 +118,9 @@ class SmoothingForm {
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, const Closeness& closeness, const StackedPoints& about);
 
+  /// Makes the form of `kClosest` the bound about other coefficients.
+  void bound_about(const StackedPoints& about);
+
   [[nodiscard]] double value(const StackedPoints& variables) const;
   /// The minimiser.
   [[nodiscard]] const StackedPoints& minimum() const { return minimum_; }
@@ -120,14 +130,22 @@ class SmoothingForm {
  private:
   void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
                          double lever_m);
-  struct OffsetPlace;
-  [[nodiscard]] static std::vector<OffsetPlace> offset_places(const Problem& problem,
-                                                              const FreeCoefficients& free,
-                                                              double lever_m);
-  void count_offset(const Problem& problem, const FreeCoefficients& free, double lever_m,
-                    const Closeness& closeness, const StackedPoints& about);
+  void find_places(const Problem& problem, const FreeCoefficients& free, double lever_m);
   void count(double weight, const Terms& terms, const StackedPoint& constant);
+  void solve();
 
+  /// A place of Gauss's rule: the offset from the original there, as a function of the
+  /// coefficients.
+  struct OffsetPlace {
+    double share_s;  ///< weight in the integral
+    Terms value;
+    Terms bent;            ///< second derivative
+    StackedPoint offset;   ///< of the problem's path
+    StackedPoint bending;  ///< its second derivative
+  };
+
+  std::vector<OffsetPlace> places_;  ///< for `kClosest`
+  double bend_weight_ = 0.0;         ///< of squared second derivatives, for `kClosest`
   Eigen::MatrixXd hessian_;
   StackedPoints slope_;  ///< gradient at zero
   double at_zero_ = 0.0;

@@ -17,11 +17,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kPointRoundings = 4.0;  // rounding of a control point, in epsilons of its size
 constexpr double kMostMoved = 0.125;     // largest shift of a knot, as a share of a step
 
-std::array<double, 5> support_s(const KnotRow& row, int bump) {
-  return {row.knot_s(bump - 2), row.knot_s(bump - 1), row.knot_s(bump), row.knot_s(bump + 1),
-          row.knot_s(bump + 2)};
-}
-
 }  // namespace
 
 double least_piece_s(double interval_s, double travelled_m, double size_m) {
@@ -86,19 +81,40 @@ bool KnotRow::fits() const {
   return shortest_s >= kLeastTimesAStep * finest_s;
 }
 
-double KnotRow::bump_value(int bump, double time_s) const {
-  const std::array<double, 5> knots_s = support_s(*this, bump);
-  if (time_s <= knots_s.front() || time_s >= knots_s.back()) return 0.0;
-  const auto next = std::ranges::upper_bound(knots_s, time_s);
-  const auto piece = static_cast<std::size_t>(next - knots_s.begin()) - 1;
-  const double u = (time_s - knots_s[piece]) / (knots_s[piece + 1] - knots_s[piece]);
-  return bezier::value_at(b_spline_pieces(knots_s)[piece], u);
+KnotBump KnotRow::bump(int index) const {
+  return KnotBump({knot_s(index - 2), knot_s(index - 1), knot_s(index), knot_s(index + 1),
+                   knot_s(index + 2)});
 }
 
 double KnotRow::bump_at_knot(int bump, int knot) const {
   const int place = knot - bump + 2;
   if (place <= 0 || place >= 4) return 0.0;
-  return b_spline_pieces(support_s(*this, bump))[static_cast<std::size_t>(place)][0];
+  return this->bump(bump).pieces[static_cast<std::size_t>(place)][0];
+}
+
+KnotBump::KnotBump(const std::array<double, 5>& knots)
+    : knots_s(knots), pieces(b_spline_pieces(knots)) {}
+
+std::optional<std::pair<std::size_t, double>> KnotBump::place_of(double time_s) const {
+  if (time_s <= knots_s.front() || time_s >= knots_s.back()) return std::nullopt;
+  const auto next = std::ranges::upper_bound(knots_s, time_s);
+  const auto piece = static_cast<std::size_t>(next - knots_s.begin()) - 1;
+  return std::pair{piece, (time_s - knots_s[piece]) / (knots_s[piece + 1] - knots_s[piece])};
+}
+
+double KnotBump::value(double time_s) const {
+  const auto place = place_of(time_s);
+  return place ? bezier::value_at(pieces[place->first], place->second) : 0.0;
+}
+
+double KnotBump::second_derivative(double time_s) const {
+  const auto place = place_of(time_s);
+  if (!place) return 0.0;
+  const auto& [piece, u] = *place;
+  const std::array<double, 4>& b = pieces[piece];
+  const double step_s = knots_s[piece + 1] - knots_s[piece];
+  const double bent = (1.0 - u) * (b[0] - 2.0 * b[1] + b[2]) + u * (b[1] - 2.0 * b[2] + b[3]);
+  return 6.0 * bent / (step_s * step_s);
 }
 
 // The blossom b of the spline is 1 at the three inner knots, and 0 at the three first and the three

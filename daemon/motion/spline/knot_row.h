@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,23 @@ struct KnotPlaces {
   /// `spacing_s`. A knot moves to an existing one by at most an eighth of the spacing, so knots
   /// stay in order.
   [[nodiscard]] double place_s(double time_s, double spacing_s) const;
+};
+
+/// A cubic B-spline on five increasing knots.
+struct KnotBump {
+  explicit KnotBump(const std::array<double, 5>& knots);
+
+  /// Value at a time; 0 outside of the knots.
+  [[nodiscard]] double value(double time_s) const;
+  /// Second derivative at a time; 0 outside of the knots.
+  [[nodiscard]] double second_derivative(double time_s) const;
+
+  std::array<double, 5> knots_s;
+  std::array<std::array<double, 4>, 4> pieces;  ///< `b_spline_pieces` of the knots
+
+ private:
+  /// The piece that holds a time, and the parameter there; nothing outside of the knots.
+  [[nodiscard]] std::optional<std::pair<std::size_t, double>> place_of(double time_s) const;
 };
 
 /// Knots in `count` steps from `begin_s` to `end_s`, continued beyond both: at given times, or
@@ -66,10 +85,9 @@ struct KnotRow {
   /// a step.
   [[nodiscard]] bool fits() const;
 
-  /// Returns the value, at `time_s`, of the cubic B-spline on the knots `bump - 2` to `bump + 2`.
-  /// The sum of all such B-splines is 1.
-  [[nodiscard]] double bump_value(int bump, double time_s) const;
-  /// Returns `bump_value` at a knot.
+  /// The cubic B-spline on the knots `index - 2` to `index + 2`. The sum of all of them is 1.
+  [[nodiscard]] KnotBump bump(int index) const;
+  /// Returns the value of `bump(bump)` at a knot.
   [[nodiscard]] double bump_at_knot(int bump, int knot) const;
 };
 

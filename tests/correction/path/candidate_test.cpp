@@ -250,7 +250,7 @@ TEST(Attempt, WhatCouldNotBeSearchedCountsAsColliding) {
   EXPECT_TRUE(tried.collision);
 }
 
-TEST(FirstNewCollision, IsTheFirstOfThemAll) {
+TEST(NewCollision, IsOutsideOfForeignOnes) {
   scene::Mesh mesh;
   for (const double z_m : {3.0, 1.0, -1.0}) add_plate(mesh, z_m);
   const SearchScene scene(std::move(mesh));
@@ -265,14 +265,14 @@ TEST(FirstNewCollision, IsTheFirstOfThemAll) {
     problem.foreign_collisions.assign(all->begin(),
                                       all->begin() + static_cast<std::ptrdiff_t>(known));
     const auto found =
-        first_new_collision(problem.path, 0.0, 6.0, problem, space, Deadline::never());
+        new_collision(problem.path, 0.0, 6.0, problem, space, Deadline::never());
     ASSERT_EQ(found.has_value(), known < 3);
     if (known == 3) continue;
     EXPECT_NEAR(found->t_begin_s, (*all)[known].t_begin_s, 2e-3);
   }
   problem.foreign_collisions.clear();
   // Between the plates there is no collision.
-  EXPECT_FALSE(first_new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem,
+  EXPECT_FALSE(new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem,
                                    space, Deadline::never()));
 }
 

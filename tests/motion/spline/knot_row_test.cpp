@@ -130,11 +130,11 @@ TEST(KnotRow, ValuesOfBumpsAddUpToOne) {
     const KnotRow row{0.0, 0x1p-21 * random.integer(300, 100000), random.integer(1, 9), places};
     const double time_s = random.uniform(0.0, row.end_s);
     double sum = 0.0;
-    for (int k = -2; k <= row.count + 2; ++k) sum += row.bump_value(k, time_s);
+    for (int k = -2; k <= row.count + 2; ++k) sum += row.bump(k).value(time_s);
     ASSERT_NEAR(sum, 1.0, 16.0 * kEpsilon);
     const int knot = random.integer(0, row.count);
     for (int k = knot - 3; k <= knot + 3; ++k)
-      ASSERT_NEAR(row.bump_at_knot(k, knot), row.bump_value(k, row.knot_s(knot)), 4.0 * kEpsilon);
+      ASSERT_NEAR(row.bump_at_knot(k, knot), row.bump(k).value(row.knot_s(knot)), 4.0 * kEpsilon);
   }
 }
 
