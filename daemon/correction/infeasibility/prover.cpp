@@ -73,8 +73,15 @@ std::optional<Separation> Prover::separation_of_body() {
   return found;
 }
 
+bool Prover::is_caged() {
+  if (!looked_for_cage_) {
+    looked_for_cage_ = true;
+    if (body_.is_camera() && !is_separated()) look_for_cage();
+  }
+  return cage_.has_value();
+}
+
 void Prover::look_for_cage() {
-  if (!body_.is_camera()) return;
   cage_ = cage_of_camera(smallest_, poses_as_asked_);
   name_keyframes(as_asked_, cage_);
   const bool is_same = smallest_ == 1.0 && poses_as_asked_.size() == poses_.size();

@@ -31,8 +31,9 @@ class Prover {
   /// Returns whether a closed surface separates two keyframes; computed by the first call.
   bool is_separated();
 
-  /// Looks for a cage about some of the keyframes. Does nothing if the body is not a camera.
-  void look_for_cage();
+  /// Returns whether a cage separates two keyframes; computed by the first call. False if the body
+  /// is not a camera, or if a closed surface separates keyframes.
+  bool is_caged();
 
   /// Returns whether a cage is proved to separate the two centres of the body, for this camera and
   /// all keyframes. That proves less than `cage`, and spares a search that finds no way.
@@ -45,6 +46,7 @@ class Prover {
 
  private:
   std::optional<Separation> separation_of_body();
+  void look_for_cage();
   std::optional<Cage> cage_of_camera(double smallest, const std::vector<motion::Pose>& poses);
   const ClosedSurfaces& surfaces();
 
@@ -56,6 +58,7 @@ class Prover {
   std::vector<motion::Pose> poses_;           ///< poses of all keyframes
   std::optional<ClosedSurfaces> surfaces_;    ///< closed surfaces of the scene, once computed
   bool looked_for_separation_ = false;
+  bool looked_for_cage_ = false;
   std::optional<Separation> separation_;
   std::optional<Cage> cage_;
   /// Proof that there is no path but for a smaller camera, or for other keyframes.

@@ -29,6 +29,7 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
+constexpr std::size_t kFewCells = 30'000;      // in place of a lattice that costs as much
 constexpr double kAlike = 1.6;                 // cost of another way, relative to the first
 constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...
 constexpr double kApart = 0.7;       // ... or as a share of the apex's distance from the path
@@ -40,12 +41,12 @@ constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has 
 class Detour {
  public:
   Detour(const Problem& problem, base::Budget& budget, FreeSpace& space, std::uint64_t seed,
-         const std::function<bool()>& is_hopeless, const base::Deadline& deadline)
+         const ProofsOfNoWay& proofs, const base::Deadline& deadline)
       : problem_(problem),
         budget_(budget),
         space_(space),
         seed_(seed),
-        is_hopeless_(is_hopeless),
+        proofs_(proofs),
         deadline_(deadline),
         radius_m_(space.ball_radius_m()),
         from_(signed_pose_at(problem.path, problem.leg_begin_s())),
@@ -76,12 +77,20 @@ class Detour {
     };
     LatticeResult way;
     std::optional<Candidate> first;
-    search_ways(ball, lattices, about_W, [&](const LatticeResult& found) {
+    const auto use = [&](const LatticeResult& found) {
       way = found;
       first = draw(found);
       return first.has_value();
-    });
-    if (!first) return std::nullopt;
+    };
+    // A narrow place is found sooner by the way of a small ball than by a fine lattice.
+    std::optional<Candidate> threaded;
+    const auto is_done = [&] {
+      if (proofs_.is_separated()) return true;
+      if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
+      return threaded || result_.pocket || proofs_.is_caged();
+    };
+    search_ways(ball, lattices, about_W, {use, is_done});
+    if (!first) return threaded;
     std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
     const bool is_better = second && cost(*second) < cost(*first);
     return std::move(is_better ? second : first);
@@ -97,19 +106,18 @@ class Detour {
     ball.max_cost_m = kAlike * first.cost_m;
     ball.max_points = kMorePoints * first.points;
     std::optional<Candidate> second;
-    search_ways(ball, Lattices::kCoarse, about_W, [&](const LatticeResult& found) {
+    const auto use = [&](const LatticeResult& found) {
       const bool is_farther = apex_of(found.way_W, about_W).away_m > kFarther * apex.away_m;
       if (!is_farther) second = draw(found);
       return is_farther || second.has_value();
-    });
+    };
+    search_ways(ball, Lattices::kCoarse, about_W, {use, proofs_.is_separated});
     return second;
   }
 
-  // Searches ways until `use` returns true.
   void search_ways(const BallMotion& ball, Lattices lattices, const std::vector<Vec3>& about_W,
-                   const std::function<bool(const LatticeResult&)>& use) {
-    count_points(
-        for_each_lattice_way(space_, ball, lattices, about_W, {use, is_hopeless_}, deadline_));
+                   const LatticeWayUse& use) {
+    count_points(for_each_lattice_way(space_, ball, lattices, about_W, use, deadline_));
   }
 
   [[nodiscard]] double cost(const Candidate& candidate) const {
@@ -137,21 +145,25 @@ class Detour {
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
-      const CellResult ball = cells_for_ball(share * radius_m_);
-      if (ball.pocket && share == kBallShares.front()) {
-        result_.pocket = ball.pocket;
-        return std::nullopt;
-      }
-      const std::vector<Vec3>& way_W = ball.way_W;
-      if (way_W.empty()) break;
-      const TreeOptions trees = tree_about(way_W);
-      const TreeResult threaded = threaded_guide(space_, way_W, from_, to_, trees, deadline_);
-      if (auto found = followed(threaded)) return found;
-      const TreeResult tree = tree_way(space_, from_, to_, trees, deadline_);
-      if (auto found = followed(tree)) return found;
+      std::optional<Candidate> found = along_small_ball(share, kMostCells);
+      if (found || result_.pocket) return found;
+      if (small_way_W_.empty()) break;
+      found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_));
+      if (found) return found;
     }
     // The finest lattice comes last: detours that need it mostly need turning as well.
     return with_ball(Lattices::kFinest);
+  }
+
+  // A detour through the narrow places on the way of a small ball. Keeps that way, and the pocket
+  // that shuts in one end of the smallest ball.
+  std::optional<Candidate> along_small_ball(double share, std::size_t max_cells) {
+    CellResult ball = cells_for_ball(share * radius_m_, max_cells);
+    if (share == kBallShares.front()) result_.pocket = std::move(ball.pocket);
+    small_way_W_ = std::move(ball.way_W);
+    if (small_way_W_.empty()) return std::nullopt;
+    return followed(
+        threaded_guide(space_, small_way_W_, from_, to_, tree_about(small_way_W_), deadline_));
   }
 
   std::optional<Candidate> followed(const Guide& guide, Turning turning) {
@@ -186,11 +198,11 @@ class Detour {
     return poses;
   }
 
-  CellResult cells_for_ball(double ball_radius_m) {
+  CellResult cells_for_ball(double ball_radius_m, std::size_t max_cells) {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
-    const CellOptions options{ball_radius_m, kSmallestCell * radius_m_, kMostCells, radius_m_};
+    const CellOptions options{ball_radius_m, kSmallestCell * radius_m_, max_cells, radius_m_};
     CellResult found = cell_way(space_, center_W(*begin), center_W(*end), options, deadline_);
     count_points(found.cells);
     if (found.way_W.empty()) return found;
@@ -250,20 +262,21 @@ class Detour {
   base::Budget& budget_;
   FreeSpace& space_;
   const std::uint64_t seed_;
-  const std::function<bool()>& is_hopeless_;
+  const ProofsOfNoWay& proofs_;
   const base::Deadline& deadline_;
   const double radius_m_;
   const SignedPose from_;
   const SignedPose to_;
+  std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
   DetourResult result_;
 };
 
 }  // namespace
 
 DetourResult go_round(const Problem& problem, Search search, base::Budget& budget, FreeSpace& space,
-                      std::uint64_t seed, const std::function<bool()>& is_hopeless,
+                      std::uint64_t seed, const ProofsOfNoWay& proofs,
                       const base::Deadline& deadline) {
-  return Detour(problem, budget, space, seed, is_hopeless, deadline).run(search);
+  return Detour(problem, budget, space, seed, proofs, deadline).run(search);
 }
 
 }  // namespace camway::correction

@@ -18,6 +18,12 @@ enum class Search : std::uint8_t {
   kTurning,   ///< ways on which the body must turn to get through
 };
 
+/// Proofs that there is no detour, which are looked for when a search becomes costly.
+struct ProofsOfNoWay {
+  std::function<bool()> is_separated;  ///< costs less than a lattice
+  std::function<bool()> is_caged;      ///< costs about as much as a fine lattice
+};
+
 struct DetourResult {
   std::optional<Candidate> candidate;  ///< nothing if no detour was found
   Effort effort;                       ///< effort spent
@@ -32,10 +38,9 @@ struct DetourResult {
 /// path as interpolated (`relaxation.h`), which spends steps of `budget`.
 ///
 /// Finds no detour if the search found no guide within its limits, or the path could not follow
-/// one. Calls `is_hopeless` before a search with room becomes costly, and gives up if it returns
-/// true.
+/// one. Asks for proofs before a search with room becomes costly, and gives up if there is one.
 DetourResult go_round(const Problem& problem, Search search, base::Budget& budget, FreeSpace& space,
-                      std::uint64_t seed, const std::function<bool()>& is_hopeless,
+                      std::uint64_t seed, const ProofsOfNoWay& proofs,
                       const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -76,8 +76,7 @@ class Ladder {
     correct_all(Search::kWithRoom);
     if (prover_.has_proof()) return false;
     if (collisions_.any_without_way() && !deadline().passed()) {
-      if (!prover_.is_separated() && !deadline().passed()) prover_.look_for_cage();
-      if (prover_.has_proof()) return false;
+      if (prover_.is_separated() || prover_.is_caged()) return false;
       if (space_.may_turn()) correct_all(Search::kTurning);
     }
     timed_out_ = collisions_.count_open() > 0 && deadline().passed();
@@ -180,9 +179,15 @@ class Ladder {
       return std::ranges::any_of(
           same_leg, [&](std::size_t i) { return collisions_[i].correction.interval == other; });
     });
-    const DetourResult found = go_round(
-        problem, search, budget_, space_, options_.seed, [this] { return prover_.is_separated(); },
-        deadline());
+    const ProofsOfNoWay proofs{
+        .is_separated = [this] { return prover_.is_separated(); },
+        .is_caged =
+            [this, leg] {
+              return prover_.is_caged() || prover_.is_caged_off(center_W(leg), center_W(leg + 1));
+            },
+    };
+    const DetourResult found =
+        go_round(problem, search, budget_, space_, options_.seed, proofs, deadline());
     if (found.pocket) add_shut_in(leg + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
     for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
     if (found.candidate && cost(index, *found.candidate) > most_cost) return true;
