@@ -29,7 +29,7 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
-constexpr std::size_t kFewCells = 30'000;      // in place of a lattice that costs as much
+constexpr std::size_t kFewCells = 12'000;      // in place of a lattice that costs as much
 constexpr double kAlike = 1.6;                 // cost of another way, relative to the first
 constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...
 constexpr double kApart = 0.7;       // ... or as a share of the apex's distance from the path
@@ -85,11 +85,10 @@ class Detour {
     // A narrow place is found sooner by the way of a small ball than by a fine lattice.
     std::optional<Candidate> threaded;
     const auto is_done = [&] {
-      if (proofs_.is_separated()) return true;
       if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
       return threaded || result_.pocket || proofs_.is_caged();
     };
-    search_ways(ball, lattices, about_W, {use, is_done});
+    search_ways(ball, lattices, about_W, {use, proofs_.is_separated, is_done});
     if (!first) return threaded;
     std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
     const bool is_better = second && cost(*second) < cost(*first);
@@ -111,7 +110,7 @@ class Detour {
       if (!is_farther) second = draw(found);
       return is_farther || second.has_value();
     };
-    search_ways(ball, Lattices::kCoarse, about_W, {use, proofs_.is_separated});
+    search_ways(ball, Lattices::kCoarse, about_W, {.use = use});
     return second;
   }
 

@@ -17,7 +17,7 @@ struct Level {
   bool is_wide;  ///< reaches further than those before it, for ways that are long
 };
 constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
-                                           {0.5, 16000, false},
+                                           {0.5, 8000, false},
                                            {2.0, 8000, true},
                                            {1.0, 60000, true},
                                            {0.25, 60000, false},
@@ -46,7 +46,8 @@ class LatticeWays {
     int times_run_out = 0;
     for (std::size_t i = first_level; i <= last_level && !deadline_.passed(); ++i) {
       const Level& level = kLevels[i];
-      if (i == kFirstCostlyLevel && use.is_hopeless()) return;
+      if (i == 1 && use.is_hopeless()) return;
+      if (i == kFirstCostlyLevel && use.is_done()) return;
       if (level.is_wide && times_run_out < kOftenRunOut) continue;
       const LatticeResult found = searched(level, from_end);
       if (!found.way_W.empty() && use.use(found)) return;

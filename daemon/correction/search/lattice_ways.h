@@ -36,8 +36,11 @@ enum class Lattices {
 struct LatticeWayUse {
   /// Uses a way, which joins `from_W` to `to_W`. The search ends if it returns true.
   std::function<bool(const LatticeResult& way)> use;
+  /// Called if the coarsest lattice has no way that can be used. The search ends if it returns
+  /// true.
+  std::function<bool()> is_hopeless = [] { return false; };
   /// Called before lattices become costly. The search ends if it returns true.
-  std::function<bool()> is_hopeless;
+  std::function<bool()> is_done = [] { return false; };
 };
 
 /// Searches ways for a ball on finer and finer lattices (`lattice_search.h`) until one can be used.
