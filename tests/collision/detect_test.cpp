@@ -141,6 +141,32 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
 }
 
+// Both searches walk alike, so they must agree on whether there is a collision.
+TEST(AnyCollision, IsFoundExactlyWhereThereIsAFirstOne) {
+  testing::Random random(7);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const motion::Body body(corners_C);
+  int colliding = 0;
+  for (int run = 0; run < 200; ++run) {
+    const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 60, 0.15));
+    const Path path = straight(random.in_cube(1.2), random.in_cube(1.2), random.rotation());
+    const Query query{Obstacles(index), body};
+    const FirstCollision first = first_collision(query, path, 0.0, 1.0, base::Deadline::never());
+    const FirstCollision any = any_collision(query, path, 0.0, 1.0, base::Deadline::never());
+    ASSERT_TRUE(any.decided);
+    ASSERT_EQ(any.interval.has_value(), first.interval.has_value()) << "run " << run;
+    if (!any.interval) continue;
+    ++colliding;
+    EXPECT_LE(any.interval->t_begin_s, any.interval->t_end_s);
+    const double middle_s = 0.5 * (any.interval->t_begin_s + any.interval->t_end_s);
+    // Colliding, or next to the scene.
+    EXPECT_TRUE(clearance_m(index, corners_C, path.pose(middle_s), DetectOptions{}.tolerance_m))
+        << "run " << run;
+  }
+  EXPECT_GT(colliding, 40);
+  EXPECT_LT(colliding, 160);
+}
+
 TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());

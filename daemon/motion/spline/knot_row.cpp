@@ -82,8 +82,8 @@ bool KnotRow::fits() const {
 }
 
 KnotBump KnotRow::bump(int index) const {
-  return KnotBump({knot_s(index - 2), knot_s(index - 1), knot_s(index), knot_s(index + 1),
-                   knot_s(index + 2)});
+  return KnotBump(
+      {knot_s(index - 2), knot_s(index - 1), knot_s(index), knot_s(index + 1), knot_s(index + 2)});
 }
 
 double KnotRow::bump_at_knot(int bump, int knot) const {

@@ -264,16 +264,15 @@ TEST(NewCollision, IsOutsideOfForeignOnes) {
   for (std::size_t known = 0; known <= 3; ++known) {
     problem.foreign_collisions.assign(all->begin(),
                                       all->begin() + static_cast<std::ptrdiff_t>(known));
-    const auto found =
-        new_collision(problem.path, 0.0, 6.0, problem, space, Deadline::never());
+    const auto found = new_collision(problem.path, 0.0, 6.0, problem, space, Deadline::never());
     ASSERT_EQ(found.has_value(), known < 3);
     if (known == 3) continue;
     EXPECT_NEAR(found->t_begin_s, (*all)[known].t_begin_s, 2e-3);
   }
   problem.foreign_collisions.clear();
   // Between the plates there is no collision.
-  EXPECT_FALSE(new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem,
-                                   space, Deadline::never()));
+  EXPECT_FALSE(new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem, space,
+                             Deadline::never()));
 }
 
 }  // namespace

@@ -191,8 +191,9 @@ TEST(LatticeWay, IsFreeForTheBall) {
   EXPECT_GE(found, 8);
 }
 
-// Between the best of what is surely free and the best of what may pass for it.
-TEST(LatticeWay, IsTheBestThatDijkstraFinds) {
+// Between the best of what is surely free, times the weight of what is left, and the best of what
+// may pass for it.
+TEST(LatticeWay, IsNearlyTheBestThatDijkstraFinds) {
   const Vec3 from_W(-0.9, 0.03, 0.02);
   const Vec3 to_W(0.9, -0.05, 0.04);
   int compared = 0;
@@ -207,7 +208,7 @@ TEST(LatticeWay, IsTheBestThatDijkstraFinds) {
     Oracle strict(scene, from_W, to_W, options, 0.0);
     Oracle loose(scene, from_W, to_W, options, -kRounding * options.ball_radius_m);
     const double cost_m = strict.cost_of(result.way_W);
-    EXPECT_LE(cost_m, strict.cost_m(5) + 1e-9);
+    EXPECT_LE(cost_m, kLatticeGreed * strict.cost_m(5) + 1e-9);
     EXPECT_GE(cost_m, loose.cost_m(5) - 1e-9);
     ++compared;
   }

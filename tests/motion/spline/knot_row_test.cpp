@@ -45,6 +45,25 @@ TEST(BSplinePieces, AreTheBasisFunction) {
   }
 }
 
+TEST(KnotBump, HasTheSecondDerivativeOfTheBasisFunction) {
+  Random random(3503);
+  for (int round = 0; round < 500; ++round) {
+    const KnotBump bump(random_knots(random));
+    const auto& knots = bump.knots_s;
+    EXPECT_EQ(bump.second_derivative(knots.front() - 0.1), 0.0);
+    EXPECT_EQ(bump.value(knots.back()), 0.0);
+    const auto piece = static_cast<std::size_t>(random.integer(0, 3));
+    const double step_s = knots[piece + 1] - knots[piece];
+    // Within one piece the second difference of a cubic is exact.
+    const double time_s = knots[piece] + random.uniform(0.3, 0.7) * step_s;
+    const double h = 0.25 * step_s;
+    const auto value = [&](double t) { return static_cast<double>(basis(knots, 0, 4, t)); };
+    const double oracle = (value(time_s - h) - 2.0 * value(time_s) + value(time_s + h)) / (h * h);
+    ASSERT_NEAR(bump.second_derivative(time_s), oracle, 256.0 * kEpsilon / (h * h));
+    ASSERT_NEAR(bump.value(time_s), value(time_s), 16.0 * kEpsilon);
+  }
+}
+
 TEST(BSplinePieces, MeetBitForBitAndSmoothly) {
   Random random(3502);
   for (int round = 0; round < 500; ++round) {
