@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "daemon/base/budget.h"
 #include "daemon/correction/ladder/knot_choice.h"
 #include "daemon/correction/path/closeness.h"
+#include "daemon/correction/smoothing/contact_bounds.h"
 #include "daemon/correction/smoothing/fit.h"
 #include "daemon/correction/smoothing/relaxation.h"
 
@@ -22,6 +24,9 @@ using motion::CubicPath;
 // Chosen by measurement; none changes what is proved.
 constexpr double kMostGrowth = 1.2;           // of the cost, for fewer knots ...
 constexpr double kPriceOfKnot_rad_s = 0.004;  // ... and so much more for each
+constexpr double kKeptRoom = 0.57;            // of the least gap of the part, up to what is wanted
+constexpr double kRoomResolution = 0.1;  // share of the gap that is kept: resolution of its check
+constexpr int kSamplesAPiece = 6;        // of the gap
 // Steps of the first and of the last relaxation, and of all between.
 constexpr int kStepsOfRelaxation = 12;
 constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
@@ -56,6 +61,7 @@ class Redrawer {
     if (part_.corrections > 1) relax(*best, kStepsOfRelaxation);
     most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
     most_knots_ = best->knots_s.size();
+    keep_room_of(best->drawn.candidate.path);
     place_anew(*best);
     thin_out(*best);
     if (best->knots_s.size() < most_knots_) {
@@ -72,6 +78,37 @@ class Redrawer {
   [[nodiscard]] double cost(const CubicPath& path) const {
     return closeness_cost(path.around(part_.begin_s, part_.end_s), problem_.original,
                           space_.closeness());
+  }
+
+  /// The least gap of samples of the part, at most `up_to_m`.
+  [[nodiscard]] double room_m(const CubicPath& path, double up_to_m) const {
+    double least_m = up_to_m;
+    for (const motion::CubicPiece& piece : path.around(part_.begin_s, part_.end_s).pieces) {
+      for (int i = 0; i < kSamplesAPiece && least_m > 0.0; ++i) {
+        const double time_s = std::lerp(piece.t0_s, piece.t1_s, (i + 0.5) / kSamplesAPiece);
+        least_m = std::min(least_m, space_.gap_m(path.pose(time_s), least_m));
+      }
+    }
+    return least_m;
+  }
+
+  /// Makes drawings keep a share of the least gap of the part, as far as that gap is wanted.
+  void keep_room_of(const CubicPath& path) {
+    const double wanted_m = ContactBounds(Objective::kClosest, space_.ball_radius_m(),
+                                          space_.closeness().viewing_distance_m)
+                                .wanted_m();
+    const double gap_m = kKeptRoom * std::max(0.0, room_m(path, wanted_m));
+    collision::Query query = space_.query();
+    collision::DetectOptions& options = query.options;
+    options.clearance_m += gap_m;
+    options.tolerance_m = std::max(options.tolerance_m, kRoomResolution * gap_m);
+    options.joining_distance_m = std::max(options.joining_distance_m, options.tolerance_m);
+    roomy_.emplace(query, space_.policy(), space_.closeness());
+  }
+
+  [[nodiscard]] bool keeps_room(const CubicPath& path) const {
+    return !roomy_ ||
+           !new_collision(path, part_.begin_s, part_.end_s, problem_, *roomy_, deadline_);
   }
 
   /// Whether the part is free where the row does not reach: there it is as interpolated again.
@@ -92,7 +129,7 @@ class Redrawer {
   [[nodiscard]] bool is_worth(const Drawing& drawing) const {
     const auto spared = static_cast<double>(most_knots_ - drawing.knots_s.size());
     return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared &&
-           is_free_beside(drawing.drawn.candidate);
+           is_free_beside(drawing.drawn.candidate) && keeps_room(drawing.drawn.candidate.path);
   }
 
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
@@ -177,6 +214,7 @@ class Redrawer {
   const base::Deadline& deadline_;
   const KnotChoice choice_;
   base::Budget budget_{kStepsOfRelaxation};
+  std::optional<FreeSpace> roomy_;  ///< requires the gap that drawings keep
   double most_cost_ = 0.0;
   std::size_t most_knots_ = 0;
 };

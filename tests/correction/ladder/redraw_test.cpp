@@ -9,9 +9,11 @@
 #include <optional>
 #include <vector>
 
+#include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/viewing_distance.h"
+#include "daemon/correction/smoothing/contact_bounds.h"
 #include "tests/support/gap_problems.h"
 #include "tests/support/scenes.h"
 
@@ -104,6 +106,7 @@ class RedrawTest : public ::testing::Test {
     cost_before_ = closeness_cost(before, c_.interpolated, closeness);
     cost_after_ = closeness_cost(corrected.path(), c_.interpolated, closeness);
     path_ = corrected.path();
+    wanted_m_ = ContactBounds(Objective::kClosest, space.ball_radius_m(), 3.0).wanted_m();
     corrections_ = list.corrections();
   }
 
@@ -113,8 +116,14 @@ class RedrawTest : public ::testing::Test {
         .value();
   }
 
+  [[nodiscard]] double clearance_m() const {
+    return collision::path_clearance(c_.query().obstacles, path_.path(), c_.body, Deadline::never())
+        ->lower_bound_m;
+  }
+
   Case c_;
   CubicPath path_;
+  double wanted_m_ = 0.0;  ///< gap at which relaxation aims
   std::vector<Correction> corrections_;
   std::size_t inserted_before_ = 0;
   std::size_t inserted_after_ = 0;
@@ -135,6 +144,7 @@ TEST_F(RedrawTest, DrawsOnFewKnotsWhatWasDrawnOnMany) {
     blocked += 2;
     inserted += inserted_after_;
     EXPECT_LT(inserted_after_, inserted_before_ / 4);
+    EXPECT_GE(clearance_m(), 0.4 * wanted_m_);
     for (const motion::Keyframe& keyframe : c_.keyframes) {
       EXPECT_EQ(path_.pose(keyframe.time_s).position, keyframe.pose.position);
     }
