@@ -189,4 +189,18 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(
   return std::shared_ptr<const DistanceField>(new DistanceField(*grid, std::move(cells), share));
 }
 
+base::Result<std::shared_ptr<const DistanceField>> DistanceField::of_codes(
+    const geometry::Box& bounds, double resolution_m, std::vector<std::uint8_t> codes,
+    double settled_share) {
+  const std::optional<CellGrid> grid = CellGrid::around(bounds, resolution_m);
+  if (!grid || grid->cells() != codes.size()) {
+    return base::Failure{"the distance field has not as many cells as its grid"};
+  }
+  if (!(settled_share >= 0.0 && settled_share <= 1.0)) {
+    return base::Failure{"the distance field has a share of settled cells that is none"};
+  }
+  return std::shared_ptr<const DistanceField>(
+      new DistanceField(*grid, std::move(codes), settled_share));
+}
+
 }  // namespace camway::scene

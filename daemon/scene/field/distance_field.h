@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "daemon/base/result.h"
@@ -71,6 +72,16 @@ class DistanceField {
   /// the mesh and the memory limit alone: effort is counted, not timed.
   static base::Result<std::shared_ptr<const DistanceField>> build(
       const Mesh& mesh, const DistanceFieldOptions& options = {});
+
+  /// The field that `build` made in cells of `resolution_m` for a mesh with these bounds, of its
+  /// codes. Returns a reason instead if there is no such grid, the codes are not as many as its
+  /// cells, or the share is none. Whether the codes are right is not checked.
+  static base::Result<std::shared_ptr<const DistanceField>> of_codes(
+      const geometry::Box& bounds, double resolution_m, std::vector<std::uint8_t> codes,
+      double settled_share);
+  /// The level of every cell's bound, x fastest. A level stands for the same share of a cell in all
+  /// fields of a build.
+  [[nodiscard]] std::span<const std::uint8_t> codes() const { return codes_; }
 
   /// Lower bound of the distance from `point_W` to the nearest triangle, rounding included; 0 where
   /// nothing is known: near the scene, and for a point that is not finite. [Units: metres]

@@ -245,23 +245,23 @@ class IndexAssembler {
  public:
   IndexAssembler(IndexTree& tree, Chunk& root) : tree_(tree) {
     place(root);
-    tree_.nodes_.resize(nodes_);
-    tree_.leaf_begin_.resize(leaves_ + std::size_t{1});
-    tree_.references_.resize(references_);
-    tree_.boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
-    tree_.depth_ = depth_;
+    tree_.arrays_.nodes.resize(nodes_);
+    tree_.arrays_.leaf_begin.resize(leaves_ + std::size_t{1});
+    tree_.arrays_.references.resize(references_);
+    tree_.arrays_.boxes.resize((references_ + kNodeWidth - 1) / kNodeWidth);
+    tree_.arrays_.depth = depth_;
   }
 
   void fill(unsigned threads) {
     const Chunk& root = *chunks_.front();
-    tree_.nodes_[0] = moved(root, root.root);
+    tree_.arrays_.nodes[0] = moved(root, root.root);
     std::atomic<std::size_t> next = 0;
     run_on_threads(std::min(threads, static_cast<unsigned>(chunks_.size())), [&] {
       for (std::size_t i = next.fetch_add(1); i < chunks_.size(); i = next.fetch_add(1)) {
         copy(*chunks_[i]);
       }
     });
-    tree_.leaf_begin_.back() = references_;
+    tree_.arrays_.leaf_begin.back() = references_;
   }
 
  private:
@@ -286,20 +286,20 @@ class IndexAssembler {
   /// Chunks write to separate ranges, so this may run for all of them in parallel.
   void copy(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
-      tree_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
+      tree_.arrays_.nodes[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
     }
     for (const Chunk::Link& link : chunk.links) {
-      tree_.nodes_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
+      tree_.arrays_.nodes[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
     }
     std::uint32_t begin = 0;
     for (std::size_t i = 0; i < chunk.leaf_ends.size(); ++i) {
-      tree_.leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
+      tree_.arrays_.leaf_begin[chunk.first_leaf + i] = chunk.first_reference + begin;
       begin = chunk.leaf_ends[i];
     }
     for (std::size_t i = 0; i < chunk.references.size(); ++i) {
       const std::size_t at = chunk.first_reference + i;
-      tree_.references_[at] = chunk.references[i];
-      set_box(tree_.boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
+      tree_.arrays_.references[at] = chunk.references[i];
+      set_box(tree_.arrays_.boxes[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
     }
   }
 
@@ -353,13 +353,10 @@ std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh
 }
 
 std::uint64_t IndexTree::memory_bytes() const {
-  return nodes_.size() * sizeof(IndexNode) + boxes_.size() * sizeof(ByteBoxes) +
-         (references_.size() + leaf_begin_.size()) * sizeof(std::uint32_t);
+  return arrays_.nodes.size() * sizeof(IndexNode) + arrays_.boxes.size() * sizeof(ByteBoxes) +
+         (arrays_.references.size() + arrays_.leaf_begin.size()) * sizeof(std::uint32_t);
 }
 
-bool IndexTree::is_same_as(const IndexTree& other) const {
-  return nodes_ == other.nodes_ && leaf_begin_ == other.leaf_begin_ &&
-         references_ == other.references_ && boxes_ == other.boxes_;
-}
+bool IndexTree::is_same_as(const IndexTree& other) const { return arrays_ == other.arrays_; }
 
 }  // namespace camway::scene

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/field/clearance_field.h"
 #include "daemon/scene/import/record/import_options.h"
 #include "daemon/scene/import/record/import_report.h"
@@ -56,6 +57,7 @@ struct SnapshotResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< null on error
   std::string error;                         ///< names the file or the object
   Limit limit = Limit::kNone;                ///< limit that the error is about
+  bool is_from_cache = false;                ///< whether the scene was found in the cache
 };
 
 /// Assembles a scene from objects. The cost depends on the number of objects and of their parts,
@@ -69,8 +71,10 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 
 /// Makes a scene with one object, which is read from `file` and has the name of the scene. Fails
 /// within milliseconds after a stop is requested while the file is read or an occupancy mirror is
-/// built.
+/// built. Takes the scene from `cache`, or puts it there, if there is one; the scene is the same to
+/// the bit. Occupancy maps, and formats without a reader of our own, are not kept.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options = {}, const std::stop_token& stop = {});
+                             const SnapshotOptions& options = {}, const std::stop_token& stop = {},
+                             const SceneCache* cache = nullptr);
 
 }  // namespace camway::scene
