@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every test program has this. It and the programs that it starts leave the cache of the user alone.
+// Every test program has this. It and the programs that it starts leave the cache of the user
+// alone.
 #include <cstdlib>
 
 namespace {

@@ -48,7 +48,8 @@ void print_json(const SceneCache& cache, const std::vector<CachedScene>& scenes)
 void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes) {
   constexpr double kBytesPerMb = 1e6;
   if (!scenes.empty()) {
-    fmt::print("{:<20}  {:>9}  {:>8}  {:<7}  {}\n", "last used", "triangles", "MB", "build", "file");
+    fmt::print("{:<20}  {:>9}  {:>8}  {:<7}  {}\n", "last used", "triangles", "MB", "build",
+               "file");
   }
   for (const CachedScene& scene : scenes) {
     fmt::print("{:<20}  {:>9}  {:>8.1f}  {:<7}  {}\n", time_text(scene.last_used), scene.triangles,
@@ -66,7 +67,8 @@ std::optional<SceneCache> open_cache() {
   std::optional<SceneCache> cache = scene::cache_of_environment();
   const std::string fault = cache ? cache->fault() : "";
   if (!cache) {
-    print_error("there is no cache: CAMWAY_CACHE_DIR is empty, CAMWAY_CACHE_BYTES is 0, or no HOME");
+    print_error(
+        "there is no cache: CAMWAY_CACHE_DIR is empty, CAMWAY_CACHE_BYTES is 0, or no HOME");
   } else if (!fault.empty()) {
     print_error(cache->folder().string() + ": " + fault);
     cache.reset();

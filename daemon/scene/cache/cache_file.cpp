@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/cache/cache_file.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "daemon/base/parallel_chunks.h"
 #include "daemon/scene/cache/cache_layout.h"
+#include "daemon/scene/cache/file_bytes.h"
 #include "daemon/scene/cache/mesh_check.h"
 
 namespace camway::scene {
@@ -28,12 +29,8 @@ static_assert(sizeof(Vec3) == 24 && sizeof(std::array<std::uint32_t, 3>) == 12);
 static_assert(sizeof(IndexNode) == 96 && sizeof(ByteBoxes) == 48);
 
 constexpr std::array<std::uint64_t, layout::kSectionCount> kElementBytes = {
-    sizeof(layout::Facts), 1, sizeof(layout::Object), sizeof(Vec3), 12, 1,
-    sizeof(IndexNode),     4, 4,                      sizeof(ByteBoxes)};
-
-/// Bytes that are read or written at once: they are still in the processor's cache when their
-/// digest is computed.
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+    sizeof(layout::Facts), 1, sizeof(layout::Object), sizeof(Vec3), 12, 1, sizeof(IndexNode), 4, 4,
+    sizeof(ByteBoxes)};
 
 /// Smaller files are read by one thread: starting another one takes as long.
 constexpr std::uint64_t kBytesForThreads = std::uint64_t{1} << 20;
@@ -66,15 +63,14 @@ class Sections {
     fill_facts(prepared, tree.depth);
     add_texts(scene_file, prepared);
     for (const MeshObject& object : mesh.objects) {
-      objects_.push_back(
-          {object.triangle_count, static_cast<std::uint32_t>(object.name.size())});
+      objects_.push_back({object.triangle_count, static_cast<std::uint32_t>(object.name.size())});
     }
     set(layout::kFacts, std::span(&facts_, 1));
     set(layout::kText, std::span(text_));
     set(layout::kObjects, std::span(objects_));
     set(layout::kVertices, std::span(mesh.vertices));
     set(layout::kTriangles, std::span(mesh.triangles));
-    if (prepared.field) set(layout::kFieldCodes, prepared.field->codes());
+    if (prepared.field) set(layout::kFieldCodes, std::span(prepared.field->codes()));
     set(layout::kNodes, std::span(tree.nodes));
     set(layout::kLeafBegin, std::span(tree.leaf_begin));
     set(layout::kReferences, std::span(tree.references));
@@ -151,103 +147,91 @@ bool write_at(int fd, std::span<const std::byte> bytes, std::uint64_t offset) {
   return true;
 }
 
-bool read_at(int fd, std::span<std::byte> bytes, std::uint64_t offset) {
-  while (!bytes.empty()) {
-    const ssize_t got = pread(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(got));
-    offset += static_cast<std::uint64_t>(got);
+/// The sections of a file: views of its bytes.
+struct Content {
+  std::shared_ptr<const FileBytes> file;
+  layout::Header header;
+
+  [[nodiscard]] std::span<const std::byte> section(std::size_t name) const {
+    const layout::Section& section = header.sections[name];
+    return file->bytes().subspan(section.offset, section.bytes);
   }
-  return true;
+  /// Requires the type that the section has.
+  template <class Value>
+  [[nodiscard]] std::span<const Value> values(layout::SectionName name) const {
+    const std::span<const std::byte> bytes = section(name);
+    return {reinterpret_cast<const Value*>(bytes.data()), bytes.size() / sizeof(Value)};
+  }
+  template <class Value>
+  [[nodiscard]] base::Array<Value> array(layout::SectionName name) const {
+    return {file, values<Value>(name)};
+  }
+  [[nodiscard]] bool is_whole(std::size_t name) const {
+    const std::span<const std::byte> bytes = section(name);
+    return digest_of(bytes.data(), bytes.size()) == header.sections[name].digest;
+  }
+  [[nodiscard]] const layout::Facts& facts() const {
+    return values<layout::Facts>(layout::kFacts).front();
+  }
+  [[nodiscard]] std::string_view text() const {
+    const std::span<const char> text = values<char>(layout::kText);
+    return {text.data(), text.size()};
+  }
+};
+
+/// Whether the section begins where its values may and lies in the file.
+bool is_placed_well(const layout::Section& section, std::uint64_t element_bytes,
+                    std::uint64_t file_bytes) {
+  return section.offset % layout::kAlignment == 0 && section.bytes % element_bytes == 0 &&
+         section.offset <= file_bytes && section.bytes <= file_bytes - section.offset;
 }
 
-/// Returns the header if it is whole and its sections lie in the file.
-base::Result<layout::Header> read_header(int fd, std::uint64_t& file_bytes) {
-  struct stat status {};
-  layout::Header header;
-  if (fstat(fd, &status) != 0 || !read_at(fd, std::as_writable_bytes(std::span(&header, 1)), 0)) {
-    return Failure{"the file has no header"};
-  }
-  file_bytes = static_cast<std::uint64_t>(status.st_size);
-  if (header.magic != layout::kMagic) return Failure{"the file is no prepared scene"};
-  if (header.digest != digest_of(header)) return Failure{"the header is damaged"};
+/// Returns the content if the header is whole, its sections lie in the file, and there are facts.
+/// The sections may be damaged.
+base::Result<Content> open_content(int fd, FileBytes::Use use) {
+  Content content{FileBytes::of(fd, use), {}};
+  if (!content.file) return Failure{"the file cannot be read"};
+  const std::span<const std::byte> bytes = content.file->bytes();
+  if (bytes.size() < sizeof content.header) return Failure{"the file has no header"};
+  std::memcpy(&content.header, bytes.data(), sizeof content.header);
+  if (content.header.magic != layout::kMagic) return Failure{"the file is no prepared scene"};
+  if (content.header.digest != digest_of(content.header)) return Failure{"the header is damaged"};
   for (std::size_t i = 0; i < layout::kSectionCount; ++i) {
-    const layout::Section& section = header.sections[i];
-    if (section.offset > file_bytes || section.bytes > file_bytes - section.offset ||
-        section.bytes % kElementBytes[i] != 0) {
+    if (!is_placed_well(content.header.sections[i], kElementBytes[i], bytes.size())) {
       return Failure{"a section does not lie in the file"};
     }
   }
-  return header;
-}
-
-/// Reads a section into `values`, which is a string or a vector. Returns false if it is damaged.
-template <class Values>
-bool read_section(int fd, const layout::Section& section, Values& values) {
-  values.resize(section.bytes / sizeof(values[0]));
-  std::span<std::byte> rest = std::as_writable_bytes(std::span(values));
-  std::uint64_t offset = section.offset;
-  base::Digest digest;
-  while (!rest.empty()) {
-    const std::span<std::byte> piece = rest.first(std::min(rest.size(), kPieceBytes));
-    if (!read_at(fd, piece, offset)) return false;
-    digest.add(piece.data(), piece.size());
-    offset += piece.size();
-    rest = rest.subspan(piece.size());
+  if (content.values<layout::Facts>(layout::kFacts).size() != 1) {
+    return Failure{"there are no facts"};
   }
-  return digest.bytes() == section.digest;
+  return content;
 }
 
-/// The sections of a file, as they were read.
-struct Content {
-  std::vector<layout::Facts> facts;
-  std::string text;
-  std::vector<layout::Object> objects;
-  Mesh mesh;  ///< without objects
-  std::vector<std::uint8_t> field_codes;
-  IndexArrays tree;
-};
-
-/// Reads a section. Returns false if it is damaged.
-bool read_section(int fd, const layout::Header& header, std::size_t name, Content& content) {
-  const layout::Section& section = header.sections[name];
-  switch (name) {
-    case layout::kFacts:
-      return read_section(fd, section, content.facts);
-    case layout::kText:
-      return read_section(fd, section, content.text);
-    case layout::kObjects:
-      return read_section(fd, section, content.objects);
-    case layout::kVertices:
-      return read_section(fd, section, content.mesh.vertices);
-    case layout::kTriangles:
-      return read_section(fd, section, content.mesh.triangles);
-    case layout::kFieldCodes:
-      return read_section(fd, section, content.field_codes);
-    case layout::kNodes:
-      return read_section(fd, section, content.tree.nodes);
-    case layout::kLeafBegin:
-      return read_section(fd, section, content.tree.leaf_begin);
-    case layout::kReferences:
-      return read_section(fd, section, content.tree.references);
-    case layout::kBoxes:
-      return read_section(fd, section, content.tree.boxes);
-    default:
-      return false;
-  }
+/// Copies a section.
+template <class Value>
+void copy(std::span<const Value> values, std::vector<Value>& copied) {
+  copied.reserve(values.size());
+  prepare_pages(copied.data(), values.size_bytes());
+  copied.assign(values.begin(), values.end());
 }
 
-/// Reads all sections, several at the same time. Returns false if any is damaged.
-bool read_sections(int fd, const layout::Header& header, unsigned threads, Content& content) {
+/// Compares the digests of all sections, and copies vertices and triangles, several at the same
+/// time. Returns false if a section is damaged.
+bool take_whole(const Content& content, unsigned threads, Mesh& mesh) {
   // The largest first, so that all threads end together.
   std::array<std::size_t, layout::kSectionCount> order{};
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::sort(order, std::ranges::greater{},
-                    [&](std::size_t i) { return header.sections[i].bytes; });
+                    [&](std::size_t i) { return content.header.sections[i].bytes; });
   std::array<bool, layout::kSectionCount> is_whole{};
   base::for_each_chunk(threads, order.size(), [&](unsigned, std::size_t i) {
-    is_whole[order[i]] = read_section(fd, header, order[i], content);
+    const std::size_t name = order[i];
+    is_whole[name] = content.is_whole(name);
+    if (!is_whole[name]) return;
+    if (name == layout::kVertices) copy(content.values<Vec3>(layout::kVertices), mesh.vertices);
+    if (name == layout::kTriangles) {
+      copy(content.values<std::array<std::uint32_t, 3>>(layout::kTriangles), mesh.triangles);
+    }
   });
   return std::ranges::all_of(is_whole, [](bool whole) { return whole; });
 }
@@ -255,7 +239,7 @@ bool read_sections(int fd, const layout::Header& header, unsigned threads, Conte
 /// Divides the section of texts.
 class TextReader {
  public:
-  explicit TextReader(const std::string& text) : text_(text) {}
+  explicit TextReader(std::string_view text) : text_(text) {}
 
   /// Takes the next text. Returns false if it is longer than what is left, or not printable ASCII.
   bool take(std::uint64_t bytes, std::string& taken) {
@@ -267,7 +251,7 @@ class TextReader {
   [[nodiscard]] bool is_at_end() const { return at_ == text_.size(); }
 
  private:
-  const std::string& text_;
+  std::string_view text_;
   std::size_t at_ = 0;
 };
 
@@ -278,8 +262,8 @@ bool is_digest(const std::string& text) {
 
 /// Sets texts and objects of the scene. Returns false if they are wrong.
 bool take_texts(const Content& content, PreparedScene& prepared, Mesh& mesh) {
-  const layout::Facts& facts = content.facts[0];
-  TextReader reader(content.text);
+  const layout::Facts& facts = content.facts();
+  TextReader reader(content.text());
   std::string scene_file;
   if (!reader.take(facts.file_bytes, scene_file) ||
       !reader.take(facts.digest_bytes, prepared.digest) || !is_digest(prepared.digest) ||
@@ -288,7 +272,7 @@ bool take_texts(const Content& content, PreparedScene& prepared, Mesh& mesh) {
     return false;
   }
   std::uint64_t first = 0;
-  for (const layout::Object& object : content.objects) {
+  for (const layout::Object& object : content.values<layout::Object>(layout::kObjects)) {
     MeshObject& made = mesh.objects.emplace_back();
     made.first_triangle = static_cast<std::uint32_t>(first);
     made.triangle_count = object.triangles;
@@ -320,24 +304,33 @@ bool take_report(const layout::Facts& facts, const Mesh& mesh, const ImportOptio
 }
 
 /// Sets the field. Returns why it is wrong, or an empty text.
-std::string take_field(Content& content, PreparedScene& prepared) {
-  const layout::Facts& facts = content.facts[0];
-  const bool has_field = !content.field_codes.empty();
+std::string take_field(const Content& content, PreparedScene& prepared) {
+  const layout::Facts& facts = content.facts();
+  base::Array<std::uint8_t> codes = content.array<std::uint8_t>(layout::kFieldCodes);
+  const bool has_field = !codes.empty();
   if (has_field != prepared.why_no_field.empty()) return "there is a field and no field";
   if (!has_field) return {};
   base::Result<std::shared_ptr<const DistanceField>> field =
-      DistanceField::of_codes(prepared.report.bounds_m, facts.field_resolution_m,
-                              std::move(content.field_codes), facts.field_settled_share);
+      DistanceField::of_codes(prepared.report.bounds_m, facts.field_resolution_m, std::move(codes),
+                              facts.field_settled_share);
   if (field) prepared.field = *std::move(field);
   return field.error;
 }
 
+base::Result<IndexTree> tree_of(const Content& content, std::size_t triangles) {
+  const layout::Facts& facts = content.facts();
+  if (facts.tree_depth > kMaxIndexDepth) return Failure{"the tree is too deep"};
+  IndexArrays arrays{
+      content.array<IndexNode>(layout::kNodes), content.array<std::uint32_t>(layout::kLeafBegin),
+      content.array<std::uint32_t>(layout::kReferences), content.array<ByteBoxes>(layout::kBoxes),
+      static_cast<std::uint32_t>(facts.tree_depth)};
+  return IndexTree::of_arrays(std::move(arrays), triangles, box_of(facts.tree_bounds_m));
+}
+
 /// Makes the scene of what was read. Returns why it is wrong, or an empty text.
-std::string assemble(Content& content, const ImportOptions& options, unsigned threads,
-                     PreparedScene& prepared) {
-  if (content.facts.size() != 1) return "there are no facts";
-  const layout::Facts& facts = content.facts[0];
-  Mesh& mesh = content.mesh;
+std::string assemble(const Content& content, const ImportOptions& options, unsigned threads,
+                     Mesh mesh, PreparedScene& prepared) {
+  const layout::Facts& facts = content.facts();
   const base::Result<Box> bounds = checked_bounds(mesh, threads);
   if (!bounds) return bounds.error;
   const std::array<double, 6> corners = corners_of(*bounds);
@@ -347,10 +340,7 @@ std::string assemble(Content& content, const ImportOptions& options, unsigned th
   if (!take_texts(content, prepared, mesh)) return "the texts are wrong";
   if (!take_report(facts, mesh, options, prepared.report)) return "the report is wrong";
   if (std::string fault = take_field(content, prepared); !fault.empty()) return fault;
-  if (facts.tree_depth > kMaxIndexDepth) return "the tree is too deep";
-  content.tree.depth = static_cast<std::uint32_t>(facts.tree_depth);
-  base::Result<IndexTree> tree = IndexTree::of_arrays(
-      std::move(content.tree), mesh.triangles.size(), box_of(facts.tree_bounds_m));
+  base::Result<IndexTree> tree = tree_of(content, mesh.triangles.size());
   if (!tree) return tree.error;
   auto indexed = std::make_shared<IndexedMesh>();
   indexed->tree = *std::move(tree);
@@ -389,38 +379,35 @@ bool write_prepared(int fd, const SceneKey& key, const std::string& scene_file,
 
 base::Result<PreparedScene> read_prepared(int fd, const SceneKey& key,
                                           const ImportOptions& options) {
-  std::uint64_t file_bytes = 0;
-  const base::Result<layout::Header> header = read_header(fd, file_bytes);
-  if (!header) return Failure{header.error};
-  if (header->key != key.bytes ||
-      std::string_view(header->build.data(), header->build.size()) != scene_build()) {
+  const base::Result<Content> content = open_content(fd, FileBytes::Use::kLong);
+  if (!content) return Failure{content.error};
+  const std::array<char, 32>& build = content->header.build;
+  if (content->header.key != key.bytes ||
+      std::string_view(build.data(), build.size()) != scene_build()) {
     return Failure{"the file holds another scene, or is of another build"};
   }
-  const unsigned threads = file_bytes < kBytesForThreads ? 1 : base::chunk_threads(0);
-  Content content;
-  if (!read_sections(fd, *header, threads, content)) return Failure{"a section is damaged"};
+  const bool is_small = content->file->bytes().size() < kBytesForThreads;
+  const unsigned threads = is_small ? 1 : base::chunk_threads(0);
+  Mesh mesh;
+  if (!take_whole(*content, threads, mesh)) return Failure{"a section is damaged"};
   PreparedScene prepared;
-  std::string fault = assemble(content, options, threads, prepared);
+  std::string fault = assemble(*content, options, threads, std::move(mesh), prepared);
   if (!fault.empty()) return Failure{std::move(fault)};
   return prepared;
 }
 
 base::Result<PreparedFacts> read_prepared_facts(int fd) {
-  std::uint64_t file_bytes = 0;
-  const base::Result<layout::Header> header = read_header(fd, file_bytes);
-  if (!header) return Failure{header.error};
-  Content content;
-  if (!read_section(fd, *header, layout::kFacts, content) ||
-      !read_section(fd, *header, layout::kText, content) || content.facts.size() != 1) {
+  const base::Result<Content> content = open_content(fd, FileBytes::Use::kBrief);
+  if (!content) return Failure{content.error};
+  if (!content->is_whole(layout::kFacts) || !content->is_whole(layout::kText)) {
     return Failure{"the facts are damaged"};
   }
   PreparedFacts facts;
-  if (!TextReader(content.text).take(content.facts[0].file_bytes, facts.scene_file)) {
+  if (!TextReader(content->text()).take(content->facts().file_bytes, facts.scene_file)) {
     return Failure{"the texts are wrong"};
   }
-  facts.triangles =
-      header->sections[layout::kTriangles].bytes / kElementBytes[layout::kTriangles];
-  facts.build = printable({header->build.data(), header->build.size()});
+  facts.triangles = content->section(layout::kTriangles).size() / kElementBytes[layout::kTriangles];
+  facts.build = printable({content->header.build.data(), content->header.build.size()});
   return facts;
 }
 

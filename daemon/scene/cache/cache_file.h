@@ -14,8 +14,8 @@ namespace camway::scene {
 /// Returns the size of the file that `write_prepared` makes.
 std::uint64_t prepared_bytes(const std::string& scene_file, const PreparedScene& prepared);
 
-/// Writes the scene into an empty file that is open for writing. `scene_file` names the file that it
-/// was read from, for lists. Returns false if not all could be written.
+/// Writes the scene into an empty file that is open for writing. `scene_file` names the file that
+/// it was read from, for lists. Returns false if not all could be written.
 bool write_prepared(int fd, const SceneKey& key, const std::string& scene_file,
                     const PreparedScene& prepared);
 
@@ -23,11 +23,11 @@ bool write_prepared(int fd, const SceneKey& key, const std::string& scene_file,
 /// the key was made with. Returns the fault of any other file: believes no size before the file has
 /// so many bytes, compares the digest of each section, and checks everything that the scene is
 /// used with, so that the mesh is one that an import could have made, and no query leaves the
-/// arrays of tree and field. The content of tree and field is covered by the digests alone: whoever
-/// forges a file with right digests can also forge the boxes of the tree.
+/// arrays of tree and field. That the boxes of the tree and the bounds of the field are right is
+/// covered by the digests alone.
 ///
-/// The file is read into memory, not mapped: what was checked cannot change later, and a file that
-/// is cut, or a disk that fails, ends no process. Measured, reading takes a third of the whole.
+/// Tree and field refer to the file, which is mapped into memory (`FileBytes`). Requires that
+/// nobody writes into the file any more; it may be removed.
 base::Result<PreparedScene> read_prepared(int fd, const SceneKey& key,
                                           const ImportOptions& options);
 

@@ -8,8 +8,8 @@
 
 #include "daemon/base/digest.h"
 
-/// The layout of a file of the cache: a `Header`, then the sections that it lists. Sections begin at
-/// multiples of kAlignment and are arrays as they stand in memory.
+/// The layout of a file of the cache: a `Header`, then the sections that it lists. Sections begin
+/// at multiples of kAlignment and are arrays as they stand in memory.
 namespace camway::scene::cache_layout {
 
 static_assert(std::endian::native == std::endian::little, "files hold numbers as in memory");

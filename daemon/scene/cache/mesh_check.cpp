@@ -45,9 +45,8 @@ bool add_triangles(const Mesh& mesh, std::size_t chunk, Box& box) {
 template <class Check>
 bool holds_for_all(unsigned threads, std::size_t chunks, const Check& check) {
   std::vector<std::uint8_t> holds(chunks);
-  base::for_each_chunk(threads, chunks, [&](unsigned, std::size_t chunk) {
-    holds[chunk] = check(chunk) ? 1 : 0;
-  });
+  base::for_each_chunk(threads, chunks,
+                       [&](unsigned, std::size_t chunk) { holds[chunk] = check(chunk) ? 1 : 0; });
   return std::ranges::all_of(holds, [](std::uint8_t held) { return held != 0; });
 }
 

@@ -173,9 +173,9 @@ bool SceneCache::store(const SceneKey& key, const fs::path& scene_file,
                                    S_IRUSR | S_IWUSR));
   if (!file.is_open()) return false;
   // Without fsync: after a power failure the digests tell whether all of the file is there.
-  const bool is_kept = write_prepared(file.get(), key, shown, prepared) &&
-                       renameat(folder.get(), name.c_str(), folder.get(),
-                                file_name(key).c_str()) == 0;
+  const bool is_kept =
+      write_prepared(file.get(), key, shown, prepared) &&
+      renameat(folder.get(), name.c_str(), folder.get(), file_name(key).c_str()) == 0;
   if (!is_kept) unlinkat(folder.get(), name.c_str(), 0);
   return is_kept;
 }

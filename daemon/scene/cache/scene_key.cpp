@@ -38,8 +38,7 @@ bool add_content(base::Digest& digest, const std::filesystem::path& path) {
   struct stat status {};
   if (file.get() < 0 || fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
   constexpr std::size_t kReadBytes = std::size_t{1} << 18;
-  std::vector<std::byte> piece(
-      std::min(kReadBytes, static_cast<std::size_t>(status.st_size) + 1));
+  std::vector<std::byte> piece(std::min(kReadBytes, static_cast<std::size_t>(status.st_size) + 1));
   std::uint64_t size = 0;
   for (;;) {
     const ssize_t got = read(file.get(), piece.data(), piece.size());

@@ -76,7 +76,7 @@ class TreeCheck {
 
 /// Whether each leaf has items that increase and are below `items`.
 bool has_sound_leaves(const IndexArrays& arrays, std::size_t items) {
-  const std::vector<std::uint32_t>& begin = arrays.leaf_begin;
+  const base::Array<std::uint32_t>& begin = arrays.leaf_begin;
   if (begin.front() != 0 || begin.back() != arrays.references.size()) return false;
   // Before any reference is read: then all ranges lie between the first and the last begin.
   if (!std::ranges::is_sorted(begin)) return false;

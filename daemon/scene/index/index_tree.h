@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/base/array.h"
 #include "daemon/base/result.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/index/index_node.h"
@@ -35,10 +36,10 @@ inline constexpr unsigned kMaxIndexThreads = 8;
 
 /// The arrays of a tree: what a file keeps of it. `IndexTree` documents them.
 struct IndexArrays {
-  std::vector<IndexNode> nodes;            ///< nodes, the root first
-  std::vector<std::uint32_t> leaf_begin;   ///< leaf i holds references[leaf_begin[i] .. [i + 1])
-  std::vector<std::uint32_t> references;   ///< numbers of items
-  std::vector<ByteBoxes> boxes;            ///< boxes of references, by eight, in the parent's frame
+  base::Array<IndexNode> nodes;           ///< nodes, the root first
+  base::Array<std::uint32_t> leaf_begin;  ///< leaf i holds references[leaf_begin[i] .. [i + 1])
+  base::Array<std::uint32_t> references;  ///< numbers of items
+  base::Array<ByteBoxes> boxes;           ///< boxes of references, by eight, in the parent's frame
   std::uint32_t depth = 0;
 
   bool operator==(const IndexArrays&) const = default;
@@ -84,7 +85,8 @@ class IndexTree {
   /// Number of inner nodes; octants without a triangle are not stored.
   [[nodiscard]] std::size_t nodes() const { return arrays_.nodes.size(); }
   [[nodiscard]] std::uint32_t leaves() const {
-    return arrays_.leaf_begin.empty() ? 0 : static_cast<std::uint32_t>(arrays_.leaf_begin.size() - 1);
+    return arrays_.leaf_begin.empty() ? 0
+                                      : static_cast<std::uint32_t>(arrays_.leaf_begin.size() - 1);
   }
   [[nodiscard]] std::uint32_t depth() const { return arrays_.depth; }
   /// Number of entries in leaves, duplicates included.
@@ -101,7 +103,6 @@ class IndexTree {
   [[nodiscard]] bool is_same_as(const IndexTree& other) const;
 
  private:
-  friend class IndexAssembler;
   friend class IndexWalk;
 
   /// The tree of a part with all entries, which `splitter` divides.

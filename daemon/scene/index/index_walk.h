@@ -47,7 +47,8 @@ class IndexWalk {
       const std::uint32_t end = tree_.arrays_.leaf_begin[leaf_ + 1];
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
-        look(query, tree_.arrays_.nodes[parent_].frame, tree_.arrays_.boxes[first / kNodeWidth], gaps);
+        look(query, tree_.arrays_.nodes[parent_].frame, tree_.arrays_.boxes[first / kNodeWidth],
+             gaps);
         // A group of eight boxes may belong to several leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);

@@ -29,8 +29,8 @@ struct SceneFlags {
                                      const planning::PlanRequest& request) const;
 };
 
-/// Adds --scene, --scale, --up, --unknown and --no-cache. Returns the option --scene, which the caller may make
-/// a required one.
+/// Adds --scene, --scale, --up, --unknown and --no-cache. Returns the option --scene, which the
+/// caller may make a required one.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
 /// Adds these flags to a command that reads a request. A flag that is not given takes its value
@@ -50,8 +50,8 @@ struct LoadedScene {
   double load_ms = 0.0;
 };
 
-/// Returns this user's cache of prepared scenes; nothing with --no-cache or without a folder. Prints
-/// a warning if the folder cannot be used. Call it once in a command.
+/// Returns this user's cache of prepared scenes; nothing with --no-cache or without a folder.
+/// Prints a warning if the folder cannot be used. Call it once in a command.
 std::optional<scene::SceneCache> user_cache(const SceneFlags& flags);
 
 /// Loads each file once for each set of import options. Not thread-safe.
