@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <array>
+#include <limits>
+
 #include "daemon/scene/index/scene_index.h"
 #include "tests/fuzz/targets.h"
 #include "tests/scene/cache/prepared_samples.h"
@@ -22,7 +25,8 @@ void ask(const scene::PreparedScene& prepared) {
     promise(!nearest || nearest->triangle < index.size(), "the nearest triangle exists");
     const auto hit = index.closest_hit({at, bounds.max()});
     promise(!hit || hit->triangle < index.size(), "the triangle that is hit exists");
-    index.intersects(body[0]);
+    promise(!index.intersects(body[0]) || index.first_intersection(body[0]),
+            "what is touched is a triangle");
     if (prepared.field) {
       promise(prepared.field->clearance_at_least_m(at) >= 0.0, "a clearance is not negative");
     }
@@ -53,6 +57,6 @@ std::vector<FuzzBytes> cache_file_seeds() {
 }  // namespace
 
 constinit const FuzzTarget kCacheFileTarget{"cache_file", exercise_cache_file, cache_file_seeds,
-                                            4'000};
+                                            20'000};
 
 }  // namespace camway::testing

@@ -40,7 +40,7 @@ TEST(CacheFile, KeepsAReportOtherThanTheUsual) {
                     1.0,
                     UpAxis::kAsInFile,
                     written.report.vertices,
-                    36,
+                    72,
                     2,
                     written.report.bounds_m,
                     1,
@@ -178,7 +178,7 @@ const Forgery kForgeries[] = {
        first_of<layout::Object>(b, layout::kObjects).name_bytes -= 1;
      }},
     {"DeepTree", [](Bytes b) { facts_of(b).tree_depth = kMaxIndexDepth + 1; }},
-    {"TriangleThatDoesNotExist", [](Bytes b) { numbers_of(b, layout::kReferences).front() = 36; }},
+    {"TriangleThatDoesNotExist", [](Bytes b) { numbers_of(b, layout::kReferences).front() = 72; }},
     {"LeafThatBeginsBeforeTheOneBefore",
      [](Bytes b) { numbers_of(b, layout::kLeafBegin)[1] = 4'000'000; }},
     {"LeafThatBeginsLater", [](Bytes b) { numbers_of(b, layout::kLeafBegin)[0] = 1; }},

@@ -27,7 +27,7 @@ std::string text_of(const FileBytes& bytes) {
 TEST(FileBytes, AreTheSameMappedAndRead) {
   const testing::TemporaryFolder folder;
   testing::Random random(20261125);
-  for (const std::size_t size : {1, 63, 4096, 4097, 5'000'000}) {
+  for (const std::size_t size : {1U, 63U, 4096U, 4097U, 5'000'000U}) {
     std::string text(size, ' ');
     std::ranges::generate(text, [&] { return static_cast<char>(random() % 256); });
     const base::FileDescriptor file = open_to_read(folder.write("file", text));

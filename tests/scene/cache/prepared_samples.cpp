@@ -40,10 +40,12 @@ scene::PreparedScene prepared_of(const scene::Snapshot& snapshot) {
 
 scene::PreparedScene small_prepared(bool has_field) {
   scene::Mesh mesh;
-  add_cuboid(mesh, {0, 0, 0}, {4, 3, 2});
-  add_cuboid(mesh, {-1, 5, 0}, {2, 6, 7});
-  add_cuboid(mesh, {3.5, 5, 3}, {4, 5.5, 4});
-  mesh.objects = {{"table", 0, 12}, {"shelf", 12, 24}};
+  constexpr int kCuboids = 6;
+  for (int i = 0; i < kCuboids; ++i) {
+    const Vec3 corner(3.0 * i, 2.0 * (i % 2), 5.0 * (i % 3));
+    add_cuboid(mesh, corner, corner + Vec3(1, 2, 1.5));
+  }
+  mesh.objects = {{"table", 0, 12}, {"shelf", 12, 12 * (kCuboids - 1)}};
   scene::SnapshotOptions options;
   options.index.threshold = 2;  // so that the tree has several levels
   if (!has_field) options.field.reset();

@@ -16,7 +16,7 @@ namespace camway::testing {
 /// Returns what was prepared of a scene with one object.
 scene::PreparedScene prepared_of(const scene::Snapshot& snapshot);
 
-/// Returns a scene of 36 triangles with two objects, with a field or without.
+/// Returns a scene of 72 triangles with two objects, with a field or without.
 scene::PreparedScene small_prepared(bool has_field);
 
 /// The key that `file_of` writes.
