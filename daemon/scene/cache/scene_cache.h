@@ -16,9 +16,9 @@ namespace camway::scene {
 struct SceneCacheLimits {
   /// Size of all files together. The scene that was used the longest ago makes room.
   std::uint64_t bytes = std::uint64_t{2} << 30;
-  /// Scenes with fewer triangles are not kept: they are prepared in a few milliseconds, most of
-  /// which go to the import process.
-  std::size_t least_triangles = 2000;
+  /// Scenes with fewer triangles are not kept: reading and preparing them takes less than 10 ms, of
+  /// which most go to the import process, and many small files would be slow to look through.
+  std::size_t least_triangles = 500;
 };
 
 /// A prepared scene in the cache.
