@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 

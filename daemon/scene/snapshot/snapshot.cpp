@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/import/import.h"
 
 namespace camway::scene {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/field/clearance_field.h"
 #include "daemon/scene/import/record/import_options.h"
 #include "daemon/scene/import/record/import_report.h"
@@ -21,6 +20,8 @@
 #include "daemon/scene/snapshot/scene_object.h"
 
 namespace camway::scene {
+
+class SceneCache;
 
 struct SnapshotOptions : ObjectOptions {
   ImportOptions import;

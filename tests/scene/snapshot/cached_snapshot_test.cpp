@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/scene/cache/prepared_matchers.h"
 #include "tests/scene/cache/prepared_samples.h"

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/json/json_io.h"
 
