@@ -20,11 +20,13 @@ std::string text_of(const geometry::Vec3& point) {
   return fmt::format("{:.3g},{:.3g},{:.3g}", point.x(), point.y(), point.z());
 }
 
-void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, service::Log& log) {
+void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, bool is_from_cache,
+               service::Log& log) {
   const scene::ImportReport& report = snapshot.report;
   log.info("scene read", {{"scene", snapshot.name},
                           {"file", scene.file.string()},
                           {"format", report.format},
+                          {"from_cache", is_from_cache ? "yes" : "no"},
                           {"triangles", report.triangles},
                           {"min_m", text_of(report.bounds_m.min())},
                           {"max_m", text_of(report.bounds_m.max())},
@@ -176,7 +178,7 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   log_->info("scene file changed", {{"scene", scene.name},
                                     {"file", scene.file.string()},
                                     {"revision", changed.snapshot->revision}});
-  log_scene(*changed.snapshot, scene, *log_);
+  log_scene(*changed.snapshot, scene, false, *log_);
   return true;
 }
 
@@ -189,7 +191,8 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
 std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,
                                                               const std::stop_token& stop) {
   log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
-  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
+  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop,
+                                                      cache_ ? &*cache_ : nullptr);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
     const std::string reason = service::with_setting(result.error, result.limit);
@@ -197,7 +200,7 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
                 {{"scene", scene.name}, {"said_at", scene.said_at}, {"reason", reason}});
     note_fault(scene.name, reason);
   } else {
-    log_scene(*result.snapshot, scene, *log_);
+    log_scene(*result.snapshot, scene, result.is_from_cache, *log_);
   }
   return result.snapshot;
 }

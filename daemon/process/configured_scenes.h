@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "daemon/process/settings/scene_argument.h"
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 
@@ -17,9 +19,10 @@ namespace camway::process {
 /// Not thread-safe.
 class ConfiguredScenes {
  public:
-  /// `store` must outlive this.
-  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<service::Log> log)
-      : store_(store), log_(std::move(log)) {}
+  /// `store` must outlive this. `cache` has the prepared forms of scenes that are loaded.
+  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<service::Log> log,
+                   std::optional<scene::SceneCache> cache = std::nullopt)
+      : store_(store), log_(std::move(log)), cache_(std::move(cache)) {}
 
   /// Makes the store hold `wanted`, and removes the scenes of earlier calls that are no longer
   /// wanted. Loads scenes that are new, that are to be read with other options or whose file
@@ -69,6 +72,7 @@ class ConfiguredScenes {
 
   scene::SceneStore& store_;
   std::shared_ptr<service::Log> log_;
+  std::optional<scene::SceneCache> cache_;
   std::vector<Held> held_;
   std::string fault_;
 };

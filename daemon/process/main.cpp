@@ -3,6 +3,8 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "daemon/base/standard_streams.h"
 #include "daemon/process/configured_scenes.h"
@@ -35,7 +37,13 @@ int run(int argc, char** argv) {
 
   process::block_reload_signal();  // a reload that is asked for now comes after the scenes
   scene::SceneStore scenes(parsed.options->store);
-  process::ConfiguredScenes configured(scenes, log);
+  std::optional<scene::SceneCache> cache = process::scene_cache(*parsed.options);
+  if (const std::string fault = cache ? cache->fault() : ""; !fault.empty()) {
+    log->warn("the cache of scenes is not used",
+              {{"folder", cache->folder().string()}, {"reason", fault}});
+    cache.reset();
+  }
+  process::ConfiguredScenes configured(scenes, log, std::move(cache));
   // A stop signal while scenes are being read ends the process at once: no client depends on it
   // yet.
   if (!configured.update(parsed.options->scenes)) return kExitBadInput;

@@ -24,6 +24,7 @@ class Session:
             whole = pathlib.Path(source) / name
             shutil.copytree(whole, target) if whole.is_dir() else shutil.copy(whole, target)
         self._environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", TZ="UTC",
+                                 CAMWAY_CACHE_DIR=str(self.folder / "cache"),
                                  PYTHONPATH=str(pathlib.Path(__file__).parent))
         self._daemon = None
 

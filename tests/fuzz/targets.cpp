@@ -10,7 +10,7 @@ std::span<const FuzzTarget> fuzz_targets() {
   static const std::array all{kWireTarget,        kEnvelopeTarget,     kMeshTarget,
                               kRequestJsonTarget, kResponseJsonTarget, kPathJsonTarget,
                               kSessionTarget,     kImportRecordTarget, kMapFileTarget,
-                              kConfigTarget,      kKeyFileTarget};
+                              kCacheFileTarget,   kConfigTarget,       kKeyFileTarget};
   return all;
 }
 

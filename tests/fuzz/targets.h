@@ -60,6 +60,7 @@ extern const FuzzTarget kPathJsonTarget;
 extern const FuzzTarget kSessionTarget;
 extern const FuzzTarget kImportRecordTarget;
 extern const FuzzTarget kMapFileTarget;
+extern const FuzzTarget kCacheFileTarget;
 extern const FuzzTarget kConfigTarget;
 extern const FuzzTarget kKeyFileTarget;
 

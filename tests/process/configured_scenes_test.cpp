@@ -66,6 +66,17 @@ TEST_F(ConfiguredScenesTest, LoadsWhatIsNewAndLeavesTheRestAlone) {
   EXPECT_EQ(revision_of("hall"), 1U);
 }
 
+TEST_F(ConfiguredScenesTest, SaysWhetherASceneWasInTheCache) {
+  const scene::SceneCache cache(folder_.path() / "cache", {.least_triangles = 1});
+  for (const char* const from_cache : {"from_cache=no", "from_cache=yes"}) {
+    scene::SceneStore store;
+    ConfiguredScenes scenes(store, log_.log(), cache);
+    EXPECT_TRUE(scenes.update({scene_of("room", room_)}));
+    EXPECT_EQ(count_of(from_cache), 1) << log_.text();
+    EXPECT_EQ(store.find("room")->index.size(), 1U);
+  }
+}
+
 TEST_F(ConfiguredScenesTest, RemovesWhatItHeldItselfAndNothingElse) {
   auto other = std::make_shared<scene::Snapshot>();
   other->name = "uploaded";

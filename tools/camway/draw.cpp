@@ -90,7 +90,8 @@ ExitCode run_draw(const DrawFlags& flags) {
   }
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options(request->reading);
-  const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
+  const scene::SnapshotResult loaded =
+      load_timed(scene_file, scene_file, options, user_cache(flags.scene)).result;
   if (!loaded.snapshot) return invalid(loaded.error);
   warn_of_another_scene(flags, *loaded.snapshot);
   const std::filesystem::path picture(flags.picture);

@@ -183,7 +183,8 @@ ExitCode run_info(const InfoFlags& flags) {
   options.import = flags.scene.import_options();
   options.index.threshold = flags.octree_threshold;
   options.occupancy_resolution_m = flags.occupancy_m;
-  const LoadedScene loaded = load_timed(flags.scene.file, flags.scene.file, options);
+  const LoadedScene loaded =
+      load_timed(flags.scene.file, flags.scene.file, options, user_cache(flags.scene));
   if (!loaded.result.snapshot) {
     print_error(loaded.result.error);
     return ExitCode::kInvalidInput;

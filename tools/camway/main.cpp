@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +14,35 @@
 #include "tools/camway/common/commands.h"
 
 namespace {
+
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
+};
+
+constexpr std::array<Command, 12> kCommands{{
+    {"plan", camway::tools::add_plan_command},
+    {"check", camway::tools::add_check_command},
+    {"info", camway::tools::add_info_command},
+    {"occupancy", camway::tools::add_occupancy_command},
+    {"load", camway::tools::add_load_command},
+    {"replay", camway::tools::add_replay_command},
+    {"scene", camway::tools::add_scene_command},
+    {"draw", camway::tools::add_draw_command},
+    {"cache", camway::tools::add_cache_command},
+    {"status", camway::tools::add_status_command},
+    {"doctor", camway::tools::add_doctor_command},
+    {"watch", camway::tools::add_watch_command},
+}};
+
+/// Adds the command of that name; all commands if there is none, for the help and for errors. The
+/// flags of all commands take longer to declare than many a plan.
+void add_commands(CLI::App& app, std::string_view name, camway::tools::ExitCode& exit_code) {
+  const auto named = std::ranges::find(kCommands, name, &Command::name);
+  for (const Command& command : kCommands) {
+    if (named == kCommands.end() || command.name == name) command.add(app, exit_code);
+  }
+}
 
 int run(int argc, char** argv) {
   using camway::tools::ExitCode;
@@ -25,17 +57,7 @@ int run(int argc, char** argv) {
       camway::tools::exit_code_help(
           "the answer is no (plan, check, occupancy, load, replay, doctor and watch say of what)",
           /*asks_daemon=*/true));
-  camway::tools::add_plan_command(app, exit_code);
-  camway::tools::add_check_command(app, exit_code);
-  camway::tools::add_info_command(app, exit_code);
-  camway::tools::add_occupancy_command(app, exit_code);
-  camway::tools::add_load_command(app, exit_code);
-  camway::tools::add_replay_command(app, exit_code);
-  camway::tools::add_scene_command(app, exit_code);
-  camway::tools::add_draw_command(app, exit_code);
-  camway::tools::add_status_command(app, exit_code);
-  camway::tools::add_doctor_command(app, exit_code);
-  camway::tools::add_watch_command(app, exit_code);
+  add_commands(app, argc > 1 ? argv[1] : "", exit_code);
   camway::cli_support::refuse_flags_as_values(app);
   try {
     app.parse(argc, argv);

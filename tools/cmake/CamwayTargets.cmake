@@ -110,7 +110,8 @@ set(threaded_tests base client integration process scene service tools wire)
 # but those named after SLOW, which take more than a second.
 function(camway_test name)
   cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
-  camway_executable(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} GTest::gtest
+  camway_executable(${name} SOURCES ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/no_scene_cache.cpp
+                    DEPENDS ${arg_DEPENDS} GTest::gtest
                     GTest::gmock GTest::gtest_main Eigen3::Eigen)
   # Files of tests may repeat each other's short names.
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/process/metrics/http_page.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <microhttpd.h>
 #include <netinet/in.h>
@@ -16,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -43,34 +43,9 @@ class Descriptor {
   int fd_;
 };
 
-struct Address {
-  sockaddr_storage storage{};
-  socklen_t size = 0;
-};
-
-/// Returns false if the text is no address.
-bool parse(const HttpAddress& from, Address& to) {
-  auto* const v4 = reinterpret_cast<sockaddr_in*>(&to.storage);
-  auto* const v6 = reinterpret_cast<sockaddr_in6*>(&to.storage);
-  const auto port = htons(static_cast<std::uint16_t>(from.port));
-  if (inet_pton(AF_INET, from.ip.c_str(), &v4->sin_addr) == 1) {
-    v4->sin_family = AF_INET;
-    v4->sin_port = port;
-    to.size = sizeof *v4;
-    return true;
-  }
-  if (inet_pton(AF_INET6, from.ip.c_str(), &v6->sin6_addr) == 1) {
-    v6->sin6_family = AF_INET6;
-    v6->sin6_port = port;
-    to.size = sizeof *v6;
-    return true;
-  }
-  return false;
-}
-
 /// Listens; returns false with `errno` set if that is not possible. Takes a port whose last user
 /// ended a moment ago, but not one on which somebody listens.
-bool listen_on(int socket, const Address& address) {
+bool listen_on(int socket, const SocketAddress& address) {
   const int yes = 1;
   return socket >= 0 && setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
          bind(socket, reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0 &&
@@ -78,7 +53,7 @@ bool listen_on(int socket, const Address& address) {
 }
 
 int port_of(int socket) {
-  Address address;
+  SocketAddress address;
   address.size = sizeof address.storage;
   if (getsockname(socket, reinterpret_cast<sockaddr*>(&address.storage), &address.size) != 0) {
     return 0;
@@ -203,29 +178,16 @@ class MicroHttpPage final : public HttpPage {
 
 }  // namespace
 
-bool is_ip_address(const std::string& text) {
-  Address address;
-  return parse({text, 0}, address);
-}
-
-bool is_address_of_this_machine(const std::string& text) {
-  Address address;
-  if (!parse({text, 0}, address)) return false;
-  const Descriptor socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  return socket.get() >= 0 &&
-         bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0;
-}
-
 base::Result<std::unique_ptr<HttpPage>> open_http_page(const HttpAddress& address,
                                                        HttpContent content,
                                                        const HttpLimits& limits) {
-  Address parsed;
-  if (!parse(address, parsed)) {
+  const std::optional<SocketAddress> parsed = socket_address(address);
+  if (!parsed) {
     return base::Failure{fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
   }
   const std::string where = fmt::format("cannot listen on {} port {}", address.ip, address.port);
-  Descriptor socket(::socket(parsed.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (!listen_on(socket.get(), parsed)) {
+  Descriptor socket(::socket(parsed->storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!listen_on(socket.get(), *parsed)) {
     return base::Failure{fmt::format("{}: {}", where, std::strerror(errno))};
   }
   auto page = std::make_unique<MicroHttpPage>(std::move(content), limits);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "daemon/base/result.h"
+#include "daemon/process/metrics/http_address.h"
 
 namespace camway::process {
 
@@ -19,16 +20,6 @@ class HttpPage {
   /// Returns the port on which it listens.
   [[nodiscard]] virtual int port() const = 0;
 };
-
-struct HttpAddress {
-  std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address of this machine
-  int port = 0;                  ///< 0: any free port [Limit: 0 <= value <= 65535]
-};
-
-/// Returns whether `text` is an IPv4 or IPv6 address.
-bool is_ip_address(const std::string& text);
-/// Returns whether this machine could listen on `text` now, whatever the port.
-bool is_address_of_this_machine(const std::string& text);
 
 struct HttpLimits {
   int connections = 16;  ///< connections at a time [Limit: 1 <= value <= 1000]

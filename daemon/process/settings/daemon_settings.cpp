@@ -168,6 +168,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
       {"scenes.roots", &options.scene_roots, 0, 0, false, nullptr, Setting::Path::kFolders},
       {"scenes.write_maps", &service.scene_rules.write_maps},
+      {"scenes.cache_folder", &options.cache_folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"scenes.cache_bytes", &options.cache_bytes, 0, kManyBytes},
       {"scenes.workers", &service.scene_workers, 1, service::kMaxWorkers},
       {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
       {"scenes.max_deadline_s", &service.change_deadline.max_s, 1e-3, kDayS},

@@ -2,6 +2,7 @@
 #include "daemon/process/settings/options.h"
 
 #include <cstdlib>
+#include <utility>
 
 namespace camway::process {
 
@@ -13,6 +14,13 @@ std::string url_of_environment() {
 std::string DaemonOptions::where(std::string_view key) const {
   const auto said = said_at.find(key);
   return said == said_at.end() ? std::string(key) : said->second;
+}
+
+std::optional<scene::SceneCache> scene_cache(const DaemonOptions& options) {
+  std::filesystem::path folder = options.cache_folder;
+  if (folder.empty()) folder = scene::cache_folder_of_environment();
+  if (folder.empty() || options.cache_bytes == 0) return std::nullopt;
+  return scene::SceneCache(std::move(folder), {.bytes = options.cache_bytes});
 }
 
 DaemonOptions default_options() {

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "daemon/process/metrics/http_page.h"
 #include "daemon/process/settings/scene_argument.h"
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 #include "daemon/service/service_config.h"
@@ -45,6 +47,8 @@ struct DaemonOptions {
   HttpAddress metrics;        ///< address of the page for Prometheus; port 0: no page
   HttpLimits metrics_limits = {};
   AuthOptions auth;
+  std::string cache_folder;  ///< of prepared scenes; empty: the one that the environment names
+  std::size_t cache_bytes = std::size_t{2} << 30;  ///< limit of the cache; 0: no cache
   scene::SceneStoreLimits store;
   service::ServiceConfig service;
   /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",
@@ -54,6 +58,10 @@ struct DaemonOptions {
   /// Returns where the setting of that key was set, for messages; the key itself if it was not.
   [[nodiscard]] std::string where(std::string_view key) const;
 };
+
+/// Returns the cache of prepared scenes that the options ask for; nothing if they ask for none, or
+/// neither they nor the environment name a folder.
+std::optional<scene::SceneCache> scene_cache(const DaemonOptions& options);
 
 /// Returns the built-in defaults. Their number of workers is 0, which stands for one for each core.
 DaemonOptions default_options();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "daemon/base/parallel_chunks.h"
 #include "daemon/geometry/rounding.h"
@@ -128,7 +129,7 @@ std::string too_little(double share, double resolution_m) {
 
 }  // namespace
 
-DistanceField::DistanceField(const CellGrid& grid, std::vector<std::uint8_t> codes,
+DistanceField::DistanceField(const CellGrid& grid, base::Array<std::uint8_t> codes,
                              double settled_share)
     : grid_(grid),
       row_(static_cast<std::size_t>(grid.size[0])),
@@ -137,7 +138,7 @@ DistanceField::DistanceField(const CellGrid& grid, std::vector<std::uint8_t> cod
       codes_(std::move(codes)) {
   statistics_.resolution_m = grid.resolution_m;
   statistics_.cells = grid.size;
-  statistics_.memory_bytes = sizeof *this + codes_.capacity();
+  statistics_.memory_bytes = sizeof *this + codes_.size();
   statistics_.settled_from_m = kSettlingCells * grid.resolution_m;
   statistics_.settled_share = settled_share;
 }
@@ -187,6 +188,20 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(
     return base::Failure{too_little(share, grid->resolution_m)};
   }
   return std::shared_ptr<const DistanceField>(new DistanceField(*grid, std::move(cells), share));
+}
+
+base::Result<std::shared_ptr<const DistanceField>> DistanceField::of_codes(
+    const geometry::Box& bounds, double resolution_m, base::Array<std::uint8_t> codes,
+    double settled_share) {
+  const std::optional<CellGrid> grid = CellGrid::around(bounds, resolution_m);
+  if (!grid || grid->cells() != codes.size()) {
+    return base::Failure{"the distance field has not as many cells as its grid"};
+  }
+  if (!(settled_share >= 0.0 && settled_share <= 1.0)) {
+    return base::Failure{"the distance field has a share of settled cells that is none"};
+  }
+  return std::shared_ptr<const DistanceField>(
+      new DistanceField(*grid, std::move(codes), settled_share));
 }
 
 }  // namespace camway::scene

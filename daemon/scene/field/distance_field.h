@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
+#include "daemon/base/array.h"
 #include "daemon/base/result.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/field/cell_grid.h"
@@ -72,6 +72,16 @@ class DistanceField {
   static base::Result<std::shared_ptr<const DistanceField>> build(
       const Mesh& mesh, const DistanceFieldOptions& options = {});
 
+  /// The field that `build` made in cells of `resolution_m` for a mesh with these bounds, of its
+  /// codes. Returns a reason instead if there is no such grid, the codes are not as many as its
+  /// cells, or the share is none. Whether the codes are right is not checked.
+  static base::Result<std::shared_ptr<const DistanceField>> of_codes(
+      const geometry::Box& bounds, double resolution_m, base::Array<std::uint8_t> codes,
+      double settled_share);
+  /// The level of every cell's bound, x fastest. A level stands for the same share of a cell in all
+  /// fields of a build.
+  [[nodiscard]] const base::Array<std::uint8_t>& codes() const { return codes_; }
+
   /// Lower bound of the distance from `point_W` to the nearest triangle, rounding included; 0 where
   /// nothing is known: near the scene, and for a point that is not finite. [Units: metres]
   [[nodiscard]] double clearance_at_least_m(const geometry::Vec3& point_W) const {
@@ -87,7 +97,7 @@ class DistanceField {
 
  private:
   /// `codes` holds the level of every cell's bound.
-  DistanceField(const CellGrid& grid, std::vector<std::uint8_t> codes, double settled_share);
+  DistanceField(const CellGrid& grid, base::Array<std::uint8_t> codes, double settled_share);
 
   /// The bound of a cell. Requires that `cell` lies in the grid.
   [[nodiscard]] double level_at(const geometry::Vec3& cell) const {
@@ -103,7 +113,7 @@ class DistanceField {
   std::size_t row_ = 0;    ///< distance in `codes_` from one y to the next
   std::size_t slice_ = 0;  ///< distance in `codes_` from one z to the next
   std::array<double, 256> level_m_{};
-  std::vector<std::uint8_t> codes_;
+  base::Array<std::uint8_t> codes_;
   DistanceFieldStatistics statistics_;
 };
 

@@ -21,6 +21,7 @@
 #include <system_error>
 #include <thread>
 
+#include "daemon/base/file_descriptor.h"
 #include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
@@ -55,26 +56,11 @@ std::optional<fs::path> find_program() {
   return std::nullopt;
 }
 
-/// Owns a file descriptor.
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 /// Opens a file for the output of the child. Its number is never that of a standard stream: these
 /// may be closed in this process, and are opened anew in the child. Returns a negative number, with
 /// `errno` set, on failure.
 int open_output() {
-  const FileDescriptor first(memfd_create("camway-import", MFD_CLOEXEC));
+  const base::FileDescriptor first(memfd_create("camway-import", MFD_CLOEXEC));
   return first.get() < 0 ? -1 : fcntl(first.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
@@ -196,7 +182,7 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
             {},
             std::string(kProgram) + " is neither beside this program nor on PATH"};
   }
-  const FileDescriptor output(open_output());
+  const base::FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};
   // A little more processor time, so that the limit of wall clock is reached first.
   const double cpu_s = std::ceil(std::clamp(time_limit_s, 0.0, 1e6)) + 1.0;

@@ -238,30 +238,29 @@ IndexPart all_of(const Mesh& mesh, const IndexOptions& options) {
   return all_of(entries_of(mesh, threads_for(options)), options);
 }
 
-}  // namespace
-
 /// Concatenates the chunks in the order in which a single thread would reach them.
 class IndexAssembler {
  public:
-  IndexAssembler(IndexTree& tree, Chunk& root) : tree_(tree) {
+  explicit IndexAssembler(Chunk& root) {
     place(root);
-    tree_.nodes_.resize(nodes_);
-    tree_.leaf_begin_.resize(leaves_ + std::size_t{1});
-    tree_.references_.resize(references_);
-    tree_.boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
-    tree_.depth_ = depth_;
+    node_list_.resize(nodes_);
+    leaf_begin_.resize(leaves_ + std::size_t{1});
+    reference_list_.resize(references_);
+    boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
   }
 
-  void fill(unsigned threads) {
+  IndexArrays assemble(unsigned threads) {
     const Chunk& root = *chunks_.front();
-    tree_.nodes_[0] = moved(root, root.root);
+    node_list_[0] = moved(root, root.root);
     std::atomic<std::size_t> next = 0;
     run_on_threads(std::min(threads, static_cast<unsigned>(chunks_.size())), [&] {
       for (std::size_t i = next.fetch_add(1); i < chunks_.size(); i = next.fetch_add(1)) {
         copy(*chunks_[i]);
       }
     });
-    tree_.leaf_begin_.back() = references_;
+    leaf_begin_.back() = references_;
+    return {std::move(node_list_), std::move(leaf_begin_), std::move(reference_list_),
+            std::move(boxes_), depth_};
   }
 
  private:
@@ -286,24 +285,27 @@ class IndexAssembler {
   /// Chunks write to separate ranges, so this may run for all of them in parallel.
   void copy(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
-      tree_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
+      node_list_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
     }
     for (const Chunk::Link& link : chunk.links) {
-      tree_.nodes_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
+      node_list_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
     }
     std::uint32_t begin = 0;
     for (std::size_t i = 0; i < chunk.leaf_ends.size(); ++i) {
-      tree_.leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
+      leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
       begin = chunk.leaf_ends[i];
     }
     for (std::size_t i = 0; i < chunk.references.size(); ++i) {
       const std::size_t at = chunk.first_reference + i;
-      tree_.references_[at] = chunk.references[i];
-      set_box(tree_.boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
+      reference_list_[at] = chunk.references[i];
+      set_box(boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
     }
   }
 
-  IndexTree& tree_;
+  std::vector<IndexNode> node_list_;
+  std::vector<std::uint32_t> leaf_begin_;
+  std::vector<std::uint32_t> reference_list_;
+  std::vector<ByteBoxes> boxes_;
   std::vector<Chunk*> chunks_;
   std::uint32_t nodes_ = 1;  ///< the root comes first
   std::uint32_t leaves_ = 0;
@@ -311,12 +313,14 @@ class IndexAssembler {
   std::uint32_t depth_ = 0;
 };
 
+}  // namespace
+
 IndexTree IndexTree::assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads) {
   IndexTree tree;
   if (all.entries.empty()) return tree;
   tree.bounds_ = all.box;
   const std::unique_ptr<Chunk> root = ChunkBuilder(splitter).build(std::move(all), threads);
-  IndexAssembler(tree, *root).fill(threads);
+  tree.arrays_ = IndexAssembler(*root).assemble(threads);
   return tree;
 }
 
@@ -353,13 +357,10 @@ std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh
 }
 
 std::uint64_t IndexTree::memory_bytes() const {
-  return nodes_.size() * sizeof(IndexNode) + boxes_.size() * sizeof(ByteBoxes) +
-         (references_.size() + leaf_begin_.size()) * sizeof(std::uint32_t);
+  return arrays_.nodes.size() * sizeof(IndexNode) + arrays_.boxes.size() * sizeof(ByteBoxes) +
+         (arrays_.references.size() + arrays_.leaf_begin.size()) * sizeof(std::uint32_t);
 }
 
-bool IndexTree::is_same_as(const IndexTree& other) const {
-  return nodes_ == other.nodes_ && leaf_begin_ == other.leaf_begin_ &&
-         references_ == other.references_ && boxes_ == other.boxes_;
-}
+bool IndexTree::is_same_as(const IndexTree& other) const { return arrays_ == other.arrays_; }
 
 }  // namespace camway::scene

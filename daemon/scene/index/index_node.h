@@ -68,10 +68,12 @@ struct IndexNode {
   ByteFrame frame;
   std::uint8_t node_count = 0;
   std::uint8_t child_count = 0;
+  std::array<std::uint8_t, 2> unused = {};  ///< 0: files of nodes have no bytes without a value
   std::uint32_t first_node = 0;
   std::uint32_t first_leaf = 0;
   /// boxes of the children; the entries of the leaves have boxes in this frame, too
   ByteBoxes boxes;
+  std::uint32_t unused_at_end = 0;
 
   bool operator==(const IndexNode&) const = default;
 };

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "daemon/base/array.h"
+#include "daemon/base/result.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/index/index_node.h"
 #include "daemon/scene/mesh/mesh.h"
@@ -30,6 +33,23 @@ struct IndexOptions {
 
 inline constexpr std::uint32_t kMaxIndexDepth = 20;
 inline constexpr unsigned kMaxIndexThreads = 8;
+
+/// The arrays of a tree: what a file keeps of it. `IndexTree` documents them.
+struct IndexArrays {
+  base::Array<IndexNode> nodes;           ///< nodes, the root first
+  base::Array<std::uint32_t> leaf_begin;  ///< leaf i holds references[leaf_begin[i] .. [i + 1])
+  base::Array<std::uint32_t> references;  ///< numbers of items
+  base::Array<ByteBoxes> boxes;           ///< boxes of references, by eight, in the parent's frame
+  std::uint32_t depth = 0;
+
+  bool operator==(const IndexArrays&) const = default;
+};
+
+/// Returns why no traversal may use these arrays for a tree over `items` items; empty if it may.
+/// Each node and each leaf has one parent, whose number is lower; nothing refers to what is not
+/// there; the depth is within the limits; the items of a leaf increase. Whether the boxes hold the
+/// items is not checked.
+std::string fault_in(const IndexArrays& arrays, std::size_t items);
 
 /// A spatial decomposition of items that have boxes: an octree over triangles (Ptacek & Johnstone
 /// 2006, section 3), or groups of boxes over meshes. One structure serves both, and any other tree
@@ -55,39 +75,41 @@ class IndexTree {
   /// The tree over `boxes`, each in one leaf, usually of its own. Requires that none is empty.
   static IndexTree of_boxes(std::span<const geometry::Box> boxes);
 
+  /// The tree of arrays from a file. Returns the fault that `fault_in` finds. `bounds` are the
+  /// bounds of the items.
+  static base::Result<IndexTree> of_arrays(IndexArrays arrays, std::size_t items,
+                                           const geometry::Box& bounds);
+  [[nodiscard]] const IndexArrays& arrays() const { return arrays_; }
+
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
   /// Number of inner nodes; octants without a triangle are not stored.
-  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
+  [[nodiscard]] std::size_t nodes() const { return arrays_.nodes.size(); }
   [[nodiscard]] std::uint32_t leaves() const {
-    return leaf_begin_.empty() ? 0 : static_cast<std::uint32_t>(leaf_begin_.size() - 1);
+    return arrays_.leaf_begin.empty() ? 0
+                                      : static_cast<std::uint32_t>(arrays_.leaf_begin.size() - 1);
   }
-  [[nodiscard]] std::uint32_t depth() const { return depth_; }
+  [[nodiscard]] std::uint32_t depth() const { return arrays_.depth; }
   /// Number of entries in leaves, duplicates included.
-  [[nodiscard]] std::size_t references() const { return references_.size(); }
+  [[nodiscard]] std::size_t references() const { return arrays_.references.size(); }
   [[nodiscard]] std::uint64_t memory_bytes() const;
 
   /// The items of a leaf, in increasing order. [Limit: leaf < leaves()]
   [[nodiscard]] std::span<const std::uint32_t> leaf(std::uint32_t leaf) const {
-    return std::span(references_)
-        .subspan(leaf_begin_[leaf], leaf_begin_[leaf + 1] - leaf_begin_[leaf]);
+    return std::span(arrays_.references)
+        .subspan(arrays_.leaf_begin[leaf], arrays_.leaf_begin[leaf + 1] - arrays_.leaf_begin[leaf]);
   }
 
   /// Whether both trees have equal arrays, bit for bit, and so answer everything alike.
   [[nodiscard]] bool is_same_as(const IndexTree& other) const;
 
  private:
-  friend class IndexAssembler;
   friend class IndexWalk;
 
   /// The tree of a part with all entries, which `splitter` divides.
   static IndexTree assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads);
 
   geometry::Box bounds_;
-  std::vector<IndexNode> nodes_;           ///< nodes, the root first
-  std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
-  std::vector<std::uint32_t> references_;
-  std::vector<ByteBoxes> boxes_;  ///< boxes of references_, by eight, in the parent's frame
-  std::uint32_t depth_ = 0;
+  IndexArrays arrays_;
 };
 
 /// A mesh and the tree over its triangles.

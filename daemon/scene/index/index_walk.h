@@ -43,18 +43,19 @@ class IndexWalk {
     /// Calls `visit(entry)` for each entry whose box is within reach, until `visit` returns false.
     template <class Query, class Visit>
     void for_each(const Query& query, const Visit& visit) const {
-      const std::uint32_t begin = tree_.leaf_begin_[leaf_];
-      const std::uint32_t end = tree_.leaf_begin_[leaf_ + 1];
+      const std::uint32_t begin = tree_.arrays_.leaf_begin[leaf_];
+      const std::uint32_t end = tree_.arrays_.leaf_begin[leaf_ + 1];
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
-        look(query, tree_.nodes_[parent_].frame, tree_.boxes_[first / kNodeWidth], gaps);
+        look(query, tree_.arrays_.nodes[parent_].frame, tree_.arrays_.boxes[first / kNodeWidth],
+             gaps);
         // A group of eight boxes may belong to several leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);
         if (end - first < kNodeWidth) near &= (1U << (end - first)) - 1U;
         for (; near != 0; near &= near - 1U) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-          if (!visit(offsets_.entry + tree_.references_[first + i])) return;
+          if (!visit(offsets_.entry + tree_.arrays_.references[first + i])) return;
         }
       }
     }
@@ -68,7 +69,7 @@ class IndexWalk {
 
   template <class Query>
   void run(Query& query) {
-    if (tree_.nodes_.empty()) return;
+    if (tree_.arrays_.nodes.empty()) return;
     push({0.0, 0, kNode});
     while (size_ > 0) {
       const Waiting top = stack_[--size_];
@@ -107,7 +108,7 @@ class IndexWalk {
 
   template <class Query>
   void push_children(const Query& query, std::uint32_t at) {
-    const IndexNode& node = tree_.nodes_[at];
+    const IndexNode& node = tree_.arrays_.nodes[at];
     BoxGaps gaps;
     look(query, node.frame, node.boxes, gaps);
     const std::size_t begin = size_;

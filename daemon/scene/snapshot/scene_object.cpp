@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/snapshot/scene_object.h"
 
-#include <xxhash.h>
-
 #include <cassert>
-#include <cstdio>
 #include <utility>
 
+#include "daemon/base/digest.h"
 #include "daemon/base/parallel_chunks.h"
 
 namespace camway::scene {
@@ -16,27 +14,6 @@ namespace {
 /// the entry in the list.
 constexpr std::uint64_t kBytesBesideAPart =
     sizeof(MeshPart) + sizeof(Mesh) + sizeof(MeshObject) + 6 * sizeof(void*);
-
-class Digest {
- public:
-  Digest() { XXH3_128bits_reset(state_.get()); }
-
-  void add(const void* bytes, std::size_t size) { XXH3_128bits_update(state_.get(), bytes, size); }
-
-  [[nodiscard]] std::string text() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    char text[33];
-    std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                  static_cast<unsigned long long>(hash.low64));
-    return text;
-  }
-
- private:
-  struct Free {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-  };
-  std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
-};
 
 std::shared_ptr<const Mesh> mesh_in_world(const MeshPart& part, const Placement& placement) {
   if (placement.is_identity()) return part.mesh;
@@ -261,7 +238,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
 }
 
 std::string mesh_digest(const Mesh& mesh) {
-  Digest digest;
+  base::Digest digest;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     std::array<double, 9> coordinates{};
     std::size_t at = 0;
@@ -274,7 +251,7 @@ std::string mesh_digest(const Mesh& mesh) {
 }
 
 std::string text_digest(const std::vector<std::string>& texts) {
-  Digest digest;
+  base::Digest digest;
   for (const std::string& text : texts) digest.add(text.c_str(), text.size() + 1);
   return digest.text();
 }

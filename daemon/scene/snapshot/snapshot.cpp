@@ -5,16 +5,48 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/import/import.h"
 
 namespace camway::scene {
 namespace {
 
 SnapshotResult build(std::string name, std::shared_ptr<const ObjectSource> source,
-                     const ObjectOptions& options, const std::stop_token& stop) {
-  ObjectResult result = place_object(name, std::move(source), {}, options, nullptr, stop);
+                     const ObjectOptions& options, const std::stop_token& stop,
+                     const SceneObject* before = nullptr) {
+  ObjectResult result = place_object(name, std::move(source), {}, options, before, stop);
   if (!result.object) return {nullptr, result.error, result.limit};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
+}
+
+/// The scene of what was prepared, which is placed as the object before it was.
+SnapshotResult build(std::string name, PreparedScene prepared, const ObjectOptions& options,
+                     const std::stop_token& stop) {
+  const std::shared_ptr<const Mesh>& mesh = prepared.indexed->mesh;
+  auto source = std::make_shared<ObjectSource>();
+  source->parts_O.push_back({0, mesh, prepared.report.bounds_m});
+  source->bounds_O = prepared.report.bounds_m;
+  source->field_O = std::move(prepared.field);
+  source->why_no_field = std::move(prepared.why_no_field);
+  source->report = std::move(prepared.report);
+  SceneObject object;
+  object.source = source;
+  object.parts.push_back(std::make_shared<const PlacedPart>(
+      PlacedPart{std::move(prepared.indexed), std::move(prepared.digest)}));
+  return build(std::move(name), std::move(source), options, stop, &object);
+}
+
+/// Requires an object with one part that stands where its file has it.
+PreparedScene prepared_of(const SceneObject& object) {
+  const ObjectSource& source = *object.source;
+  const PlacedPart& part = *object.parts.front();
+  return {part.indexed, source.report, source.field_O, source.why_no_field, part.digest};
+}
+
+/// Adds the name of the file to an error about its object.
+SnapshotResult named_after(const std::filesystem::path& file, SnapshotResult result) {
+  if (!result.snapshot) result.error = file.string() + ": " + result.error;
+  return result;
 }
 
 std::string digest_of(const SceneObjects& objects) {
@@ -127,16 +159,31 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 }
 
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options, const std::stop_token& stop) {
+                             const SnapshotOptions& options, const std::stop_token& stop,
+                             const SceneCache* cache) {
+  const PreparationOptions preparation{options.import, options.index, options.field};
+  const std::optional<SceneKey> key =
+      cache != nullptr ? scene_key(file, preparation) : std::nullopt;
+  if (key) {
+    if (auto prepared = cache->find(*key, options.import)) {
+      SnapshotResult result = build(std::move(name), *std::move(prepared), options, stop);
+      result.is_from_cache = true;
+      return named_after(file, std::move(result));
+    }
+  }
   ImportResult import = import_mesh(file, options.import, stop);
   if (!import.mesh) return {nullptr, import.error, import.limit};
+  const bool is_map = import.map != nullptr;
   const std::shared_ptr<const ObjectSource> source =
-      import.map ? make_map_source(std::move(import.map), std::move(import.report), options)
-                 : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),
-                               options);
+      is_map ? make_map_source(std::move(import.map), std::move(import.report), options)
+             : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),
+                           options);
   SnapshotResult result = build(std::move(name), source, options, stop);
-  if (!result.snapshot) result.error = file.string() + ": " + result.error;
-  return result;
+  // The file may have changed between the computation of the key and the import.
+  if (result.snapshot && key && scene_key(file, preparation) == key) {
+    cache->store(*key, file, prepared_of(*result.snapshot->objects.front()));
+  }
+  return named_after(file, std::move(result));
 }
 
 }  // namespace camway::scene

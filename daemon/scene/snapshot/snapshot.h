@@ -21,6 +21,8 @@
 
 namespace camway::scene {
 
+class SceneCache;
+
 struct SnapshotOptions : ObjectOptions {
   ImportOptions import;
 };
@@ -56,6 +58,7 @@ struct SnapshotResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< null on error
   std::string error;                         ///< names the file or the object
   Limit limit = Limit::kNone;                ///< limit that the error is about
+  bool is_from_cache = false;                ///< whether the scene was found in the cache
 };
 
 /// Assembles a scene from objects. The cost depends on the number of objects and of their parts,
@@ -69,8 +72,10 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 
 /// Makes a scene with one object, which is read from `file` and has the name of the scene. Fails
 /// within milliseconds after a stop is requested while the file is read or an occupancy mirror is
-/// built.
+/// built. Takes the scene from `cache`, or puts it there, if there is one; the scene is the same to
+/// the bit. Occupancy maps, and formats without a reader of our own, are not kept.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options = {}, const std::stop_token& stop = {});
+                             const SnapshotOptions& options = {}, const std::stop_token& stop = {},
+                             const SceneCache* cache = nullptr);
 
 }  // namespace camway::scene

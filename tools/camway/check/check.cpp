@@ -80,7 +80,8 @@ base::Result<CheckInput> read_input(const CheckFlags& flags) {
   }
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options(request->reading);
-  const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
+  const scene::SnapshotResult loaded =
+      load_timed(scene_file, scene_file, options, user_cache(flags.scene)).result;
   if (!loaded.snapshot) return failed(loaded.error);
   input->snapshot = loaded.snapshot;
   return input;

@@ -29,6 +29,8 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
       command, "--unknown", flags.reading.unknown, scene::kUnknownSpaces,
       "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [" + first + "free]")
       ->type_name("STATE");
+  command.add_flag("--no-cache", flags.no_cache,
+                   "Read and prepare the scene, even if the cache holds it, and do not keep it");
   return command
       .add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...)")
       ->type_name("FILE");
@@ -79,20 +81,32 @@ std::string_view to_string(scene::UpAxis up) {
   return "unknown";
 }
 
-const LoadedScene& SceneCache::load(const std::string& file, const scene::ImportOptions& import) {
+std::optional<scene::SceneCache> user_cache(const SceneFlags& flags) {
+  if (flags.no_cache) return std::nullopt;
+  std::optional<scene::SceneCache> cache = scene::cache_of_environment();
+  if (!cache) return std::nullopt;
+  const std::string fault = cache->fault();
+  if (fault.empty()) return cache;
+  print_error("warning: " + cache->folder().string() + ": " + fault +
+              ", so it is not used as the cache of scenes");
+  return std::nullopt;
+}
+
+const LoadedScene& LoadedScenes::load(const std::string& file, const scene::ImportOptions& import) {
   const Key key{file, import.scale, import.up, import.unknown};
   const auto found = scenes_.find(key);
   if (found != scenes_.end()) return found->second;
   scene::SnapshotOptions options;
   options.import = import;
-  return scenes_.emplace(key, load_timed(file, file, options)).first->second;
+  return scenes_.emplace(key, load_timed(file, file, options, cache_)).first->second;
 }
 
 LoadedScene load_timed(const std::string& name, const std::string& file,
-                       const scene::SnapshotOptions& options) {
+                       const scene::SnapshotOptions& options,
+                       const std::optional<scene::SceneCache>& cache) {
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded;
-  loaded.result = scene::load_snapshot(name, file, options);
+  loaded.result = scene::load_snapshot(name, file, options, {}, cache ? &*cache : nullptr);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   loaded.load_ms = taken.count();
   return loaded;

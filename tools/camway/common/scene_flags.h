@@ -2,12 +2,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/json/json_io.h"
 
@@ -17,6 +19,7 @@ namespace camway::tools {
 struct SceneFlags {
   std::string file;
   SceneReading reading;
+  bool no_cache = false;
 
   /// Returns the options of the import: from the flags, else from the request, else the defaults.
   [[nodiscard]] scene::ImportOptions import_options(const SceneReading& of_request = {}) const;
@@ -27,8 +30,8 @@ struct SceneFlags {
                                      const planning::PlanRequest& request) const;
 };
 
-/// Adds --scene, --scale, --up and --unknown. Returns the option --scene, which the caller may make
-/// a required one.
+/// Adds --scene, --scale, --up, --unknown and --no-cache. Returns the option --scene, which the
+/// caller may make a required one.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
 /// Adds these flags to a command that reads a request. A flag that is not given takes its value
@@ -48,19 +51,27 @@ struct LoadedScene {
   double load_ms = 0.0;
 };
 
+/// Returns this user's cache of prepared scenes; nothing with --no-cache or without a folder.
+/// Prints a warning if the folder cannot be used. Call it once in a command.
+std::optional<scene::SceneCache> user_cache(const SceneFlags& flags);
+
 /// Loads each file once for each set of import options. Not thread-safe.
-class SceneCache {
+class LoadedScenes {
  public:
-  /// Returns the scene. The reference is valid as long as the cache.
+  explicit LoadedScenes(const SceneFlags& flags) : cache_(user_cache(flags)) {}
+
+  /// Returns the scene. The reference is valid as long as this object.
   const LoadedScene& load(const std::string& file, const scene::ImportOptions& import);
 
  private:
   using Key = std::tuple<std::string, double, scene::UpAxis, scene::UnknownSpace>;
+  std::optional<scene::SceneCache> cache_;
   std::map<Key, LoadedScene> scenes_;
 };
 
-/// Loads one scene and measures the time.
+/// Loads one scene, from the cache if there is one, and measures the time.
 LoadedScene load_timed(const std::string& name, const std::string& file,
-                       const scene::SnapshotOptions& options);
+                       const scene::SnapshotOptions& options,
+                       const std::optional<scene::SceneCache>& cache = std::nullopt);
 
 }  // namespace camway::tools

@@ -34,7 +34,8 @@ ExitCode ask_map(const OccupancyFlags& flags, const OccupancyBatch& batch) {
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options();
   options.occupancy_resolution_m = flags.resolution_m;
-  const LoadedScene loaded = load_timed(flags.scene.file, flags.scene.file, options);
+  const LoadedScene loaded =
+      load_timed(flags.scene.file, flags.scene.file, options, user_cache(flags.scene));
   if (!loaded.result.snapshot) {
     print_error(loaded.result.error);
     return ExitCode::kInvalidInput;

@@ -80,7 +80,7 @@ std::vector<std::string> warnings_of(const RequestFile& request) {
   return {*order + "; orientation_xyzw takes the other order"};
 }
 
-Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
+Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {
   Answer answer;
   base::Result<RequestFile> request = read_plan_request(file);
   if (!request) {
@@ -166,7 +166,7 @@ std::string why_unwritable_response(const std::string& file) {
   return is_open ? "" : "standard output cannot be written";
 }
 
-ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
+ExitCode plan_one(const PlanFlags& flags, LoadedScenes& scenes) {
   const std::string& file = flags.requests.front();
   if (const std::string fault = why_unwritable_response(flags.response); !fault.empty()) {
     print_error(fault);
@@ -203,7 +203,7 @@ base::Result<std::vector<std::string>> response_files(const PlanFlags& flags) {
   return files;
 }
 
-ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
+ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
   std::error_code error;
   std::filesystem::create_directories(flags.response_dir, error);
   if (error) {
@@ -246,7 +246,7 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
 }
 
 ExitCode run_plan(const PlanFlags& flags) {
-  SceneCache scenes;
+  LoadedScenes scenes(flags.scene);
   if (!flags.response_dir.empty()) return plan_set(flags, scenes);
   if (flags.requests.size() == 1) return plan_one(flags, scenes);
   print_error("several requests need --response-dir");

@@ -13,6 +13,7 @@
 #include "daemon/scene/import/readers/ply_reader.h"
 #include "daemon/scene/import/readers/stl_reader.h"
 #include "daemon/scene/import/readers/tokens.h"
+#include "daemon/scene/import/record/own_formats.h"
 
 namespace camway::scene::mesh_readers {
 namespace {
@@ -56,13 +57,10 @@ base::Result<import_record::Record> read_stl_file(std::string_view bytes) {
 }
 
 Reader reader_for(std::string_view extension) {
-  constexpr std::array<std::pair<std::string_view, Reader>, 4> kReaders = {
-      {{".obj", read_obj_file},
-       {".off", read_off_file},
-       {".ply", read_ply_file},
-       {".stl", read_stl_file}}};
-  for (const auto& [known, reader] : kReaders) {
-    if (equals_ignoring_case(extension, known)) return reader;
+  constexpr std::array<Reader, kOwnFormats.size()> kReaders = {read_obj_file, read_off_file,
+                                                               read_ply_file, read_stl_file};
+  for (std::size_t i = 0; i < kOwnFormats.size(); ++i) {
+    if (equals_ignoring_case(extension, kOwnFormats[i])) return kReaders[i];
   }
   return nullptr;
 }

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/cache/scene_cache.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "daemon/base/file_descriptor.h"
+#include "daemon/scene/cache/cache_file.h"
+
+namespace camway::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using base::FileDescriptor;
+
+constexpr std::string_view kSuffix = ".scene";
+constexpr std::string_view kUnfinished = ".unfinished-";
+/// A file that is unfinished for longer was left behind by a process that ended.
+constexpr std::time_t kLongestWrite_s = 3600;
+
+std::string file_name(const SceneKey& key) { return key.text() + std::string(kSuffix); }
+
+bool is_scene_name(std::string_view name) {
+  constexpr std::size_t kDigits = 2 * base::Digest::kBytes;
+  return name.size() == kDigits + kSuffix.size() && name.ends_with(kSuffix) &&
+         name.find_first_not_of("0123456789abcdef") == kDigits;
+}
+
+/// Why a folder or file is not used; empty if nobody else can have written it.
+std::string fault_in(const struct stat& status) {
+  if (status.st_uid != geteuid()) return "belongs to another user";
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) return "can be written by others";
+  return {};
+}
+
+FileDescriptor open_folder(const fs::path& folder, std::string& fault) {
+  FileDescriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  struct stat status {};
+  if (!opened.is_open()) {
+    if (errno != ENOENT) fault = "cannot be opened: " + std::generic_category().message(errno);
+    return opened;
+  }
+  fault = fstat(opened.get(), &status) == 0 ? fault_in(status) : "cannot be looked at";
+  return fault.empty() ? std::move(opened) : FileDescriptor(-1);
+}
+
+/// Opens the folder; none if it is not there or is not used.
+FileDescriptor open_folder(const fs::path& folder) {
+  std::string fault;
+  return open_folder(folder, fault);
+}
+
+/// Makes the folder and those above it, all for this user alone.
+FileDescriptor make_folder(const fs::path& folder) {
+  fs::path made;
+  for (const fs::path& part : folder) {
+    made /= part;
+    if (mkdir(made.c_str(), S_IRWXU) != 0 && errno != EEXIST) break;
+  }
+  return open_folder(folder);
+}
+
+/// Opens a file of the cache; none if somebody else can have written it.
+FileDescriptor open_file(const FileDescriptor& folder, const std::string& name,
+                         struct stat& status) {
+  FileDescriptor file(
+      openat(folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+  if (!file.is_open() || fstat(file.get(), &status) != 0) return FileDescriptor(-1);
+  const bool is_ours = S_ISREG(status.st_mode) && fault_in(status).empty();
+  return is_ours ? std::move(file) : FileDescriptor(-1);
+}
+
+/// A file in the folder, of which nothing was read.
+struct Found {
+  std::string name;
+  std::time_t last_used_s = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// The files of the cache in the folder, the one last used first.
+std::vector<Found> files_in(const FileDescriptor& folder) {
+  std::vector<Found> files;
+  std::error_code error;
+  // By its descriptor: the name could mean another folder by now.
+  fs::directory_iterator entry("/proc/self/fd/" + std::to_string(folder.get()), error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!is_scene_name(name) && !name.starts_with(kUnfinished)) continue;
+    struct stat status {};
+    if (fstatat(folder.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
+    files.push_back({name, status.st_mtime, static_cast<std::uint64_t>(status.st_size)});
+  }
+  std::ranges::sort(files, std::ranges::greater{}, &Found::last_used_s);
+  return files;
+}
+
+/// Removes what was used the longest ago until `bytes` more fit the limit.
+void make_room(const FileDescriptor& folder, std::uint64_t bytes, std::uint64_t limit_bytes) {
+  const std::time_t now_s = std::time(nullptr);
+  std::uint64_t kept_bytes = bytes;
+  for (const Found& file : files_in(folder)) {
+    const bool is_unfinished = file.name.starts_with(kUnfinished);
+    const bool is_left_behind = is_unfinished && now_s - file.last_used_s > kLongestWrite_s;
+    const bool fits = file.bytes <= limit_bytes - std::min(kept_bytes, limit_bytes);
+    if (is_left_behind || (!is_unfinished && !fits)) {
+      unlinkat(folder.get(), file.name.c_str(), 0);
+    } else {
+      kept_bytes += file.bytes;
+    }
+  }
+}
+
+/// A name that no other thread or process uses.
+std::string unfinished_name() {
+  static_assert(sizeof(std::uintptr_t) >= sizeof(void*));
+  const char mark = 0;  // its address differs from thread to thread
+  return std::string(kUnfinished) + std::to_string(getpid()) + "-" +
+         std::to_string(reinterpret_cast<std::uintptr_t>(&mark)) + "-" +
+         std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+}
+
+const char* variable(const char* name) {
+  return std::getenv(name);  // NOLINT(concurrency-mt-unsafe): never set by us
+}
+
+}  // namespace
+
+std::string SceneCache::fault() const {
+  std::string fault;
+  open_folder(folder_, fault);
+  return fault;
+}
+
+std::optional<PreparedScene> SceneCache::find(const SceneKey& key,
+                                              const ImportOptions& options) const {
+  const FileDescriptor folder = open_folder(folder_);
+  struct stat status {};
+  if (!folder.is_open()) return std::nullopt;
+  const FileDescriptor file = open_file(folder, file_name(key), status);
+  if (!file.is_open()) return std::nullopt;
+  base::Result<PreparedScene> read = read_prepared(file.get(), key, options);
+  if (!read) {
+    unlinkat(folder.get(), file_name(key).c_str(), 0);
+    return std::nullopt;
+  }
+  futimens(file.get(), nullptr);
+  return *std::move(read);
+}
+
+bool SceneCache::store(const SceneKey& key, const fs::path& scene_file,
+                       const PreparedScene& prepared) const {
+  if (prepared.indexed->mesh->triangles.size() < limits_.least_triangles) return false;
+  std::error_code error;
+  const fs::path whole = fs::absolute(scene_file, error);
+  const std::string shown = (error ? scene_file : whole).string();
+  const std::uint64_t bytes = prepared_bytes(shown, prepared);
+  if (bytes > limits_.bytes) return false;
+  const FileDescriptor folder = make_folder(folder_);
+  if (!folder.is_open()) return false;
+  make_room(folder, bytes, limits_.bytes);
+  const std::string name = unfinished_name();
+  const FileDescriptor file(openat(folder.get(), name.c_str(),
+                                   O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                                   S_IRUSR | S_IWUSR));
+  if (!file.is_open()) return false;
+  // Without fsync: after a power failure the digests tell whether all of the file is there.
+  const bool is_kept =
+      write_prepared(file.get(), key, shown, prepared) &&
+      renameat(folder.get(), name.c_str(), folder.get(), file_name(key).c_str()) == 0;
+  if (!is_kept) unlinkat(folder.get(), name.c_str(), 0);
+  return is_kept;
+}
+
+std::vector<CachedScene> SceneCache::scenes() const {
+  std::vector<CachedScene> scenes;
+  const FileDescriptor folder = open_folder(folder_);
+  if (!folder.is_open()) return scenes;
+  for (const Found& found : files_in(folder)) {
+    struct stat status {};
+    const FileDescriptor file = open_file(folder, found.name, status);
+    if (!file.is_open() || !is_scene_name(found.name)) continue;
+    base::Result<PreparedFacts> facts = read_prepared_facts(file.get());
+    if (!facts) continue;
+    CachedScene& scene = scenes.emplace_back();
+    scene.key = found.name.substr(0, found.name.size() - kSuffix.size());
+    scene.scene_file = std::move(facts->scene_file);
+    scene.triangles = facts->triangles;
+    scene.bytes = found.bytes;
+    scene.last_used = std::chrono::system_clock::from_time_t(found.last_used_s);
+    scene.is_of_this_build = facts->build == scene_build();
+  }
+  return scenes;
+}
+
+std::size_t SceneCache::clear() const {
+  std::size_t removed = 0;
+  const FileDescriptor folder = open_folder(folder_);
+  if (!folder.is_open()) return removed;
+  for (const Found& file : files_in(folder)) {
+    const bool is_gone = unlinkat(folder.get(), file.name.c_str(), 0) == 0;
+    removed += is_gone && is_scene_name(file.name) ? 1U : 0U;
+  }
+  return removed;
+}
+
+fs::path cache_folder_of_environment() {
+  if (const char* own = variable("CAMWAY_CACHE_DIR")) return own;
+  const char* xdg = variable("XDG_CACHE_HOME");
+  // The specification tells to ignore relative paths.
+  if (xdg != nullptr && *xdg == '/') return fs::path(xdg) / "camway";
+  const char* home = variable("HOME");
+  if (home != nullptr && *home == '/') return fs::path(home) / ".cache/camway";
+  return {};
+}
+
+std::optional<SceneCache> cache_of_environment() {
+  fs::path folder = cache_folder_of_environment();
+  SceneCacheLimits limits;
+  if (const char* bytes = variable("CAMWAY_CACHE_BYTES")) {
+    const std::string_view text = bytes;
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size()) limits.bytes = value;
+  }
+  if (folder.empty() || limits.bytes == 0) return std::nullopt;
+  return SceneCache(std::move(folder), limits);
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+//
+// `camway cache`, and what other commands do with the cache.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/camway/cli_runner.h"
+#include "tests/tools/camway/replay/log_builder.h"
+
+namespace camway::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// A wall of 2 * 40 * 40 triangles across Z.
+std::string large_wall() {
+  constexpr int kSide = 40;
+  std::string text;
+  for (int i = 0; i <= kSide; ++i) {
+    for (int j = 0; j <= kSide; ++j) text += fmt::format("v {} {} 9\n", i, j);
+  }
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const int a = 1 + i * (kSide + 1) + j;
+      text += fmt::format("f {0} {1} {3}\nf {0} {3} {2}\n", a, a + 1, a + kSide + 1, a + kSide + 2);
+    }
+  }
+  return text;
+}
+
+class CliCache : public ::testing::Test {
+ protected:
+  CliCache() { setenv("CAMWAY_CACHE_DIR", cache().c_str(), 1); }
+  ~CliCache() override { setenv("CAMWAY_CACHE_DIR", "", 1); }
+
+  std::string cache() const { return folder_.file("cache"); }
+  std::string plan(const std::vector<std::string>& flags = {}) const {
+    std::vector<std::string> arguments{"plan", "--request", request_, "--no-timing"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  }
+  static nlohmann::json listed() {
+    return nlohmann::json::parse(run_camway({"cache", "--json"}).out);
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = folder_.write("wall.obj", large_wall());
+  std::string request_ = folder_.write(
+      "request.json", request_json({keyframe_json(5, 5, 1), keyframe_json(6, 6, -1)}));
+};
+
+TEST_F(CliCache, KeepsTheSceneOfAPlanAndChangesNoAnswer) {
+  EXPECT_THAT(listed()["scenes"], IsEmpty());
+  const std::string first = plan();
+  const nlohmann::json scenes = listed()["scenes"];
+  ASSERT_THAT(scenes, SizeIs(1));
+  EXPECT_EQ(scenes[0]["file"], scene_);
+  EXPECT_EQ(scenes[0]["triangles"], 3200);
+  EXPECT_EQ(scenes[0]["same_build"], true);
+  EXPECT_EQ(plan(), first);
+  EXPECT_EQ(plan({"--no-cache"}), first);
+  EXPECT_THAT(run_camway({"cache"}).out, HasSubstr("wall.obj"));
+}
+
+TEST_F(CliCache, IsLeftAloneWithNoCache) {
+  plan({"--no-cache"});
+  EXPECT_FALSE(std::filesystem::exists(cache()));
+}
+
+TEST_F(CliCache, IsCleared) {
+  plan();
+  const CliRun run = run_camway({"cache", "clear"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("1 scene removed"));
+  EXPECT_THAT(listed()["scenes"], IsEmpty());
+}
+
+TEST_F(CliCache, WarnsOfAFolderThatOthersMayWriteTo) {
+  std::filesystem::create_directory(cache());
+  std::filesystem::permissions(cache(), std::filesystem::perms::all);
+  const CliRun run = run_camway({"plan", "--request", request_});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("warning: " + cache() + ": can be written by others"));
+  EXPECT_EQ(run_camway({"cache"}).exit_code, 2);
+}
+
+TEST_F(CliCache, CanBeTurnedOff) {
+  setenv("CAMWAY_CACHE_DIR", "", 1);
+  plan();
+  const CliRun run = run_camway({"cache"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("CAMWAY_CACHE_DIR"));
+}
+
+}  // namespace
+}  // namespace camway::tools
