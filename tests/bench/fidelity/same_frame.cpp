@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/fidelity/same_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "daemon/motion/spline/path_frame.h"
+
+namespace camway::bench {
+
+namespace {
+
+using geometry::Vec4;
+using motion::Keyframe;
+
+constexpr int kParts = 32;  // between two joints
+
+std::vector<double> times_of(const motion::CubicPath& original, const motion::Path& path) {
+  std::vector<double> joints_s = {original.begin_s()};
+  for (const motion::CubicPiece& piece : original.pieces) joints_s.push_back(piece.t1_s);
+  for (const motion::Segment& segment : path.segments()) {
+    const bool is_inside = original.begin_s() < segment.t1_s && segment.t1_s < original.end_s();
+    if (is_inside) joints_s.push_back(segment.t1_s);
+  }
+  std::ranges::sort(joints_s);
+  joints_s.erase(std::unique(joints_s.begin(), joints_s.end()), joints_s.end());
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i + 1 < joints_s.size(); ++i) {
+    for (int k = 0; k < kParts; ++k) {
+      times_s.push_back(std::lerp(joints_s[i], joints_s[i + 1], static_cast<double>(k) / kParts));
+    }
+  }
+  times_s.push_back(joints_s.back());
+  return times_s;
+}
+
+/// Derivative at the first of three points, from the parabola through them.
+Vec4 end_rate_per_s(const motion::CubicPath& through, double end_s, double step_s) {
+  const Vec4 first = through.at(end_s).image;
+  const Vec4 second = through.at(end_s + step_s).image;
+  const Vec4 third = through.at(end_s + 2.0 * step_s).image;
+  return (4.0 * second - 3.0 * first - third) / (2.0 * step_s);
+}
+
+}  // namespace
+
+motion::CubicPath in_frame_of(const motion::CubicPath& original, const motion::Path& path) {
+  std::vector<Keyframe> keyframes;
+  for (const double time_s : times_of(original, path)) {
+    keyframes.push_back({time_s, path.pose(time_s), motion::KeyframeOrigin::kInserted, false,
+                         original.at(time_s).image});
+  }
+  motion::PathFrame frame = motion::frame_of(original);
+  frame.begin.velocity_m_per_s =
+      motion::derivatives_at(path.segments().front(), 0.0).velocity_m_per_s;
+  frame.end.velocity_m_per_s = motion::derivatives_at(path.segments().back(), 1.0).velocity_m_per_s;
+  // The rates of the images at the ends are known only once there are images.
+  const motion::CubicPath first = motion::interpolate_cubic(keyframes, frame);
+  const double begin_step_s = first.pieces.front().t1_s - first.pieces.front().t0_s;
+  const double end_step_s = first.pieces.back().t1_s - first.pieces.back().t0_s;
+  frame.begin.image_rate_per_s = end_rate_per_s(first, first.begin_s(), begin_step_s);
+  frame.end.image_rate_per_s = end_rate_per_s(first, first.end_s(), -end_step_s);
+  return motion::interpolate_cubic(keyframes, frame);
+}
+
+}  // namespace camway::bench
