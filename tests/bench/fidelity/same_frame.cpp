@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/motion/spline/path_frame.h"
+#include "daemon/motion/spline/quaternion_spline.h"
 
 namespace camway::bench {
 
@@ -47,9 +48,13 @@ Vec4 end_rate_per_s(const motion::CubicPath& through, double end_s, double step_
 
 motion::CubicPath in_frame_of(const motion::CubicPath& original, const motion::Path& path) {
   std::vector<Keyframe> keyframes;
+  Vec4 direction = original.pieces.front().image.front().normalized();
   for (const double time_s : times_of(original, path)) {
-    keyframes.push_back({time_s, path.pose(time_s), motion::KeyframeOrigin::kInserted, false,
-                         original.at(time_s).image});
+    const motion::Pose pose = path.pose(time_s);
+    // Nearest to the image before, since a path may turn by more than half a turn.
+    direction = motion::image_of(original.reference, geometry::wxyz(pose.orientation), direction);
+    keyframes.push_back({time_s, pose, motion::KeyframeOrigin::kInserted, false,
+                         original.at(time_s).image.norm() * direction});
   }
   motion::PathFrame frame = motion::frame_of(original);
   frame.begin.velocity_m_per_s =
