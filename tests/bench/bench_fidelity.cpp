@@ -21,6 +21,7 @@
 #include "tests/bench/fidelity/best_known.h"
 #include "tests/bench/fidelity/fidelity.h"
 #include "tests/bench/fidelity/known_paths.h"
+#include "tests/bench/fidelity/other_sides.h"
 #include "tests/bench/fidelity/shot.h"
 #include "tests/bench/field_values.h"
 
@@ -162,16 +163,20 @@ class Arena {
 
   void add_best_known(const Shot& shot, std::vector<std::pair<Way, Answer>>& answers) {
     std::vector<motion::CubicPath> starts = known_.of(scene_.name, shot);
+    const std::optional<double> clearance_m = answers.front().second.clearance_m;
     for (const auto& [way, answer] : answers) {
       if (answer.is_proved()) starts.push_back(answer.cubic);
     }
     if (shot.collisions() > 0) {
       for (Answer& other : other_answers(shot)) starts.push_back(std::move(other.cubic));
+      if (clearance_m) {
+        std::ranges::move(other_sides(shot, answers.front().second.cubic),
+                          std::back_inserter(starts));
+      }
     }
     SearchEffort effort = options_.effort;
     effort.clearance_m = shot.plan().options.clearance_m;
     answers.emplace_back(kBestKnown, searched(kBestKnown, shot, starts, effort));
-    const std::optional<double>& clearance_m = answers.front().second.clearance_m;
     if (!options_.wants(kBestAsClear) || !clearance_m) return;
     effort.clearance_m = std::max(effort.clearance_m, kAsClear * *clearance_m);
     answers.emplace_back(kBestAsClear, searched(kBestAsClear, shot, starts, effort));

@@ -2,6 +2,7 @@
 #include "tests/bench/fidelity/best_known.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -19,9 +20,9 @@ namespace {
 using motion::CubicPath;
 using planning::PlanOptions;
 
-constexpr std::size_t kTrials = 4;        // starts of a range that have a trial
-constexpr double kShareOfTrial = 0.1;     // of the time of a range
-constexpr double kOtherCost = 1.001;      // starts whose costs differ by less are the same
+constexpr std::size_t kTrials = 6;        // starts of a range that have a trial
+constexpr double kShareOfTrial = 0.08;    // of the time of a range
+constexpr double kOtherShift = 0.3;       // of the cheapest start's: starts within it are the same
 constexpr double kMarginOfSearch = 0.5;   // of the duration of a range, on either side
 constexpr double kLittleTurn_rad = 0.17;  // ten degrees
 constexpr double kLongestPlan_s = 2.0;    // of an other answer
@@ -90,7 +91,24 @@ TimeRange widened(const std::vector<TimeRange>& ranges, std::size_t i, const Cub
   return {std::max(before_s, range.begin_s - margin_s), std::min(after_s, range.end_s + margin_s)};
 }
 
-/// The different starts of a range that cost least there, cheapest first.
+/// Largest shift in a range of one path from another. [Units: radians]
+double shift_between(const Shot& shot, const CubicPath& a, const CubicPath& b,
+                     const TimeRange& range) {
+  constexpr int kTimes = 100;
+  double largest_rad = 0.0;
+  for (int i = 0; i <= kTimes; ++i) {
+    const double share = static_cast<double>(i) / kTimes;
+    const double time_s = std::lerp(range.begin_s, range.end_s, share);
+    const motion::Pose one = a.pose(time_s);
+    const motion::Pose other = b.pose(time_s);
+    const double moved_m = (one.position - other.position).norm();
+    largest_rad = std::max(largest_rad, moved_m / shot.closeness().viewing_distance_m +
+                                            one.orientation.angularDistance(other.orientation));
+  }
+  return largest_rad;
+}
+
+/// The cheapest starts of a range that differ from one another, cheapest first.
 std::vector<const CubicPath*> cheapest(const Shot& shot, std::span<const CubicPath> starts,
                                        const TimeRange& range) {
   std::vector<std::pair<double, const CubicPath*>> by_cost;
@@ -98,12 +116,14 @@ std::vector<const CubicPath*> cheapest(const Shot& shot, std::span<const CubicPa
     by_cost.emplace_back(shot.cost(start.around(range.begin_s, range.end_s)), &start);
   }
   std::ranges::stable_sort(by_cost, {}, &std::pair<double, const CubicPath*>::first);
+  const double shift_rad =
+      kOtherShift * shift_between(shot, *by_cost.front().second, shot.interpolated(), range);
   std::vector<const CubicPath*> list;
-  double last = -1.0;
   for (const auto& [cost, start] : by_cost) {
-    if (cost <= kOtherCost * last || list.size() == kTrials) continue;
-    list.push_back(start);
-    last = cost;
+    const bool is_other = std::ranges::all_of(list, [&, path = start](const CubicPath* known) {
+      return shift_between(shot, *path, *known, range) > shift_rad;
+    });
+    if (is_other && list.size() < kTrials) list.push_back(start);
   }
   return list;
 }

@@ -6,6 +6,7 @@
 #include "daemon/motion/spline/bump.h"
 #include "tests/bench/fidelity/answers.h"
 #include "tests/bench/fidelity/changed_ranges.h"
+#include "tests/bench/fidelity/other_sides.h"
 #include "tests/bench/fidelity/test_shots.h"
 
 namespace camway::bench {
@@ -81,6 +82,22 @@ TEST(BestKnown, StartsFromOtherAnswersThanTheDefault) {
     different += shot.cost(other.cubic) == shot.cost(answer.cubic) ? 0 : 1;
   }
   EXPECT_GT(different, 0);
+}
+
+TEST(OtherSides, AreFreeAndMeetTheKeyframes) {
+  Random random(2);
+  const std::shared_ptr<const scene::Snapshot> scene = scene_of(true);
+  const BenchRequest request = request_of(curved_flight(random));
+  const Shot shot(*scene, request, 5.0);
+  const Answer answer = planned(shot, shot.plan().options);
+  const std::vector<CubicPath> others = other_sides(shot, answer.cubic);
+  EXPECT_FALSE(others.empty());
+  for (const CubicPath& other : others) {
+    EXPECT_TRUE(shot.certified_clearance_m(other.path()));
+    expect_keyframes_met(other, shot);
+    const double aside_m = (other.at(5.0).position - answer.cubic.at(5.0).position).norm();
+    EXPECT_GT(aside_m, 0.1);
+  }
 }
 
 }  // namespace
