@@ -189,7 +189,7 @@ class Arena {
   Answer searched(Way way, const Shot& shot, std::span<const motion::CubicPath> starts,
                   const SearchEffort& effort) {
     std::optional<Answer> best = best_known(shot, starts, effort);
-    if (!best) return {.status = "none"};
+    if (!best) return {.status = "none", .time_s = kUnknown};
     if (shot.collisions() > 0) known_.keep(scene_.name, shot, kWayNames[way], best->cubic);
     return *std::move(best);
   }
@@ -257,8 +257,11 @@ Summary summarise(const std::vector<const Outcome*>& outcomes) {
 
 std::vector<Summary> summaries(const std::vector<Outcome>& outcomes) {
   std::map<std::tuple<std::string, std::string, Way>, std::vector<const Outcome*>> groups;
+  const bool has_scenes = std::ranges::any_of(
+      outcomes, [&](const Outcome& outcome) { return outcome.scene != outcomes.front().scene; });
   for (const Outcome& outcome : outcomes) {
     groups[{outcome.scene, outcome.difficulty, outcome.way}].push_back(&outcome);
+    if (has_scenes) groups[{"all", outcome.difficulty, outcome.way}].push_back(&outcome);
   }
   std::vector<Summary> list;
   for (const auto& [group, members] : groups) {

@@ -15,17 +15,26 @@ namespace {
 using geometry::Vec4;
 using motion::Keyframe;
 
-constexpr int kParts = 32;  // between two joints
+constexpr int kParts = 32;          // between two joints
+constexpr double kSameTime = 1e-9;  // of the duration: such joints are the same
 
-std::vector<double> times_of(const motion::CubicPath& original, const motion::Path& path) {
+/// The joints of `original`, and those of `path` that are not the same up to rounding.
+std::vector<double> joints_of(const motion::CubicPath& original, const motion::Path& path) {
   std::vector<double> joints_s = {original.begin_s()};
   for (const motion::CubicPiece& piece : original.pieces) joints_s.push_back(piece.t1_s);
+  const double same_s = kSameTime * (original.end_s() - original.begin_s());
+  std::vector<double> others_s;
   for (const motion::Segment& segment : path.segments()) {
-    const bool is_inside = original.begin_s() < segment.t1_s && segment.t1_s < original.end_s();
-    if (is_inside) joints_s.push_back(segment.t1_s);
+    const auto later = std::ranges::lower_bound(joints_s, segment.t1_s - same_s);
+    if (later != joints_s.end() && *later > segment.t1_s + same_s) others_s.push_back(segment.t1_s);
   }
+  joints_s.insert(joints_s.end(), others_s.begin(), others_s.end());
   std::ranges::sort(joints_s);
-  joints_s.erase(std::unique(joints_s.begin(), joints_s.end()), joints_s.end());
+  return joints_s;
+}
+
+std::vector<double> times_of(const motion::CubicPath& original, const motion::Path& path) {
+  const std::vector<double> joints_s = joints_of(original, path);
   std::vector<double> times_s;
   for (std::size_t i = 0; i + 1 < joints_s.size(); ++i) {
     for (int k = 0; k < kParts; ++k) {
