@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "daemon/motion/spline/bump.h"
+#include "daemon/motion/spline/path_frame.h"
+#include "daemon/planning/plan.h"
 #include "tests/bench/fidelity/answers.h"
 #include "tests/bench/fidelity/changed_ranges.h"
 #include "tests/bench/fidelity/other_sides.h"
@@ -20,6 +22,22 @@ void expect_keyframes_met(const CubicPath& path, const Shot& shot) {
     const motion::Pose pose = path.pose(keyframe.time_s);
     EXPECT_LE((pose.position - keyframe.pose.position).norm(), kSame);
     EXPECT_LE(pose.orientation.angularDistance(keyframe.pose.orientation), 4.0 * kSame);
+  }
+}
+
+TEST(Shot, ComparesByTheScaleOfPlanning) {
+  Random random(2);
+  const std::shared_ptr<const scene::Snapshot> scene = scene_of(true);
+  for (int i = 0; i < 5; ++i) {
+    const BenchRequest request = request_of(curved_flight(random));
+    const Shot shot(*scene, request, 5.0);
+    const planning::PlanResult result = planning::plan(*scene, shot.plan());
+    ASSERT_TRUE(result.frame && result.measures);
+    const CubicPath path = motion::interpolate_cubic(result.keyframes, *result.frame);
+    const correction::Shift shift =
+        correction::shift_of(path, shot.interpolated(), shot.closeness());
+    EXPECT_NEAR(shift.largest_rad, result.measures->largest_shift_rad, kSame);
+    EXPECT_NEAR(shift.mean_rad, result.measures->mean_shift_rad, kSame);
   }
 }
 
