@@ -15,7 +15,7 @@ namespace camway::bench {
 
 /// Effort of the slow reference.
 struct SearchEffort {
-  double seconds = 5.0;  ///< processor time of the searches of a shot, without its plans
+  double seconds = 2.0;  ///< processor time of the searches of a shot, without its plans
   std::uint64_t seed = 1;
   /// Clearance that the search keeps, at least the required one. [Units: metres]
   double clearance_m = 0.0;
