@@ -15,6 +15,7 @@
 #include "tests/bench/camway_side.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
+#include "tests/bench/field_values.h"
 #include "tests/bench/ompl_peer.h"
 
 namespace camway::bench {
@@ -23,8 +24,6 @@ namespace {
 using nlohmann::json;
 using planning::PlanResult;
 using planning::Status;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Tolerance for the check of all contenders' paths. A path that cannot be shown free at a tenth of
 // this counts as colliding: wrong paths, and paths that come that near to the scene.
@@ -44,7 +43,7 @@ bool is_ours(std::size_t contender) { return contender <= kKeyframeInsertion; }
 
 struct Options {
   RequestSource source{own_scenes() + "/requests", "", 1.0};
-  std::vector<std::tuple<std::string, std::string, double>> sets;  // in place of `source`
+  std::vector<RequestSet> sets;  // in place of `source`
   std::vector<std::string> contenders{kContenderNames.begin(), kContenderNames.end()};
   double deadline_s = 10.0;
   int rounds = 1;
@@ -153,13 +152,14 @@ class Arena {
                                                           : OmplPeer::Planner::kBitStar;
     // Runs only once: the best of several runs would favour a randomised planner.
     const double begin_s = thread_seconds();
-    const auto poses = ompl.plan(request.plan.keyframes, planner, options_.deadline_s);
+    const std::optional<PolylineWay> way =
+        ompl.plan(request.plan.keyframes, planner, options_.deadline_s);
     outcome.time_s = thread_seconds() - begin_s;
-    outcome.found = poses.has_value();
+    outcome.found = way.has_value();
     outcome.status = outcome.found ? "solved" : "gave up";
     if (!outcome.found) return;
-    outcome.length_m = length_of(*poses);
-    examine(straight_path(*poses), request.camera, outcome);
+    outcome.length_m = length_of(way->poses);
+    examine(straight_path(way->poses), request.camera, outcome);
   }
 
   // Checks every contender's path in the same way.
@@ -204,28 +204,6 @@ struct Summary {
   double bending_ratio = kUnknown, acceleration_ratio = kUnknown;
   double inserted = kUnknown;
 };
-
-// Returns the values that are numbers; a path that was not found has no length.
-std::vector<double> numbers(const std::vector<const Outcome*>& outcomes, double Outcome::*field) {
-  std::vector<double> values;
-  for (const Outcome* outcome : outcomes) {
-    if (std::isfinite(outcome->*field)) values.push_back(outcome->*field);
-  }
-  return values;
-}
-
-double quantile_of(const std::vector<const Outcome*>& outcomes, double Outcome::*field,
-                   double share) {
-  const std::vector<double> values = numbers(outcomes, field);
-  return values.empty() ? kUnknown : quantile(values, share);
-}
-
-double mean_of(const std::vector<const Outcome*>& outcomes, double Outcome::*field) {
-  const std::vector<double> values = numbers(outcomes, field);
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return values.empty() ? kUnknown : sum / static_cast<double>(values.size());
-}
 
 Summary summarise(const std::vector<const Outcome*>& outcomes) {
   Summary s{.contender = outcomes.front()->contender, .runs = outcomes.size()};
@@ -296,10 +274,6 @@ std::vector<Column<Outcome>> outcome_columns() {
   };
 }
 
-std::string as_share(const json& value) {
-  return fmt::format("{:.0f} %", 100.0 * value.get<double>());
-}
-
 std::vector<Column<Summary>> summary_columns() {
   using S = Summary;
   return {
@@ -338,22 +312,11 @@ bool wrong(const Outcome& outcome) {
   return true;
 }
 
-std::vector<BenchScene> load(const Options& options) {
-  if (options.sets.empty()) return load_requests(options.source);
-  std::vector<BenchScene> scenes;
-  for (const auto& [requests, scene, scale] : options.sets) {
-    RequestSource source = options.source;
-    std::tie(source.requests, source.scene, source.scale) = std::tie(requests, scene, scale);
-    std::ranges::move(load_requests(source), std::back_inserter(scenes));
-  }
-  return scenes;
-}
-
 int run(const Options& options) {
   json document = document_of("correct");
   document["rounds"] = options.rounds;
   document["deadline_s"] = options.deadline_s;
-  const std::vector<BenchScene> scenes = load(options);
+  const std::vector<BenchScene> scenes = load_sets(options.source, options.sets);
   std::vector<std::vector<Outcome>> of_scenes;  // kept: the groups refer to them
   for (const BenchScene& scene : scenes) {
     Arena arena(scene, options);
@@ -399,9 +362,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Correction: the ladder, keyframe insertion, and OMPL with FCL, side by side"};
   Options options;
   add_request_options(app, options.source);
-  app.add_option("--set", options.sets,
-                 "in place of --requests, --scene, --scale; any number of them")
-      ->type_name("REQUESTS SCENE SCALE");
+  add_set_option(app, options.sets);
   app.add_option("--contenders", options.contenders, "who takes part")
       ->delimiter(',')
       ->check(

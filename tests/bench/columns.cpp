@@ -25,4 +25,8 @@ std::string as_tenths(const nlohmann::json& value) {
   return std::isfinite(number) ? fmt::format("{:.1f}", number) : "-";
 }
 
+std::string as_share(const nlohmann::json& value) {
+  return fmt::format("{:.0f} %", 100.0 * value.get<double>());
+}
+
 }  // namespace camway::bench

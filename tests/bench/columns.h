@@ -15,6 +15,7 @@ std::string as_duration(const nlohmann::json& seconds);
 std::string as_ratio(const nlohmann::json& ratio);
 std::string as_number(const nlohmann::json& value);
 std::string as_tenths(const nlohmann::json& value);
+std::string as_share(const nlohmann::json& value);  ///< in percent
 
 /// A column: one value of each `Item`, for the table and for JSON.
 template <class Item>

@@ -19,6 +19,11 @@ void add_request_options(CLI::App& app, RequestSource& source) {
   app.add_option("--each", source.each, "so many requests of each difficulty at most");
 }
 
+void add_set_option(CLI::App& app, std::vector<RequestSet>& sets) {
+  app.add_option("--set", sets, "in place of --requests, --scene, --scale; any number of them")
+      ->type_name("REQUESTS SCENE SCALE");
+}
+
 void add_rounds_option(CLI::App& app, int& rounds) {
   app.add_option("--rounds", rounds, "repetitions")
       ->check(CLI::Range(1, 1000))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,8 @@
 namespace camway::bench {
 
 void add_request_options(CLI::App& app, RequestSource& source);
+/// `--set`, in place of the requests, the scene and the scale of `add_request_options`.
+void add_set_option(CLI::App& app, std::vector<RequestSet>& sets);
 void add_rounds_option(CLI::App& app, int& rounds);
 void add_json_option(CLI::App& app, std::string& file);
 

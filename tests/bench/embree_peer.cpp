@@ -11,19 +11,20 @@
 
 namespace camway::bench {
 
+/// Bytes that the library has allocated.
+struct EmbreeMemory {
+  std::atomic<long> now = 0;
+  std::atomic<long> peak = 0;
+};
+
 namespace {
 
 // Four edges, two diagonals.
 constexpr std::array<std::array<std::size_t, 2>, 6> kRays{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}}};
 
-struct Memory {
-  std::atomic<long> now = 0;
-  std::atomic<long> peak = 0;
-};
-
 bool count_memory(void* context, ssize_t bytes, bool /*post*/) {
-  Memory& memory = *static_cast<Memory*>(context);
+  EmbreeMemory& memory = *static_cast<EmbreeMemory*>(context);
   const long now = memory.now += bytes;
   long peak = memory.peak;
   while (now > peak && !memory.peak.compare_exchange_weak(peak, now)) {
@@ -45,7 +46,7 @@ Value* buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
 }  // namespace
 
 struct EmbreePeer::State {
-  Memory memory;
+  EmbreeMemory memory;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   motion::Corners corners_C;

@@ -135,19 +135,20 @@ OmplPeer::OmplPeer(const FclPeer& fcl, const scene::Mesh& mesh, const motion::Ca
   fix_seed();
 }
 
-std::optional<std::vector<motion::Pose>> OmplPeer::plan(std::span<const motion::Keyframe> keyframes,
-                                                        Planner planner, double deadline_s) const {
+std::optional<PolylineWay> OmplPeer::plan(std::span<const motion::Keyframe> keyframes,
+                                          Planner planner, double deadline_s) const {
   const double end_s = thread_seconds() + deadline_s;
   og::SimpleSetup setup(make_space(with_margin_for(bounds_, keyframes), camera_));
   setup.setStateValidityChecker(
       [this](const ob::State* state) { return !fcl_.collides(to_pose(state)); });
   setup.getSpaceInformation()->setup();
-  std::vector<motion::Pose> poses{keyframes.front().pose};
+  PolylineWay way{{keyframes.front().pose}, {0}};
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
     const motion::Pose& from = keyframes[i - 1].pose;
-    if (!connect(setup, planner, from, keyframes[i].pose, end_s, poses)) return std::nullopt;
+    if (!connect(setup, planner, from, keyframes[i].pose, end_s, way.poses)) return std::nullopt;
+    way.at_keyframe.push_back(way.poses.size() - 1);
   }
-  return poses;
+  return way;
 }
 
 motion::Path straight_path(std::span<const motion::Pose> poses) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,12 @@
 #include "tests/bench/fcl_peer.h"
 
 namespace camway::bench {
+
+/// Poses between which the camera moves straight at constant rates.
+struct PolylineWay {
+  std::vector<motion::Pose> poses;
+  std::vector<std::size_t> at_keyframe;  ///< index of each keyframe's pose, increasing
+};
 
 /// The Open Motion Planning Library with FCL, in the usual way: the space is SE(3); a state is
 /// valid if FCL finds no contact; a motion is valid if its samples, at most `kStep_m` apart, are.
@@ -29,10 +36,10 @@ class OmplPeer {
   OmplPeer(const FclPeer& fcl, const scene::Mesh& mesh, const motion::Camera& camera);
 
   /// Plans from keyframe to keyframe: by the straight motion, or if that collides by the planner's
-  /// first solution, simplified. Returns the poses between which the camera moves straight at
-  /// constant rates; nothing if `deadline_s` of processor time do not suffice for all pairs.
-  [[nodiscard]] std::optional<std::vector<motion::Pose>> plan(
-      std::span<const motion::Keyframe> keyframes, Planner planner, double deadline_s) const;
+  /// first solution, simplified. Returns nothing if `deadline_s` of processor time do not suffice
+  /// for all pairs.
+  [[nodiscard]] std::optional<PolylineWay> plan(std::span<const motion::Keyframe> keyframes,
+                                                Planner planner, double deadline_s) const;
 
  private:
   const FclPeer& fcl_;

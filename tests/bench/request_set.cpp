@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <tuple>
 
 #include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
@@ -101,6 +103,18 @@ std::vector<BenchScene> load_requests(const RequestSource& source) {
   std::vector<BenchScene> list;
   for (auto& [file, scene] : scenes) list.push_back(std::move(scene));
   return list;
+}
+
+std::vector<BenchScene> load_sets(const RequestSource& source,
+                                  const std::vector<RequestSet>& sets) {
+  if (sets.empty()) return load_requests(source);
+  std::vector<BenchScene> scenes;
+  for (const RequestSet& set : sets) {
+    RequestSource one = source;
+    std::tie(one.requests, one.scene, one.scale) = set;
+    std::ranges::move(load_requests(one), std::back_inserter(scenes));
+  }
+  return scenes;
 }
 
 std::string own_scenes() { return CAMWAY_SCENES_FOLDER; }

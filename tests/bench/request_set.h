@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "daemon/motion/body/camera.h"
@@ -45,6 +46,13 @@ struct RequestSource {
 /// (`*.index.json`). Ends the program with a message if a file cannot be read, because a benchmark
 /// of a part of the set has no meaning.
 std::vector<BenchScene> load_requests(const RequestSource& source);
+
+/// Requests, their scene, and the factor to its coordinates.
+using RequestSet = std::tuple<std::string, std::string, double>;
+
+/// Reads all requests of `sets` as `load_requests` does, with the other members of `source`; those
+/// of `source` itself if there are no sets.
+std::vector<BenchScene> load_sets(const RequestSource& source, const std::vector<RequestSet>& sets);
 
 /// Reads a scene. Ends the program if it cannot be read.
 std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double scale);

@@ -45,9 +45,10 @@ function(compile_as_one name)
 endfunction()
 
 # The rooms whose code computes: a plan spends its time in them. Optimising all others takes a third of
-# the time of a build and makes no plan faster.
+# the time of a build and makes no plan faster. Benchmarks measure, and of a template that both they and
+# a room instantiate, the linker may take theirs.
 set(computing_rooms daemon/base daemon/geometry daemon/motion daemon/scene daemon/collision
-    daemon/correction daemon/paper)
+    daemon/correction daemon/paper tests/bench)
 
 # optimise_little(TARGET): with CAMWAY_LIGHT, compiles a target without optimisation, unless it is part of a
 # room that computes. Sets `precompiled` in the caller to the precompiled header of its flags.
@@ -117,6 +118,10 @@ function(camway_test name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM camway_precompiled_test)
+  endif()
+  # As the precompiled header, also for tests in the folder of a room that computes.
+  if(CAMWAY_LIGHT)
+    target_compile_options(${name} PRIVATE -O0)
   endif()
   # GCC 12 warns of std::regex, which tests use, with a sanitizer, and of structs of strings at -O3.
   target_compile_options(${name} PRIVATE ${CAMWAY_NO_MAYBE_UNINITIALIZED})
