@@ -120,7 +120,8 @@ function(camway_test name)
     target_precompile_headers(${name} REUSE_FROM camway_precompiled_test)
   endif()
   # As the precompiled header, also for tests in the folder of a room that computes.
-  if(CAMWAY_LIGHT)
+  get_target_property(options ${name} COMPILE_OPTIONS)
+  if(CAMWAY_LIGHT AND NOT "-O0" IN_LIST options)
     target_compile_options(${name} PRIVATE -O0)
   endif()
   # GCC 12 warns of std::regex, which tests use, with a sanitizer, and of structs of strings at -O3.
