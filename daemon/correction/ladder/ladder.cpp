@@ -25,7 +25,7 @@ namespace {
 using collision::CollisionInterval;
 using motion::CubicPath;
 
-constexpr int kStepsPerLeg = 24;  // steps of relaxation per interval with a collision
+constexpr int kStepsPerLeg = 48;  // steps of relaxation per interval with a collision
 /// Collisions that are nearer than so many spacings of knots get one row of bumps.
 constexpr double kNearSpacings = 2.0;
 /// A turn costs so much more than a move that shifts the picture as far: it changes what is seen.

@@ -22,9 +22,8 @@ namespace {
 using motion::CubicPath;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kMostGrowth = 1.2;           // of the cost, for fewer knots ...
-constexpr double kPriceOfKnot_rad_s = 0.004;  // ... and so much more for each
-constexpr double kKeptRoom = 0.57;            // of the least gap of the part, up to what is wanted
+constexpr double kMostGrowth = 1.25;     // of the cost, for fewer knots
+constexpr double kKeptRoom = 0.57;       // of the least gap of the part, up to what is wanted
 constexpr double kRoomResolution = 0.1;  // share of the gap that is kept: resolution of its check
 constexpr int kSamplesAPiece = 6;        // of the gap
 // Steps of the first and of the last relaxation, and of all between.
@@ -60,11 +59,11 @@ class Redrawer {
     // A correction was relaxed by itself.
     if (part_.corrections > 1) relax(*best, kStepsOfRelaxation);
     most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
-    most_knots_ = best->knots_s.size();
+    const std::size_t most_knots = best->knots_s.size();
     keep_room_of(best->drawn.candidate.path);
     place_anew(*best);
     thin_out(*best);
-    if (best->knots_s.size() < most_knots_) {
+    if (best->knots_s.size() < most_knots) {
       Drawing last = *best;
       relax(last, kStepsOfRelaxation);
       if (is_worth(last)) best = std::move(last);
@@ -127,9 +126,8 @@ class Redrawer {
   }
 
   [[nodiscard]] bool is_worth(const Drawing& drawing) const {
-    const auto spared = static_cast<double>(most_knots_ - drawing.knots_s.size());
-    return drawing.cost <= most_cost_ + kPriceOfKnot_rad_s * spared &&
-           is_free_beside(drawing.drawn.candidate) && keeps_room(drawing.drawn.candidate.path);
+    return drawing.cost <= most_cost_ && is_free_beside(drawing.drawn.candidate) &&
+           keeps_room(drawing.drawn.candidate.path);
   }
 
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
@@ -216,7 +214,6 @@ class Redrawer {
   base::Budget budget_{kStepsOfRelaxation};
   std::optional<FreeSpace> roomy_;  ///< requires the gap that drawings keep
   double most_cost_ = 0.0;
-  std::size_t most_knots_ = 0;
 };
 
 }  // namespace
