@@ -25,7 +25,9 @@ using motion::CubicPath;
 constexpr double kMostGrowth = 1.25;     // of the cost, for fewer knots
 constexpr double kKeptRoom = 0.57;       // of the least gap of the part, up to what is wanted
 constexpr double kRoomResolution = 0.1;  // share of the gap that is kept: resolution of its check
-constexpr int kSamplesAPiece = 6;        // of the gap
+constexpr double kLessRoom = 0.75;       // from one attempt to find a gap that is kept to the next
+constexpr int kRoomAttempts = 6;
+constexpr int kSamplesAPiece = 6;  // of the gap
 // Steps of the first and of the last relaxation, and of all between.
 constexpr int kStepsOfRelaxation = 12;
 constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
@@ -96,7 +98,16 @@ class Redrawer {
     const double wanted_m = ContactBounds(Objective::kClosest, space_.ball_radius_m(),
                                           space_.closeness().viewing_distance_m)
                                 .wanted_m();
-    const double gap_m = kKeptRoom * std::max(0.0, room_m(path, wanted_m));
+    double gap_m = kKeptRoom * std::max(0.0, room_m(path, wanted_m));
+    for (int i = 0; i < kRoomAttempts; ++i, gap_m *= kLessRoom) {
+      keep(gap_m);
+      if (keeps_room(path)) return;
+      // Between the samples there is less.
+    }
+    roomy_.reset();
+  }
+
+  void keep(double gap_m) {
     collision::Query query = space_.query();
     collision::DetectOptions& options = query.options;
     options.clearance_m += gap_m;
