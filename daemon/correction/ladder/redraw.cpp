@@ -69,8 +69,9 @@ class Redrawer {
       Drawing last = *best;
       relax(last, kStepsOfRelaxation);
       if (is_worth(last)) best = std::move(last);
+    } else if (!is_worth(*best)) {
+      return std::nullopt;
     }
-    if (!is_worth(*best)) return std::nullopt;
     return std::move(best->drawn.candidate);
   }
 
