@@ -173,7 +173,9 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
         result.free != is_inside ? step_scale : std::min(result.step_scale, step_scale);
   }
   result.contains = result.contains || surely_leaves(result.reach_m);
-  result.gap_m = std::min(result.gap_m, middle_m - ball_m);
+  // Where no obstacle was near, what is left of the scene's gap is a lower bound, often 0.
+  const bool is_alone = !is_inside && !result.is_measured;
+  result.gap_m = is_alone ? middle_m - ball_m : std::min(result.gap_m, middle_m - ball_m);
   result.is_measured = result.is_measured || !is_inside;
   result.free = result.free && is_inside;
 }

@@ -147,10 +147,15 @@ TEST(AnyCollision, IsFoundExactlyWhereThereIsAFirstOne) {
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const motion::Body body(corners_C);
   int colliding = 0;
-  for (int run = 0; run < 200; ++run) {
-    const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 60, 0.15));
+  for (int run = 0; run < 400; ++run) {
+    const bool is_bounded = run % 2 == 1;
+    const int triangles = is_bounded ? 4 : 60;
+    const SceneIndex index =
+        SceneIndex::build(testing::scattered_triangles(random, triangles, 0.15));
     const Path path = straight(random.in_cube(1.2), random.in_cube(1.2), random.rotation());
-    const Query query{Obstacles(index), body};
+    Query query{Obstacles(index), body};
+    query.options.clearance_m = run % 4 < 2 ? 0.0 : 0.02;
+    if (is_bounded) query.obstacles.bounds = {Vec3::Constant(-1.2), Vec3::Constant(1.2)};
     const FirstCollision first = first_collision(query, path, 0.0, 1.0, base::Deadline::never());
     const FirstCollision any = any_collision(query, path, 0.0, 1.0, base::Deadline::never());
     ASSERT_TRUE(any.decided);
@@ -159,12 +164,19 @@ TEST(AnyCollision, IsFoundExactlyWhereThereIsAFirstOne) {
     ++colliding;
     EXPECT_LE(any.interval->t_begin_s, any.interval->t_end_s);
     const double middle_s = 0.5 * (any.interval->t_begin_s + any.interval->t_end_s);
-    // Colliding, or next to the scene.
-    EXPECT_TRUE(clearance_m(index, corners_C, path.pose(middle_s), DetectOptions{}.tolerance_m))
-        << "run " << run;
+    const motion::Pose middle = path.pose(middle_s);
+    bool is_beyond = false;
+    for (const Vec3& corner_C : corners_C) {
+      const Vec3 corner_W = middle.position + middle.orientation * corner_C;
+      is_beyond =
+          is_beyond || query.obstacles.bounds.depth_m(corner_W) < DetectOptions{}.tolerance_m;
+    }
+    // Colliding, or next to the scene or the bounds.
+    const double near_m = query.options.clearance_m + DetectOptions{}.tolerance_m;
+    EXPECT_TRUE(is_beyond || clearance_m(index, corners_C, middle, near_m)) << "run " << run;
   }
-  EXPECT_GT(colliding, 40);
-  EXPECT_LT(colliding, 160);
+  EXPECT_GT(colliding, 80);
+  EXPECT_LT(colliding, 320);
 }
 
 TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
