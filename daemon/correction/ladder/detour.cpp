@@ -84,9 +84,12 @@ class Detour {
     };
     // A narrow place is found sooner by the way of a small ball than by a fine lattice.
     std::optional<Candidate> threaded;
+    const bool has_escaped = begin->position != from_.position || end->position != to_.position;
     const auto is_done = [&] {
       if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
-      return threaded || result_.pocket || proofs_.is_caged();
+      // The pocket is no proof, and other corrections may follow: it only ends this search.
+      const bool is_shut_in = std::exchange(result_.pocket, std::nullopt) && !has_escaped;
+      return threaded || is_shut_in || (!deadline_.passed() && proofs_.is_caged());
     };
     search_ways(ball, lattices, about_W, {use, proofs_.is_separated, is_done});
     if (!first) return threaded;

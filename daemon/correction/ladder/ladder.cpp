@@ -76,7 +76,8 @@ class Ladder {
     correct_all(Search::kWithRoom);
     if (prover_.has_proof()) return false;
     if (collisions_.any_without_way() && !deadline().passed()) {
-      if (prover_.is_separated() || prover_.is_caged()) return false;
+      if (prover_.is_separated()) return false;
+      if (!deadline().passed() && prover_.is_caged()) return false;
       if (space_.may_turn()) correct_all(Search::kTurning);
     }
     timed_out_ = collisions_.count_open() > 0 && deadline().passed();

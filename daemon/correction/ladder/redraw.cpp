@@ -99,11 +99,11 @@ class Redrawer {
     const double wanted_m = ContactBounds(Objective::kClosest, space_.ball_radius_m(),
                                           space_.closeness().viewing_distance_m)
                                 .wanted_m();
-    double gap_m = kKeptRoom * std::max(0.0, room_m(path, wanted_m));
-    for (int i = 0; i < kRoomAttempts; ++i, gap_m *= kLessRoom) {
+    double gap_m = kKeptRoom * room_m(path, wanted_m);
+    for (int i = 0; i < kRoomAttempts && gap_m > 0.0 && !deadline_.passed(); ++i) {
       keep(gap_m);
       if (keeps_room(path)) return;
-      // Between the samples there is less.
+      gap_m *= kLessRoom;  // between the samples there is less
     }
     roomy_.reset();
   }
@@ -112,6 +112,8 @@ class Redrawer {
     collision::Query query = space_.query();
     collision::DetectOptions& options = query.options;
     options.clearance_m += gap_m;
+    // The required clearance does not apply to the bounds.
+    query.obstacles.bounds = query.obstacles.bounds.shrunk_by(gap_m);
     options.tolerance_m = std::max(options.tolerance_m, kRoomResolution * gap_m);
     options.joining_distance_m = std::max(options.joining_distance_m, options.tolerance_m);
     roomy_.emplace(query, space_.policy(), space_.closeness());

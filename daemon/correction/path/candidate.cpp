@@ -90,10 +90,6 @@ std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, cons
                       changed.end_s);
 }
 
-}  // namespace
-
-namespace {
-
 /// Searches [t_begin_s, t_end_s] outside of the problem's foreign collisions. Calls
 /// `search(from_s, to_s)` for each part, until it finds a collision.
 template <class Search>
@@ -111,12 +107,13 @@ std::optional<CollisionInterval> outside_foreign(double t_begin_s, double t_end_
 
 /// About the end of a collision: the first sample behind it at which the body is free.
 double end_of_collision_s(const CollisionInterval& found, const Span& changed,
-                          const Candidate& candidate, const FreeSpace& space) {
+                          const Candidate& candidate, const FreeSpace& space,
+                          const base::Deadline& deadline) {
   const collision::Query& query = space.query();
   collision::Probe probe(query.obstacles, query.body, query.options.clearance_m);
   const double step_s = kStepToEnd * (changed.end_s - changed.begin_s);
   double time_s = found.t_end_s;
-  while (time_s < changed.end_s &&
+  while (time_s < changed.end_s && !deadline.passed() &&
          !probe.check(motion::standing_at(candidate.path.pose(time_s))).free) {
     time_s += step_s;
   }
@@ -189,7 +186,7 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   std::optional<CollisionInterval> found =
       collision_in(changed, candidate, problem, space, deadline);
   if (!found) return {std::move(made->first), std::nullopt};
-  found->t_end_s = end_of_collision_s(*found, changed, candidate, space);
+  found->t_end_s = end_of_collision_s(*found, changed, candidate, space, deadline);
   return {std::nullopt, std::move(found)};
 }
 

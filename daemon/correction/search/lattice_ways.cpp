@@ -32,7 +32,8 @@ class LatticeWays {
               std::span<const geometry::Vec3> about_W, const base::Deadline& deadline)
       : space_(space), ball_(ball), about_W_(about_W), deadline_(deadline) {}
 
-  /// Searches the two coarsest lattices, the second only if the first was exhausted.
+  /// Searches the two coarsest lattices, the second only if the points of the first did not run
+  /// out.
   void search_coarse(const LatticeWayUse& use) {
     for (std::size_t i = 0; i < kFirstCostlyLevel; ++i) {
       const LatticeResult found = searched(kLevels[i], false);

@@ -29,7 +29,9 @@ enum class Lattices {
   kAll,
   kAllButFinest,  ///< detours that need the finest one mostly need turning as well
   kFinest,
-  kCoarse,  ///< the coarsest, and the next one where all that it can reach was visited
+  /// The coarsest, and the next one if the points of the first did not run out. Only
+  /// `LatticeWayUse::use` is called.
+  kCoarse,
 };
 
 /// Receives the ways of `for_each_lattice_way`.

@@ -24,8 +24,8 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
   StackedPoints result = form_.minimum();
   if (!may_turn_) result.rightCols<4>() = variables.rightCols<4>();
   find_touching(samples);
-  if (touching_.empty()) return result;
   bounds_.clear();
+  if (touching_.empty()) return result;
   StackedPoints unforced(response_.rows(), 7);
   for (std::size_t i = 0; i < touching_.size(); ++i) {
     PathSample& sample = *touching_[i];

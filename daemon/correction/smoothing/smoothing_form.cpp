@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -209,6 +210,7 @@ void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& 
 }
 
 void SmoothingForm::bound_about(const StackedPoints& about) {
+  assert(bend_weight_ > 0.0);
   std::vector<double> sizes_m;
   for (const OffsetPlace& place : places_) {
     sizes_m.push_back((place.offset + combined(place.value, about)).norm());

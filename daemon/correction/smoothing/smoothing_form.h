@@ -118,7 +118,7 @@ class SmoothingForm {
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, const Closeness& closeness, const StackedPoints& about);
 
-  /// Makes the form of `kClosest` the bound about other coefficients.
+  /// Makes the form the bound about other coefficients. Requires the objective `kClosest`.
   void bound_about(const StackedPoints& about);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
