@@ -42,7 +42,8 @@ void print_json(const SceneCache& cache, const std::vector<CachedScene>& scenes)
                               {"same_build", scene.is_of_this_build},
                               {"key", scene.key}});
   }
-  fmt::print("{}\n", json.dump(2));
+  // A file's name may be no UTF-8.
+  fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes) {

@@ -45,8 +45,8 @@ function(compile_as_one name)
 endfunction()
 
 # The rooms whose code computes: a plan spends its time in them. Optimising all others takes a third of
-# the time of a build and makes no plan faster. Benchmarks measure, and of a template that both they and
-# a room instantiate, the linker may take theirs.
+# the time of a build and makes no plan faster. Benchmarks measure; and where both they and a room
+# instantiate a template, the linker may keep the copy that is not optimised.
 set(computing_rooms daemon/base daemon/geometry daemon/motion daemon/scene daemon/collision
     daemon/correction daemon/paper tests/bench)
 

@@ -285,7 +285,7 @@ bool take_texts(const Content& content, PreparedScene& prepared, Mesh& mesh) {
   return first == mesh.triangles.size() && reader.is_at_end();
 }
 
-/// Sets the report. Returns false if its numbers are none.
+/// Sets the report. Returns false if a number in it is not valid.
 bool take_report(const layout::Facts& facts, const Mesh& mesh, const ImportOptions& options,
                  ImportReport& report) {
   report.scale = options.scale;

@@ -61,12 +61,12 @@ base::Result<Box> checked_bounds(const Mesh& mesh, unsigned threads) {
   const bool has_coordinates =
       holds_for_all(threads, chunks_of(mesh.vertices.size()),
                     [&](std::size_t chunk) { return are_coordinates(mesh.vertices, chunk); });
-  if (!has_coordinates) return base::Failure{"a coordinate is no coordinate"};
+  if (!has_coordinates) return base::Failure{"a coordinate is not finite or too large"};
   std::vector<Box> boxes(chunks_of(mesh.triangles.size()));
   const bool has_triangles = holds_for_all(threads, boxes.size(), [&](std::size_t chunk) {
     return add_triangles(mesh, chunk, boxes[chunk]);
   });
-  if (!has_triangles) return base::Failure{"a triangle is none"};
+  if (!has_triangles) return base::Failure{"a triangle has no area"};
   Box all;
   for (const Box& box : boxes) all.extend(box);
   return all;

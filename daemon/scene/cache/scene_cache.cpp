@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -120,9 +121,17 @@ void make_room(const FileDescriptor& folder, std::uint64_t bytes, std::uint64_t 
   }
 }
 
+/// Removes a file, unless another process has put a new one in its place.
+void remove_if_same(const FileDescriptor& folder, const std::string& name,
+                    const struct stat& opened) {
+  struct stat now {};
+  if (fstatat(folder.get(), name.c_str(), &now, AT_SYMLINK_NOFOLLOW) != 0) return;
+  if (now.st_ino != opened.st_ino || now.st_dev != opened.st_dev) return;
+  unlinkat(folder.get(), name.c_str(), 0);
+}
+
 /// A name that no other thread or process uses.
 std::string unfinished_name() {
-  static_assert(sizeof(std::uintptr_t) >= sizeof(void*));
   const char mark = 0;  // its address differs from thread to thread
   return std::string(kUnfinished) + std::to_string(getpid()) + "-" +
          std::to_string(reinterpret_cast<std::uintptr_t>(&mark)) + "-" +
@@ -148,13 +157,17 @@ std::optional<PreparedScene> SceneCache::find(const SceneKey& key,
   if (!folder.is_open()) return std::nullopt;
   const FileDescriptor file = open_file(folder, file_name(key), status);
   if (!file.is_open()) return std::nullopt;
-  base::Result<PreparedScene> read = read_prepared(file.get(), key, options);
-  if (!read) {
-    unlinkat(folder.get(), file_name(key).c_str(), 0);
+  try {
+    base::Result<PreparedScene> read = read_prepared(file.get(), key, options);
+    if (!read) {
+      remove_if_same(folder, file_name(key), status);
+      return std::nullopt;
+    }
+    futimens(file.get(), nullptr);
+    return *std::move(read);
+  } catch (const std::bad_alloc&) {
     return std::nullopt;
   }
-  futimens(file.get(), nullptr);
-  return *std::move(read);
 }
 
 bool SceneCache::store(const SceneKey& key, const fs::path& scene_file,

@@ -198,7 +198,7 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::of_codes(
     return base::Failure{"the distance field has not as many cells as its grid"};
   }
   if (!(settled_share >= 0.0 && settled_share <= 1.0)) {
-    return base::Failure{"the distance field has a share of settled cells that is none"};
+    return base::Failure{"the share of settled cells of the distance field is not between 0 and 1"};
   }
   return std::shared_ptr<const DistanceField>(
       new DistanceField(*grid, std::move(codes), settled_share));

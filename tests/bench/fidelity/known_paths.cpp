@@ -93,9 +93,14 @@ std::vector<CubicPath> KnownPaths::of(const std::string& scene, const Shot& shot
   std::vector<CubicPath> paths;
   const auto known = document_.find(key_of(scene, shot));
   if (known == document_.end()) return paths;
-  for (const auto& [way, value] : known->items()) {
-    CubicPath path = from_json(value);
-    if (fits(path, shot)) paths.push_back(std::move(path));
+  try {
+    for (const auto& [way, value] : known->items()) {
+      CubicPath path = from_json(value);
+      if (fits(path, shot)) paths.push_back(std::move(path));
+    }
+  } catch (const json::exception& fault) {
+    fmt::print(stderr, "bench: {}: {}: {}\n", file_, key_of(scene, shot), fault.what());
+    std::exit(2);
   }
   return paths;
 }

@@ -2,14 +2,12 @@
 #include "tests/bench/fidelity/local_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
 #include <Eigen/LU>
 
 #include "daemon/correction/path/candidate.h"
-#include "daemon/motion/path/bezier.h"
 #include "tests/bench/measure.h"
 
 namespace camway::bench {
@@ -65,19 +63,6 @@ BumpRow times(const BumpRow& row, double factor) {
     bump.image *= factor;
   }
   return larger;
-}
-
-/// Value of the bump at a knot, with coefficient 1, at a time.
-double value_of_bump(const KnotRow& knots, int knot, double time_s) {
-  std::array<double, 5> knots_s;
-  for (int i = 0; i < 5; ++i) knots_s[static_cast<std::size_t>(i)] = knots.knot_s(knot - 2 + i);
-  const auto pieces = motion::b_spline_pieces(knots_s);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!(knots_s[i] <= time_s && time_s <= knots_s[i + 1])) continue;
-    const double u = (time_s - knots_s[i]) / (knots_s[i + 1] - knots_s[i]);
-    return motion::bezier::value_at(pieces[i], u);
-  }
-  return 0.0;
 }
 
 CubicPoint difference(const CubicPoint& a, const CubicPoint& b) {
@@ -196,7 +181,7 @@ std::vector<double> LocalSearch::cancelling(const KnotRow& knots, int first, int
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     for (Eigen::Index k = 0; k < values.cols(); ++k) {
       const double time_s = times_s[static_cast<std::size_t>(i)];
-      values(i, k) = value_of_bump(knots, first + static_cast<int>(k), time_s);
+      values(i, k) = knots.bump(first + static_cast<int>(k)).value(time_s);
     }
   }
   const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(values).kernel();
