@@ -20,6 +20,9 @@ class ConstrainedMinimum {
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return bounds_.wanted_m(); }
+  /// As in `ContactBounds`.
+  [[nodiscard]] bool makes_room() const { return bounds_.makes_room(); }
+  void make_no_room() { bounds_.make_no_room(); }
   /// Sets the least gap that `kSafest` must keep. [Units: metres]
   void keep(double least_gap_m) { bounds_.keep(least_gap_m); }
 

@@ -36,6 +36,10 @@ class ContactBounds {
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
 
+  /// Whether there are soft bounds where a gap is less than `wanted_m`; initially for `kClosest`.
+  [[nodiscard]] bool makes_room() const { return makes_room_; }
+  void make_no_room() { makes_room_ = false; }
+
   void clear();
   /// Adds the bounds of `contacts` on a sample whose displacement is `moved`. Requires contacts of
   /// one triangle to be adjacent, and `contacts` to stay in place until `remember`. `response`: the
@@ -53,7 +57,7 @@ class ContactBounds {
                 double compliance, double& force);
 
   const bool is_safest_;
-  const bool makes_room_;  ///< whether a gap below `wanted_m_` has a soft bound
+  bool makes_room_;  ///< whether a gap below `wanted_m_` has a soft bound
   const double wanted_m_;
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;

@@ -72,6 +72,18 @@ class Relaxation {
     if (is_safest_) keep_least_gap();
   }
 
+  /// Begins again at `offsets`, and makes no room. Returns false if it made none.
+  bool restart_without_room(const Offsets& offsets) {
+    if (!minimum_.makes_room()) return false;
+    minimum_.make_no_room();
+    variables_ = free_.variables_of(offsets, lever_m_);
+    for (PathSample& sample : samples_) {
+      sample.has_rows = false;
+      probe_.measure(sample, sample.at(variables_));
+    }
+    return true;
+  }
+
   [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
 
   /// Whether the objective may fall by `share`, subject to the known contacts.
@@ -285,7 +297,9 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     ++free.paths;
     if (tried.candidate) {
       Relaxed found{better, std::move(*tried.candidate), free.paths};
-      return relaxation.is_no_worse(found, free) ? std::move(found) : std::move(free);
+      if (relaxation.is_no_worse(found, free)) return found;
+      if (!relaxation.restart_without_room(free.offsets)) return free;
+      continue;
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);

@@ -465,6 +465,25 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   EXPECT_GT(gap_m(result), 0.02 * radius_m);
 }
 
+// Over a plate that is just touched: the room that is aimed at would cost a multiple.
+TEST(Relaxation, LowersTheCostWhereRoomIsTooDear) {
+  Case c;
+  c.policy.rule = OrientationRule::kKeep;
+  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m + 0.01, 0.3});
+  c.build();
+  c.problem = testing::problem_of_leg({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 8, {0.02, 0.02, 0}), Ends::kFixed);
+  ASSERT_TRUE(free);
+  const Relaxed result = relaxed_fully(c, *free, Ends::kFixed, Objective::kClosest);
+  const auto cost = [&](const Relaxed& of) {
+    return c.value(of.offsets, Ends::kFixed, Objective::kClosest);
+  };
+  EXPECT_LT(cost(result), 0.9 * cost(*free));
+  EXPECT_GT(least_gap_m(c, result.candidate.path, 0.0, 8.0, 4000), 0.0);
+}
+
 // The next keyframe is so close that the coefficients which keep the one before would reach it.
 TEST(Relaxation, PolishesNextToAShortGap) {
   Case c;
