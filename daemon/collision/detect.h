@@ -47,9 +47,9 @@ FirstCollision first_collision(const Query& query, const motion::Path& path, dou
                                double t_end_s, const base::Deadline& deadline);
 
 /// Decides whether [t_begin_s, t_end_s] is free. If decided, returns no interval exactly if all of
-/// it is proved free; then `first_collision` returns none, too. Otherwise returns a short time range
-/// at whose middle the body collides, or one that could not be decided at the tolerance. Cheaper
-/// than `first_collision` where there is a collision.
+/// it is proved free; then `first_collision` returns none, too. Otherwise returns a short time
+/// range at whose middle the body collides, or one that could not be decided at the tolerance.
+/// Cheaper than `first_collision` where there is a collision.
 FirstCollision any_collision(const Query& query, const motion::Path& path, double t_begin_s,
                              double t_end_s, const base::Deadline& deadline);
 
