@@ -20,6 +20,8 @@ class FileDescriptor {
 
   [[nodiscard]] int get() const { return fd_; }
   [[nodiscard]] bool is_open() const { return fd_ >= 0; }
+  /// Returns the descriptor, which the caller has to close.
+  int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_;

@@ -15,7 +15,7 @@ std::string digest_of(std::string_view bytes) {
 }
 
 TEST(Digest, IsXxh3) {
-  // Of xxhsum -H2, so that other programs can compute it.
+  // The command `xxhsum -H2` prints the same, so other programs can compute it.
   EXPECT_EQ(digest_of(""), "99aa06d3014798d86001c324468d497f");
 }
 

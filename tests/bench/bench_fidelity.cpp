@@ -65,7 +65,7 @@ struct Options {
   }
 };
 
-/// What one way made of a request. Measures are of paths that are proved free.
+/// The answer of one way to a request, and its measures if the path is proved free.
 struct Outcome {
   std::string scene{}, request{}, difficulty{};
   Way way = kDefault;

@@ -90,21 +90,6 @@ std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, cons
                       changed.end_s);
 }
 
-/// Searches [t_begin_s, t_end_s] outside of the problem's foreign collisions. Calls
-/// `search(from_s, to_s)` for each part, until it finds a collision.
-template <class Search>
-std::optional<CollisionInterval> outside_foreign(double t_begin_s, double t_end_s,
-                                                 const Problem& problem, const Search& search) {
-  double from_s = t_begin_s;
-  for (const CollisionInterval& other : problem.foreign_collisions) {
-    if (other.t_end_s <= from_s) continue;
-    if (other.t_begin_s >= t_end_s) break;
-    if (auto found = search(from_s, other.t_begin_s)) return found;
-    from_s = other.t_end_s;
-  }
-  return search(from_s, t_end_s);
-}
-
 /// About the end of a collision: the first sample behind it at which the body is free.
 double end_of_collision_s(const CollisionInterval& found, const Span& changed,
                           const Candidate& candidate, const FreeSpace& space,
@@ -155,14 +140,21 @@ std::optional<CollisionInterval> new_collision(const motion::CubicPath& path, do
                                                const FreeSpace& space,
                                                const base::Deadline& deadline) {
   const motion::Path segments = path.around(t_begin_s, t_end_s).path();
-  return outside_foreign(t_begin_s, t_end_s, problem,
-                         [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
-                           if (!(from_s < to_s)) return std::nullopt;
-                           const collision::FirstCollision found = collision::any_collision(
-                               space.query(), segments, from_s, to_s, deadline);
-                           if (!found.decided) return CollisionInterval{from_s, to_s};
-                           return found.interval;
-                         });
+  const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
+    if (!(from_s < to_s)) return std::nullopt;
+    const collision::FirstCollision found =
+        collision::any_collision(space.query(), segments, from_s, to_s, deadline);
+    if (!found.decided) return CollisionInterval{from_s, to_s};
+    return found.interval;
+  };
+  double from_s = t_begin_s;
+  for (const CollisionInterval& other : problem.foreign_collisions) {
+    if (other.t_end_s <= from_s) continue;
+    if (other.t_begin_s >= t_end_s) break;
+    if (auto found = search(from_s, other.t_begin_s)) return found;
+    from_s = other.t_end_s;
+  }
+  return search(from_s, t_end_s);
 }
 
 std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,

@@ -7,7 +7,6 @@
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -20,28 +19,13 @@
 #include <thread>
 #include <utility>
 
+#include "daemon/base/file_descriptor.h"
+
 namespace camway::process {
 namespace {
 
 constexpr std::size_t kConnectionBytes = 16'384;
 constexpr int kBacklog = 16;
-
-/// A file descriptor that is closed unless it is released.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 /// Listens; returns false with `errno` set if that is not possible. Takes a port whose last user
 /// ended a moment ago, but not one on which somebody listens.
@@ -80,7 +64,7 @@ class MicroHttpPage final : public HttpPage {
   MicroHttpPage& operator=(const MicroHttpPage&) = delete;
 
   /// Takes over `socket`, which has to be listening.
-  bool start(Descriptor& socket) {
+  bool start(base::FileDescriptor& socket) {
     if (stop_.get() < 0) return false;
     port_ = port_of(socket.get());
     daemon_ = MHD_start_daemon(
@@ -168,7 +152,7 @@ class MicroHttpPage final : public HttpPage {
 
   const HttpContent content_;
   const HttpLimits limits_;
-  const Descriptor stop_;  ///< readable when the thread has to end
+  const base::FileDescriptor stop_;  ///< readable when the thread has to end
   MHD_Daemon* daemon_ = nullptr;
   int port_ = 0;
   int connections_ = 0;        ///< used by the page's thread only
@@ -186,7 +170,7 @@ base::Result<std::unique_ptr<HttpPage>> open_http_page(const HttpAddress& addres
     return base::Failure{fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
   }
   const std::string where = fmt::format("cannot listen on {} port {}", address.ip, address.port);
-  Descriptor socket(::socket(parsed->storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  base::FileDescriptor socket(::socket(parsed->storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!listen_on(socket.get(), *parsed)) {
     return base::Failure{fmt::format("{}: {}", where, std::strerror(errno))};
   }

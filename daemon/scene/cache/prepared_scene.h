@@ -12,7 +12,7 @@
 
 namespace camway::scene {
 
-/// What a scene file is prepared with, and what the prepared scene depends on beside the file.
+/// Options of the preparation of a scene file. With the file, they determine the prepared scene.
 struct PreparationOptions {
   ImportOptions import;
   IndexOptions index;

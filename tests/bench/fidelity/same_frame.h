@@ -9,8 +9,8 @@ namespace camway::bench {
 /// Returns a cubic path with the reference of `original` that meets `path` at many times: at all
 /// joints of both, and between these. It makes paths comparable whose images have another
 /// reference, which the cost of corrections requires. Positions of a path whose position is a cubic
-/// spline are the same up to rounding; orientations are interpolated, and agree to about 1e-4 of
-/// the turn. Its images are as long as those of `original`, so that a path that equals `original`
+/// spline are the same up to rounding; orientations are interpolated between many times, so that
+/// the cost is the same to a thousandth. Its images are as long as those of `original`, so that a path that equals `original`
 /// has the same images.
 ///
 /// Requires both paths to cover the same time.
