@@ -25,7 +25,7 @@ using testing_support::FakeDaemon;
 using testing_support::quick;
 using testing_support::small_request;
 
-constexpr std::uint32_t kSeed = 2006;
+constexpr std::uint32_t kPagesSeed = 2006;
 
 TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
   int calls = 0;
@@ -83,7 +83,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
 
 TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
   // 188 pages; a different tenth of them is lost each time.
-  testing::Random random(kSeed);
+  testing::Random random(kPagesSeed);
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 30'000, 160));

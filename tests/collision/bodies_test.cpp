@@ -38,7 +38,7 @@ Body make(const motion::BodyShape& shape) {
   return body.value.value_or(Body(testing::small_camera()));
 }
 
-SceneIndex plate_at_z0() {
+SceneIndex large_plate() {
   Mesh mesh;
   testing::add_triangle(mesh, {-50, -50, 0}, {50, -50, 0}, {0, 80, 0});
   return SceneIndex::build(mesh);
@@ -68,7 +68,7 @@ void expect_crossing(const std::vector<CollisionInterval>& found, double lowest_
 
 TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
   testing::Random random(51);
-  const SceneIndex index = plate_at_z0();
+  const SceneIndex index = large_plate();
   const motion::BoxShape box{{0.1, -0.2, 0.05}, {0.3, 0.2, 0.6}};
   const motion::SphereShape ball{{0.1, 0.2, -0.3}, 0.25};
   const motion::ConvexShape pyramid{
@@ -125,7 +125,7 @@ TEST(Bodies, AreSolidThroughAndThrough) {
 }
 
 TEST(Bodies, RequiredClearanceIsKeptToTheTolerance) {
-  const SceneIndex index = plate_at_z0();
+  const SceneIndex index = large_plate();
   for (const double clearance_m : {0.02, 0.3}) {
     const Path path = descent(Quat::Identity());
     expect_crossing(detect(index, path, Body(testing::small_camera()), clearance_m),
@@ -136,7 +136,7 @@ TEST(Bodies, RequiredClearanceIsKeptToTheTolerance) {
 }
 
 TEST(Bodies, ClearanceIsThatOfTheSurface) {
-  const SceneIndex index = plate_at_z0();
+  const SceneIndex index = large_plate();
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{-1, 0, 1}, Quat::Identity()}}, {1.0, {{1, 0, 1}, Quat::Identity()}}});
   for (const auto& [shape, truth_m] :

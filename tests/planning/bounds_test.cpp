@@ -14,6 +14,7 @@
 #include "daemon/planning/stages/way_beyond.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/scene_difference.h"
+#include "tests/planning/plan_fixture.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -25,6 +26,7 @@ using geometry::Quat;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing_plan::planned;
 
 constexpr int kSamples = 5000;
 
@@ -32,10 +34,6 @@ std::shared_ptr<const scene::Snapshot> snapshot_of(scene::Mesh mesh, const Bound
   scene::SnapshotOptions options;
   options.bounds = bounds;
   return scene::make_snapshot("house", std::move(mesh), options).snapshot;
-}
-
-PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, base::Deadline::never());
 }
 
 /// Returns a strip of floor and a wall across it that ends at z = 2. The way under the floor is

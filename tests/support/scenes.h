@@ -49,6 +49,12 @@ inline void add_triangle(scene::Mesh& mesh, const Vec3& a, const Vec3& b, const 
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
+/// Adds the parallelogram with the sides `u` and `v` at `corner`.
+inline void add_parallelogram(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v) {
+  add_triangle(mesh, corner, corner + u, corner + u + v);
+  add_triangle(mesh, corner, corner + u + v, corner + v);
+}
+
 /// Returns triangles of about `size_m` scattered over a cube of side 2 m about the origin.
 inline scene::Mesh scattered_triangles(Random& random, int count, double size_m) {
   std::uniform_real_distribution<double> place(-1.0, 1.0);

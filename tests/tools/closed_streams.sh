@@ -16,16 +16,14 @@ readonly kPrograms kScenes
 readonly kWays=('<&-' '>&-' '2>&-' '<&- >&-' '<&- 2>&-' '>&- 2>&-' '<&- >&- 2>&-')
 readonly kRequest=$kScenes/requests/maze-free-cells.json
 PATH=$kPrograms:$PATH
-faults=0
 daemon=
 folder=$(mktemp -d)
 trap '[[ -z $daemon ]] || kill "$daemon" || true; rm -r "$folder"' EXIT
 cd "$folder"
-mkdir open closed
+: >faults
 
 fault() {
-  echo "FAULT $*"
-  faults=$((faults + 1))
+  echo "FAULT $*" >>faults
 }
 
 # exit_code_of COMMAND: of a command that writes to nobody.
@@ -37,41 +35,65 @@ exit_code_of() {
 
 # try COMMAND CODE [MUTE_CODE]: it has to end with CODE ("as-open": the one that it ends with where
 # nothing is closed), or where standard output is closed with MUTE_CODE, if it prints there. @ in it is
-# the folder for its files.
+# the folder for its files. The ways to close run at the same time, because most commands wait.
 try() {
-  local command=$1 expected=$2 way file code right
+  local command=$1 expected=$2 i code
+  mkdir open
   code=$(exit_code_of "${command//@/open} >open.out 2>open.err </dev/null")
   [[ $expected != as-open ]] || expected=$code
   [[ $code == "$expected" ]] || fault "$command: ends with $code, not $expected: $(<open.err)"
-  for way in "${kWays[@]}"; do
-    rm -f closed/*
-    code=$(exit_code_of "${command//@/closed} </dev/null >closed.out 2>closed.err $way")
-    right=$expected
-    [[ " $way" != *' >&-'* ]] || right=${3:-$expected}
-    [[ $code == "$right" ]] || fault "$command $way: ends with $code, not $right"
-    for file in open/*; do
-      [[ -e $file ]] || continue
-      cmp -s "$file" "closed/${file#open/}" || fault "$command $way: ${file#open/} is another one"
-    done
+  for i in "${!kWays[@]}"; do
+    try_closed "$command" "$expected" "${3:-$expected}" "${kWays[i]}" "closed$i" &
   done
-  rm -f open/*
+  wait_for_jobs "${#kWays[@]}"
+  rm -r open closed?
 }
 
-# start_daemon WAY: with its log, if that is open, in daemon.err.
+# try_closed COMMAND CODE MUTE_CODE WAY FOLDER
+try_closed() {
+  local command=$1 right=$2 way=$4 folder=$5 file code
+  mkdir "$folder"
+  code=$(exit_code_of "${command//@/$folder} </dev/null >$folder.out 2>$folder.err $way")
+  [[ " $way" != *' >&-'* ]] || right=$3
+  [[ $code == "$right" ]] || fault "$command $way: ends with $code, not $right"
+  for file in open/*; do
+    [[ -e $file ]] || continue
+    cmp -s "$file" "$folder/${file#open/}" || fault "$command $way: ${file#open/} is another one"
+  done
+}
+
+# wait_for_jobs COUNT: for the last COUNT jobs, not for a daemon that goes on.
+wait_for_jobs() {
+  local job
+  for job in $(jobs -p | tail -n "$1"); do
+    wait "$job" || fault "job $job of this script died"
+  done
+}
+
+# start_daemon NAME WAY: on a channel prefix of that name, with its log, if that is open, in NAME.err.
 start_daemon() {
-  : >daemon.err
-  bash -c "exec camwayd --scene maze=$kScenes/maze.obj,occupancy=0.1 --scene-roots $kScenes \
-    </dev/null >daemon.out 2>daemon.err $1" &
+  bash -c "exec camwayd --prefix $1 --scene maze=$kScenes/maze.obj,occupancy=0.1 \
+    --scene-roots $kScenes </dev/null >$1.out 2>$1.err $2" &
   daemon=$!
-  until camway status >/dev/null 2>&1; do kill -0 "$daemon" || return 1; done
+  until camway status --prefix "$1" >/dev/null 2>&1; do kill -0 "$daemon" || return 1; done
 }
 
+# stop_daemon NAME
 stop_daemon() {
   local code=0
   kill "$daemon" || true # it may have died
   wait "$daemon" || code=$?
   daemon=
   [[ $code == 0 ]] || fault "camwayd $1: ends with $code"
+}
+
+# try_daemon WAY NAME: a daemon that is started so has to answer, and to print nothing.
+try_daemon() {
+  start_daemon "$2" "$1" || fault "camwayd $1: does not come up"
+  camway load --prefix "$2" --scene "maze=$kScenes/maze.obj" --request "$kRequest" --seconds 0.2 \
+    >/dev/null || fault "camwayd $1: answers are wrong or lost"
+  stop_daemon "$1"
+  [[ ! -s $2.out ]] || fault "camwayd $1: prints $(<"$2.out")"
 }
 
 camway plan --request "$kRequest" --response plan.json --no-timing 2>/dev/null
@@ -92,7 +114,7 @@ try "camwayd --version" 0 2
 try "camwayd --scene maze=$kScenes/maze.obj --check-config" 0 2
 try "camwayd --scene nowhere.obj --check-config" 2
 
-start_daemon ''
+start_daemon CAMWAY ''
 lcm-logger --quiet session.lcmlog &
 logger=$!
 until [[ -e session.lcmlog ]]; do sleep 0.1; done
@@ -105,20 +127,18 @@ try "camway load --scene maze=$kScenes/maze.obj --request $kRequest --seconds 0.
 try "camway status --json" 0 2
 try "camway scene describe maze" 0 2
 try "camway scene export maze --to @/map.bt" 0 2
-try "camway scene load uploaded --upload $kScenes/maze.obj" 0 2
+try "camway scene load uploaded-@ --upload $kScenes/maze.obj" 0 2
 try "camway scene describe nowhere" 2
 try "camway occupancy --daemon maze --point 1,1,1" 0 2
 try "camway watch nowhere --request $kRequest" 2
 try "camway doctor" as-open 2
 stop_daemon 'with open streams'
 
-for way in "${kWays[@]}"; do
-  start_daemon "$way" || fault "camwayd $way: does not come up"
-  camway load --scene "maze=$kScenes/maze.obj" --request "$kRequest" --seconds 0.2 >/dev/null \
-    || fault "camwayd $way: answers are wrong or lost"
-  stop_daemon "$way"
-  [[ ! -s daemon.out ]] || fault "camwayd $way: prints $(<daemon.out)"
+for i in "${!kWays[@]}"; do
+  try_daemon "${kWays[i]}" "way$i" &
 done
+wait_for_jobs "${#kWays[@]}"
 
-echo "$faults faults"
-[[ $faults == 0 ]]
+cat faults
+echo "$(wc -l <faults) faults"
+[[ ! -s faults ]]

@@ -45,10 +45,11 @@ function(compile_as_one name)
 endfunction()
 
 # The rooms whose code computes: a plan spends its time in them. Optimising all others takes a third of
-# the time of a build and makes no plan faster. Benchmarks measure; and where both they and a room
-# instantiate a template, the linker may keep the copy that is not optimised.
+# the time of a build and makes no plan faster. Benchmarks measure, and the campaign of tests/collision
+# computes in fifty digits. Where both they and a room instantiate a template, the linker may keep the copy
+# that is not optimised.
 set(computing_rooms daemon/base daemon/geometry daemon/motion daemon/scene daemon/collision
-    daemon/correction daemon/paper tests/bench)
+    daemon/correction daemon/paper tests/bench tests/collision)
 
 # optimise_little(TARGET): with CAMWAY_LIGHT, compiles a target without optimisation, unless it is part of a
 # room that computes. Sets `precompiled` in the caller to the precompiled header of its flags.
@@ -105,27 +106,39 @@ endfunction()
 # they are not built with it.
 set(threaded_tests base client integration process scene service tools wire)
 
-# camway_test(NAME [NETWORK] [QUICK] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest program per
-# folder of tests/, whose name is the label of its tests (`ctest -L service`). NETWORK runs each test in a
-# private network namespace of its own, for tests that use LCM. QUICK adds the label `quick` to all tests
-# but those named after SLOW, which take more than a second.
-function(camway_test name)
-  cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
-  camway_executable(${name} SOURCES ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/no_scene_cache.cpp
-                    DEPENDS ${arg_DEPENDS} GTest::gtest
-                    GTest::gmock GTest::gtest_main Eigen3::Eigen)
-  # Files of tests may repeat each other's short names.
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
-  if(CAMWAY_PRECOMPILE)
-    target_precompile_headers(${name} REUSE_FROM camway_precompiled_test)
-  endif()
-  # As the precompiled header, also for tests in the folder of a room that computes.
-  get_target_property(options ${name} COMPILE_OPTIONS)
-  if(CAMWAY_LIGHT AND NOT "-O0" IN_LIST options)
-    target_compile_options(${name} PRIVATE -O0)
-  endif()
+# compile_test(TARGET DEPENDS LIGHT): compiles sources of tests, without optimisation if LIGHT. Eight of them
+# are one unit of translation, which takes a third of the time: most of it goes into instances of the same
+# templates.
+function(compile_test name depends light)
+  target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${depends} GTest::gtest GTest::gmock
+                        GTest::gtest_main Eigen3::Eigen)
   # GCC 12 warns of std::regex, which tests use, with a sanitizer, and of structs of strings at -O3.
   target_compile_options(${name} PRIVATE ${CAMWAY_NO_MAYBE_UNINITIALIZED})
+  set(precompiled camway_precompiled_test)
+  if(light)
+    target_compile_options(${name} PRIVATE -O0)
+    set(precompiled camway_precompiled_test_light)
+  endif()
+  if(CAMWAY_PRECOMPILE)
+    target_precompile_headers(${name} REUSE_FROM ${precompiled})
+  endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${CAMWAY_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
+# camway_test(NAME [NETWORK] [QUICK] SOURCES ... [COMPUTING ...] DEPENDS ... [SLOW TEST ...]): one GoogleTest
+# program per folder of tests/, whose name is the label of its tests (`ctest -L service`). COMPUTING are
+# sources whose own code takes the time of their tests, such as oracles: with CAMWAY_LIGHT, they alone are
+# optimised. NETWORK runs each test in a private network namespace of its own, for tests that use LCM. QUICK
+# adds the label `quick` to all tests but those named after SLOW, which take more than a second.
+function(camway_test name)
+  cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;COMPUTING;DEPENDS;SLOW" ${ARGN})
+  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/no_scene_cache.cpp)
+  compile_test(${name} "${arg_DEPENDS}" "${CAMWAY_LIGHT}")
+  if(arg_COMPUTING)
+    add_library(${name}_computing OBJECT EXCLUDE_FROM_ALL ${arg_COMPUTING})
+    compile_test(${name}_computing "${arg_DEPENDS}" FALSE)
+    target_link_libraries(${name} PRIVATE ${name}_computing)
+  endif()
   if(arg_NETWORK)
     # The emulator is CMake's word for "what runs the program"; gtest_discover_tests heeds it.
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR

@@ -44,8 +44,9 @@ class TextReader {
 class DocumentBuilder {
  public:
   /// `read_to` is the place up to which the parser has read the text that begins at `begin`.
-  DocumentBuilder(json& root, const char* begin, const char* const& read_to)
-      : root_(root), begin_(begin), read_to_(read_to) {}
+  DocumentBuilder(json& root, const char* begin, const char* const& read_to,
+                  std::size_t most_values)
+      : root_(root), begin_(begin), read_to_(read_to), most_values_(most_values) {}
 
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
@@ -84,6 +85,11 @@ class DocumentBuilder {
     return false;
   }
 
+  bool count_value() {
+    return ++values_ <= most_values_ ||
+           refuse("more than " + std::to_string(most_values_) + " values");
+  }
+
   json* place(json value) {
     if (stack_.empty()) {
       root_ = std::move(value);
@@ -98,9 +104,7 @@ class DocumentBuilder {
   }
 
   bool add(json value) {
-    if (++values_ > kMaxDocumentValues) {
-      return refuse("more than " + std::to_string(kMaxDocumentValues) + " values");
-    }
+    if (!count_value()) return false;
     place(std::move(value));
     return true;
   }
@@ -109,9 +113,7 @@ class DocumentBuilder {
     if (stack_.size() == kMaxDocumentDepth) {
       return refuse("nested deeper than " + std::to_string(kMaxDocumentDepth) + " levels");
     }
-    if (++values_ > kMaxDocumentValues) {
-      return refuse("more than " + std::to_string(kMaxDocumentValues) + " values");
-    }
+    if (!count_value()) return false;
     stack_.push_back(place(std::move(value)));
     return true;
   }
@@ -138,6 +140,7 @@ class DocumentBuilder {
   json& root_;
   const char* begin_;
   const char* const& read_to_;
+  std::size_t most_values_;
   std::vector<json*> stack_;
   std::string key_;
   std::string reason_;
@@ -174,14 +177,15 @@ const char* type_name(const json& value) {
 
 }  // namespace
 
-base::Result<json> parse_document(std::string_view text, std::string_view source) {
+base::Result<json> parse_document(std::string_view text, std::string_view source,
+                                  std::size_t most_values) {
   const std::string prefix = std::string(source) + ": ";
   if (text.size() > kMaxDocumentBytes) {
     return base::Failure{prefix + "larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
   }
   json root;
   const char* read_to = text.data();
-  DocumentBuilder builder(root, text.data(), read_to);
+  DocumentBuilder builder(root, text.data(), read_to, most_values);
   const TextReader begin(text.data(), read_to);
   const TextReader end(text.data() + text.size(), read_to);
   if (json::sax_parse(begin, end, &builder)) return root;

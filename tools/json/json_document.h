@@ -22,11 +22,12 @@ inline constexpr std::size_t kMaxDocumentBytes = std::size_t{256} << 20;
 inline constexpr std::size_t kMaxDocumentValues = 16'000'000;
 inline constexpr std::size_t kMaxDocumentDepth = 32;
 
-/// Parses strict JSON. Also refuses documents beyond the limits above, numbers that overflow a
-/// double, and a key that occurs twice in one object, because readers differ in which one they
-/// take. `source` begins the error: `R.json: line 3, column 14: ...`. Lines and columns count from
-/// 1, columns in bytes. Never throws for a bad document.
-base::Result<nlohmann::json> parse_document(std::string_view text, std::string_view source);
+/// Parses strict JSON. Also refuses documents beyond the limits above or of more than `most_values`
+/// values, numbers that overflow a double, and a key that occurs twice in one object, because
+/// readers differ in which one they take. `source` begins the error: `R.json: line 3, column 14:
+/// ...`. Lines and columns count from 1, columns in bytes. Never throws for a bad document.
+base::Result<nlohmann::json> parse_document(std::string_view text, std::string_view source,
+                                            std::size_t most_values = kMaxDocumentValues);
 
 /// Returns the name of a file in messages: "standard input" for "-".
 std::string source_of(const std::string& file);

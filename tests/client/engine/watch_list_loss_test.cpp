@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing_support::kId;
 using testing_support::WatchListTest;
-using Kind = WatchEvent::Kind;
+using EventKind = WatchEvent::Kind;
 
 TEST_F(WatchListTest, AsksAgainWhatTheDaemonDoesNotKnowLessAndLessOften) {
   begin();
@@ -41,12 +41,12 @@ TEST_F(WatchListTest, GoesOnTryingWhenNobodyAnswers) {
   step_at({});
   calls_.back()->finish(Outcome::kSilence);
   ASSERT_EQ(events_.size(), 1u);
-  EXPECT_EQ(events_[0].kind, Kind::kLost);
+  EXPECT_EQ(events_[0].kind, EventKind::kLost);
   EXPECT_NE(events_[0].error, "");
   step_at(seconds(1));
   ASSERT_EQ(calls_.size(), 2u);
   finish_call(answer(3));
-  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().kind, EventKind::kAnswer);
 }
 
 TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
@@ -63,7 +63,7 @@ TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
   EXPECT_GT(renewals, 5);
   EXPECT_LT(renewals, 20) << "less and less often";
   EXPECT_EQ(std::count_if(events_.begin(), events_.end(),
-                          [](const WatchEvent& event) { return event.kind == Kind::kLost; }),
+                          [](const WatchEvent& event) { return event.kind == EventKind::kLost; }),
             1);
   while (sent_.empty()) step_at(milliseconds(100));
   const std::int64_t id = sent().back().request_id;
@@ -77,7 +77,7 @@ TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
 TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
   begin();
   const auto lose = [&] {
-    while (events_.back().kind != Kind::kLost) step_at(milliseconds(100));
+    while (events_.back().kind != EventKind::kLost) step_at(milliseconds(100));
     sent();
     while (sent_.empty()) step_at(milliseconds(100));
     return sent().back().request_id;
@@ -87,17 +87,17 @@ TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
   nothing_new.request_id = lose();
   list_.take_report(wire::encode(nothing_new), now_);
   ASSERT_EQ(events_.size(), 3u) << "answer, lost, watched";
-  EXPECT_EQ(events_[2].kind, Kind::kWatched);
+  EXPECT_EQ(events_[2].kind, EventKind::kWatched);
   EXPECT_EQ(events_[2].scene_revision, 3);
 
   report(101, path_state_t::BROKEN, 5, 3, lose());
   ASSERT_EQ(events_.size(), 5u);
-  EXPECT_EQ(events_[4].kind, Kind::kBroken) << "which says as much";
+  EXPECT_EQ(events_[4].kind, EventKind::kBroken) << "which says as much";
 
   nothing_new.request_id = lose();
   list_.take_report(wire::encode(nothing_new), now_);
   ASSERT_EQ(events_.size(), 7u);
-  EXPECT_EQ(events_[6].kind, Kind::kWatched);
+  EXPECT_EQ(events_[6].kind, EventKind::kWatched);
   EXPECT_EQ(events_[6].scene_revision, 5) << "in which it is broken still";
 
   report(0, path_state_t::UNKNOWN, 0, 0, lose());
@@ -105,7 +105,7 @@ TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
   step_at(seconds(1));
   finish_call(answer(6));
   ASSERT_EQ(events_.size(), 9u);
-  EXPECT_EQ(events_[8].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[8].kind, EventKind::kAnswer);
 }
 
 TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
@@ -123,22 +123,22 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
 TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
   begin();
   live(seconds(20), /*beats=*/true);
-  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_EQ(told(EventKind::kLost), 0);
   const Clock::time_point silent_since = now_;
-  while (told(Kind::kLost) == 0) live(milliseconds(50), /*beats=*/false);
+  while (told(EventKind::kLost) == 0) live(milliseconds(50), /*beats=*/false);
   // The last heartbeat may be up to a second old.
   EXPECT_GT(now_ - silent_since, seconds(2));
   EXPECT_LE(now_ - silent_since, milliseconds(3500));
   EXPECT_EQ(events_.back().status, Status::kNoDaemon);
   EXPECT_NE(events_.back().error.find("fell silent"), std::string::npos) << events_.back().error;
   live(seconds(90), /*beats=*/false);
-  EXPECT_EQ(told(Kind::kLost), 1) << "once";
+  EXPECT_EQ(told(EventKind::kLost), 1) << "once";
 }
 
 TEST_F(WatchListTest, ADaemonThatComesBackIsAskedAtOnceAndToldOnce) {
   begin();
   live(seconds(20), /*beats=*/false);
-  ASSERT_EQ(told(Kind::kLost), 1);
+  ASSERT_EQ(told(EventKind::kLost), 1);
   sent();
   list_.take_heartbeat(1000.0, now_);
   step_at(milliseconds(50));
@@ -146,10 +146,10 @@ TEST_F(WatchListTest, ADaemonThatComesBackIsAskedAtOnceAndToldOnce) {
   ASSERT_EQ(renewals.size(), 1u);
   ASSERT_EQ(renewals[0].num_paths, 1);
   report(100, path_state_t::FREE, 3, 3, renewals[0].request_id);
-  EXPECT_EQ(events_.back().kind, Kind::kWatched);
+  EXPECT_EQ(events_.back().kind, EventKind::kWatched);
   live(seconds(5), /*beats=*/true);
-  EXPECT_EQ(told(Kind::kWatched), 1);
-  EXPECT_EQ(told(Kind::kLost), 1);
+  EXPECT_EQ(told(EventKind::kWatched), 1);
+  EXPECT_EQ(told(EventKind::kLost), 1);
 }
 
 TEST_F(WatchListTest, AnswersToQuestionsCountWhereHeartbeatsDoNotCome) {
@@ -165,7 +165,7 @@ TEST_F(WatchListTest, AnswersToQuestionsCountWhereHeartbeatsDoNotCome) {
       list_.take_report(wire::encode(nothing_new), now_);
     }
   }
-  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_EQ(told(EventKind::kLost), 0);
   EXPECT_GT(asked, 50);
   EXPECT_LT(asked, 100) << "not each time that it is looked";
 }
@@ -174,15 +174,15 @@ TEST_F(WatchListTest, TimeInWhichNobodyListenedIsNoSilence) {
   begin();
   live(seconds(5), /*beats=*/true);
   step_at(seconds(9));  // suspended, say, or in a slow handler
-  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_EQ(told(EventKind::kLost), 0);
   list_.take_heartbeat(1000.0, now_);
   live(seconds(5), /*beats=*/true);
-  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_EQ(told(EventKind::kLost), 0);
 }
 
 TEST_F(WatchListTest, ADaemonThatWasNeverHeardIsToldOnce) {
   while (events_.empty()) live(milliseconds(50), /*beats=*/false);
-  EXPECT_EQ(events_[0].kind, Kind::kLost);
+  EXPECT_EQ(events_[0].kind, EventKind::kLost);
   EXPECT_EQ(events_[0].status, Status::kNoDaemon);
   EXPECT_NE(events_[0].error.find("no daemon was heard"), std::string::npos) << events_[0].error;
   for (int i = 0; i < 4; ++i) {

@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing_support::kId;
 using testing_support::WatchListTest;
-using Kind = WatchEvent::Kind;
+using EventKind = WatchEvent::Kind;
 
 TEST_F(WatchListTest, AsksTellsTheAnswerAndSaysWhatItKnows) {
   EXPECT_LE(list_.wake(), now_);
@@ -30,7 +30,7 @@ TEST_F(WatchListTest, AsksTellsTheAnswerAndSaysWhatItKnows) {
   ASSERT_EQ(calls_.size(), 1u);
   finish_call(answer(3));
   ASSERT_EQ(events_.size(), 1u);
-  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[0].kind, EventKind::kAnswer);
   EXPECT_EQ(events_[0].scene_revision, 3);
   ASSERT_TRUE(events_[0].answer);
   EXPECT_TRUE(events_[0].answer->ok()) << events_[0].answer->error;
@@ -50,7 +50,7 @@ TEST_F(WatchListTest, TellsWhatBreaksAndTakesTheCorrectedAnswer) {
   report(101, path_state_t::BROKEN, 4, 3);
   report(101, path_state_t::BROKEN, 4, 3);  // twice, as messages may come
   ASSERT_EQ(events_.size(), 2u);
-  EXPECT_EQ(events_[1].kind, Kind::kBroken);
+  EXPECT_EQ(events_[1].kind, EventKind::kBroken);
   EXPECT_EQ(events_[1].scene_revision, 4);
   ASSERT_EQ(events_[1].broken.size(), 1u);
   EXPECT_EQ(events_[1].broken[0].t_begin_s, 0.25);
@@ -59,7 +59,7 @@ TEST_F(WatchListTest, TellsWhatBreaksAndTakesTheCorrectedAnswer) {
   list_.take_answer(kId, answer(4));
   list_.take_answer(kId, answer(3));  // an old one, late
   ASSERT_EQ(events_.size(), 3u);
-  EXPECT_EQ(events_[2].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[2].kind, EventKind::kAnswer);
   EXPECT_EQ(events_[2].answer->scene_revision, 4);
   report(102, path_state_t::FREE, 4, 4);
   step_at(seconds(5));
@@ -72,7 +72,7 @@ TEST_F(WatchListTest, NewsThatACorrectionOvertookIsNone) {
   list_.take_answer(kId, answer(4));
   report(101, path_state_t::BROKEN, 4, 3);
   ASSERT_EQ(events_.size(), 2u);
-  EXPECT_EQ(events_[1].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[1].kind, EventKind::kAnswer);
 }
 
 TEST_F(WatchListTest, AsksForACorrectedAnswerThatDoesNotCome) {
@@ -84,7 +84,7 @@ TEST_F(WatchListTest, AsksForACorrectedAnswerThatDoesNotCome) {
   step_at(seconds(1));
   ASSERT_EQ(calls_.size(), 2u);
   finish_call(answer(4));
-  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().kind, EventKind::kAnswer);
   EXPECT_EQ(events_.back().scene_revision, 4);
 }
 
@@ -92,34 +92,34 @@ TEST_F(WatchListTest, TellsThatAPathIsFreeAgain) {
   begin();
   report(101, path_state_t::BROKEN, 4, 3);
   report(102, path_state_t::FREE, 5, 3);
-  EXPECT_EQ(events_.back().kind, Kind::kFree);
+  EXPECT_EQ(events_.back().kind, EventKind::kFree);
   EXPECT_EQ(events_.back().scene_revision, 5);
   report(101, path_state_t::BROKEN, 4, 3);  // overtaken by the other
-  EXPECT_EQ(events_.back().kind, Kind::kFree);
+  EXPECT_EQ(events_.back().kind, EventKind::kFree);
 }
 
 TEST_F(WatchListTest, AnUnprovedCorrectionLeavesThePathWatched) {
   begin();
   report(101, path_state_t::BROKEN, 4, 3);
   list_.take_answer(kId, answer(4, plan_response_t::STATUS_INVALID));
-  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().kind, EventKind::kAnswer);
   EXPECT_EQ(events_.back().answer->status, Status::kInvalid);
   report(102, path_state_t::BROKEN, 4, 4);
-  EXPECT_EQ(told(Kind::kBroken), 1) << "the same change";
+  EXPECT_EQ(told(EventKind::kBroken), 1) << "the same change";
   report(103, path_state_t::BROKEN, 0, 4);
-  EXPECT_EQ(told(Kind::kBroken), 2) << "the scene is gone";
+  EXPECT_EQ(told(EventKind::kBroken), 2) << "the scene is gone";
   report(104, path_state_t::FREE, 5, 4);
-  EXPECT_EQ(events_.back().kind, Kind::kFree);
+  EXPECT_EQ(events_.back().kind, EventKind::kFree);
   report(105, path_state_t::BROKEN, 6, 4);
-  EXPECT_EQ(told(Kind::kBroken), 3) << "it breaks once more";
+  EXPECT_EQ(told(EventKind::kBroken), 3) << "it breaks once more";
 }
 
 TEST_F(WatchListTest, AFirstAnswerWithoutAProofEndsIt) {
   step_at({});
   finish_call(answer(3, plan_response_t::STATUS_INVALID));
   ASSERT_EQ(events_.size(), 2u);
-  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
-  EXPECT_EQ(events_[1].kind, Kind::kEnded);
+  EXPECT_EQ(events_[0].kind, EventKind::kAnswer);
+  EXPECT_EQ(events_[1].kind, EventKind::kEnded);
   EXPECT_NE(events_[1].error, "");
   EXPECT_EQ(events_[1].status, Status::kInvalid);
   step_at(seconds(100));
@@ -132,11 +132,11 @@ TEST_F(WatchListTest, ABetterPathIsOfferedAndTakenOnlyIfAskedFor) {
   list_.take_answer(kId, answer(4));
   report(102, path_state_t::FREE, 4, 4);
   list_.take_offer(kId, answer(5));
-  EXPECT_EQ(told(Kind::kBetter), 0) << "not before it is said to be on offer";
+  EXPECT_EQ(told(EventKind::kBetter), 0) << "not before it is said to be on offer";
   report(103, path_state_t::FREE, 4, 4, 0, 5);
   report(103, path_state_t::FREE, 4, 4, 0, 5);
   list_.take_offer(kId, answer(5));
-  ASSERT_EQ(told(Kind::kBetter), 1);
+  ASSERT_EQ(told(EventKind::kBetter), 1);
   EXPECT_EQ(events_.back().scene_revision, 5);
   EXPECT_TRUE(events_.back().answer->ok());
   const auto taken = [&](const std::vector<watch_t>& messages) {
@@ -156,11 +156,11 @@ TEST_F(WatchListTest, ABetterPathIsOfferedAndTakenOnlyIfAskedFor) {
   EXPECT_GE(taken(sent()), 2) << "until it is answered";
   list_.take_answer(kId, answer(5));
   report(104, path_state_t::FREE, 5, 5);
-  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().kind, EventKind::kAnswer);
   EXPECT_EQ(events_.back().scene_revision, 5);
   live(seconds(20), /*beats=*/true);
   EXPECT_EQ(taken(sent()), 0);
-  EXPECT_EQ(told(Kind::kWithdrawn), 0);
+  EXPECT_EQ(told(EventKind::kWithdrawn), 0);
 }
 
 TEST_F(WatchListTest, TheLostPagesOfAnOfferAreAskedFor) {
@@ -174,7 +174,7 @@ TEST_F(WatchListTest, TheLostPagesOfAnOfferAreAskedFor) {
   EXPECT_EQ(questions[0].paths.at(0).wanted_offer, 5);
   EXPECT_EQ(questions[0].paths.at(0).taken_offer, 0);
   list_.take_offer(kId, answer(5));
-  EXPECT_EQ(told(Kind::kBetter), 1);
+  EXPECT_EQ(told(EventKind::kBetter), 1);
   live(seconds(3), /*beats=*/true);
   EXPECT_TRUE(sent().empty());
 }
@@ -183,12 +183,12 @@ TEST_F(WatchListTest, AnOfferThatIsWithdrawnIsToldIfItWas) {
   begin();
   report(103, path_state_t::FREE, 5, 3, 0, 5);
   report(104, path_state_t::FREE, 6, 3, 0, 0);
-  EXPECT_EQ(told(Kind::kWithdrawn), 0) << "nobody heard of it";
+  EXPECT_EQ(told(EventKind::kWithdrawn), 0) << "nobody heard of it";
   report(105, path_state_t::FREE, 7, 3, 0, 7);
   list_.take_offer(kId, answer(7));
-  ASSERT_EQ(events_.back().kind, Kind::kBetter);
+  ASSERT_EQ(events_.back().kind, EventKind::kBetter);
   report(106, path_state_t::FREE, 8, 3, 0, 0);
-  EXPECT_EQ(events_.back().kind, Kind::kWithdrawn);
+  EXPECT_EQ(events_.back().kind, EventKind::kWithdrawn);
   EXPECT_EQ(events_.back().scene_revision, 8);
   list_.take_better(kId);
   step_at({});
@@ -207,13 +207,13 @@ TEST_F(WatchListTest, ARefusalIsToldOnceAndTheAnswerAgainOnceItIsWatched) {
     finish_call(answer(3));
     ASSERT_EQ(events_.size(), 2u) << "the first answer, and that it is not watched";
   }
-  EXPECT_EQ(events_[1].kind, Kind::kLost);
+  EXPECT_EQ(events_[1].kind, EventKind::kLost);
   report(100, path_state_t::FREE, 3, 3);
   ASSERT_EQ(events_.size(), 3u);
-  EXPECT_EQ(events_[2].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[2].kind, EventKind::kAnswer);
   report(101, path_state_t::BROKEN, 4, 3);
   ASSERT_EQ(events_.size(), 4u);
-  EXPECT_EQ(events_[3].kind, Kind::kBroken);
+  EXPECT_EQ(events_[3].kind, EventKind::kBroken);
 }
 
 TEST_F(WatchListTest, ARefusalThatOvertakesTheAnswerIsToldAfterIt) {
@@ -222,8 +222,8 @@ TEST_F(WatchListTest, ARefusalThatOvertakesTheAnswerIsToldAfterIt) {
   EXPECT_TRUE(events_.empty());
   finish_call(answer(3));
   ASSERT_EQ(events_.size(), 2u);
-  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
-  EXPECT_EQ(events_[1].kind, Kind::kLost);
+  EXPECT_EQ(events_[0].kind, EventKind::kAnswer);
+  EXPECT_EQ(events_[1].kind, EventKind::kLost);
 }
 
 TEST_F(WatchListTest, UnwatchingTellsTheDaemonUntilItAnswers) {

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using testing_support::answer_pages;
 using testing_support::encode_all;
 
-constexpr std::uint32_t kSeed = 1995;
+constexpr std::uint32_t kMessagesSeed = 1995;
 
 PlanRequest request_with(std::size_t keyframes) {
   PlanRequest request;
@@ -248,7 +248,7 @@ TEST(PlanPages, WhatHasNoFormIsNamed) {
 }
 
 TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
-  testing::Random random(kSeed);
+  testing::Random random(kMessagesSeed);
   const std::vector<Bytes> pages = encode_all(answer_pages(wire_request(), 1000, 90));
   for (int round = 0; round < 50; ++round) {
     std::vector<Bytes> arriving = pages;
@@ -456,8 +456,8 @@ TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
 }
 
 TEST(PlanCollector, SurvivesBrokenMessages) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
-  testing::Random random(kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kMessagesSeed);
+  testing::Random random(kMessagesSeed);
   const Bytes good = encode_all(answer_pages(wire_request(), 3, 3))[0];
   std::uniform_int_distribution<std::size_t> position(0, good.size() - 1);
   std::uniform_int_distribution<int> byte(0, 255);

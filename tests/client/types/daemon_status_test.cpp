@@ -12,7 +12,7 @@
 namespace camway {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kStatusSeed = 20261122;
 /// The documented scale, computed independently: bucket i ends at 10 us * 2^(i/4).
 constexpr double kRatio = 1.189207115002721;
 
@@ -28,7 +28,7 @@ Latency counted(const std::vector<double>& seconds) {
 }
 
 TEST(Latency, QuantilesAreRightToAFifth) {
-  testing::Random random(kSeed);
+  testing::Random random(kStatusSeed);
   std::uniform_real_distribution<double> exponent(-16.0, 6.0);
   for (const std::size_t size : {1U, 2U, 10U, 1000U}) {
     std::vector<double> seconds(size);
@@ -38,7 +38,7 @@ TEST(Latency, QuantilesAreRightToAFifth) {
     for (const double q : {0.0, 0.1, 0.5, 0.99, 0.999, 1.0}) {
       const double rank = std::ceil(q * static_cast<double>(size));
       const double exact = seconds[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-      EXPECT_GE(latency.quantile_s(q), exact * (1 - 1e-12)) << "seed " << kSeed << " q " << q;
+      EXPECT_GE(latency.quantile_s(q), exact * (1 - 1e-12)) << "seed " << kStatusSeed << " q " << q;
       EXPECT_LE(latency.quantile_s(q), exact * kRatio * (1 + 1e-12)) << q << " of " << size;
     }
   }

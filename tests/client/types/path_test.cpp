@@ -14,7 +14,7 @@
 namespace camway {
 namespace {
 
-constexpr std::uint32_t kSeed = 20060623;
+constexpr std::uint32_t kPathSeed = 20060623;
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Returns a bound on the error of de Casteljau's algorithm in degree n. Each of its n rounds takes
@@ -48,7 +48,7 @@ std::array<long double, Dimension> bernstein_sum(
 
 class PathTest : public ::testing::Test {
  protected:
-  PathTest() { RecordProperty("seed", static_cast<int>(kSeed)); }
+  PathTest() { RecordProperty("seed", static_cast<int>(kPathSeed)); }
 
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
@@ -68,11 +68,11 @@ class PathTest : public ::testing::Test {
     return segment;
   }
 
-  testing::Random random_{kSeed};
+  testing::Random random_{kPathSeed};
 };
 
 TEST_F(PathTest, AgreesWithTheBernsteinSum) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kPathSeed);
   for (int round = 0; round < 2000; ++round) {
     const double t0 = uniform(-5, 5);
     const Segment segment = random_segment(t0, t0 + uniform(0.1, 5));

@@ -71,11 +71,6 @@ void turn_about(scene::Mesh& mesh, std::vector<Vec3>& centers, double angle_rad,
   for (Vec3& center : centers) center = turn * center;
 }
 
-void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v) {
-  testing::add_triangle(mesh, corner, corner + u, corner + u + v);
-  testing::add_triangle(mesh, corner, corner + u + v, corner + v);
-}
-
 /// Removes the bars on one side of the box; the bars of the adjacent faces end at its plane.
 std::vector<Box> open_below(std::vector<Box> bars, double z) {
   std::erase_if(bars,
@@ -281,17 +276,17 @@ TEST(Cage, AFloorMakesAFace) {
   const scene::Mesh bars = mesh_of(open_below(cage_bars(kBox, {3, 3, 3}, 0.02), 3.0));
   EXPECT_FALSE(cage(bars, centers, 0.5)) << "open below";
   scene::Mesh mesh = bars;
-  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  testing::add_parallelogram(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
   std::optional<Cage> found = cage(mesh, centers, 0.5);
   ASSERT_TRUE(found);
   EXPECT_EQ(fault_in(*found, mesh, centers), "");
   EXPECT_NEAR(found->box.widest_hole_m, std::hypot(1.0 / 3 - 0.02, 1.0 / 3 - 0.01), 1e-9)
       << "between the floor and the lowest ring, which is half in it";
   mesh = bars;
-  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 7.5, 0));
+  testing::add_parallelogram(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 7.5, 0));
   EXPECT_FALSE(cage(mesh, centers, 0.5)) << "a floor that ends under the cage";
   mesh = bars;
-  add_rectangle(mesh, Vec3(-5, -5, 2.99), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  testing::add_parallelogram(mesh, Vec3(-5, -5, 2.99), Vec3(9, 0, 0), Vec3(0, 9, 0));
   EXPECT_FALSE(cage(mesh, centers, 0.5)) << "a flat thing gets through below";
 }
 
@@ -355,7 +350,7 @@ TEST(Cage, OnATurnedFloor) {
   std::vector<Vec3> centers = {kOutside, kInside};
   scene::Mesh mesh = mesh_of(open_below(cage_bars(kBox, {3, 3, 3}, 0.02), 3.0));
   scene::Mesh open = mesh;
-  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  testing::add_parallelogram(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
   std::vector<Vec3> same = centers;
   turn_about(mesh, centers, 0.4, Vec3::UnitZ());
   turn_about(open, same, 0.4, Vec3::UnitZ());

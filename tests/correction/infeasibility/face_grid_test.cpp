@@ -76,7 +76,7 @@ bool are_apart(const Polygon& a, const Polygon& b) {
 }
 
 /// A convex solid, and a plane across an axis.
-struct Case {
+struct GridCase {
   scene::Mesh mesh;
   std::vector<std::uint32_t> triangles;
   int axis = 0;
@@ -133,8 +133,8 @@ class RandomCases : public testing::Random {
   int axis() { return integer(0, 2); }
 
   /// Makes a tetrahedron, or a parallelepiped that may be parallel to the axes.
-  Case solid() {
-    Case c;
+  GridCase solid() {
+    GridCase c;
     const Vec3 place = one_of(3) ? Vec3(1e5 * vector()) : vector();
     if (one_of(2)) {
       for (int i = 0; i < 4; ++i) c.mesh.vertices.push_back(place + vector());
@@ -159,7 +159,7 @@ class RandomCases : public testing::Random {
 
   /// Adds grid lines, some within a few units of rounding of a point where an edge of the section
   /// crosses another line.
-  void add_lines(Case& c) {
+  void add_lines(GridCase& c) {
     const std::array<int, 2> axes = {(c.axis + 1) % 3, (c.axis + 2) % 3};
     geometry::Box box;
     for (const Vec3& vertex : c.mesh.vertices) box.extend(vertex);
@@ -201,7 +201,7 @@ TEST(FaceGrid, BlocksNothingBesideASolid) {
   RandomCases random(31);
   std::array<int, 2> blocked{};
   for (int trial = 0; trial < 150; ++trial) {
-    Case c = random.solid();
+    GridCase c = random.solid();
     random.add_lines(c);
     const bool body_is_inside = random.one_of(3);
     FaceGrid grid(c.axis, c.at, c.lines, c.margin_m);
@@ -238,7 +238,7 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
   int blocked = 0;
   int cut = 0;
   for (int trial = 0; trial < 1500; ++trial) {
-    Case c = random.solid();
+    GridCase c = random.solid();
     c.margin_m = Vec3::Zero();
     const Polygon section = c.section(std::vector<Vec3>(c.mesh.vertices.size(), Vec3::Zero()));
     if (section.size() < 3) continue;
@@ -281,7 +281,7 @@ TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
   RandomCases random(32);
   int blocked = 0;
   for (int trial = 0; trial < 120; ++trial) {
-    Case c;
+    GridCase c;
     c.axis = random.axis();
     c.at = random.uniform(-1, 1);
     const int count = static_cast<int>(random.uniform(1, 6));

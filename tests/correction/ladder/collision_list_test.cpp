@@ -15,7 +15,7 @@ using collision::CollisionInterval;
 // Keyframes at 0, 2, 4 and 6 seconds.
 const std::vector<double> kKeyframes_s = {0.0, 2.0, 4.0, 6.0};
 
-motion::CubicPath straight_path() {
+motion::CubicPath path_along_x() {
   std::vector<motion::Keyframe> keyframes;
   for (const double time_s : kKeyframes_s) {
     keyframes.push_back({time_s, {{time_s, 0, 0}, geometry::Quat::Identity()}});
@@ -58,7 +58,7 @@ TEST(CollisionList, KnowsWhatIsOpenAndWhy) {
 }
 
 TEST(CollisionList, AddsTheOpenCollisionsOfAPartAndNoOthers) {
-  const motion::CubicPath path = straight_path();
+  const motion::CubicPath path = path_along_x();
   CollisionList list({{0.5, 1.0}, {1.2, 1.4}, {4.5, 5.0}}, kKeyframes_s);
   correct(list[0], 0.2, 1.1);
   Problem part;
@@ -95,7 +95,7 @@ TEST(CollisionList, SetsTheRangesWithinAChangedPartOnly) {
 }
 
 TEST(CollisionList, TellsTheIntervalsThatCorrectionsChanged) {
-  const motion::CubicPath path = straight_path();
+  const motion::CubicPath path = path_along_x();
   std::vector<motion::Keyframe> keyframes;
   for (const double time_s : kKeyframes_s) keyframes.push_back({time_s, path.pose(time_s)});
   const base::Deadline never = base::Deadline::never();

@@ -16,7 +16,7 @@ using motion::CubicPath;
 using testing::Draw;
 
 /// A tour, a changed part of it, and the path there with a row of bumps on `knots_s`.
-struct Case {
+struct ChoiceCase {
   Problem problem;
   ChangedPart part;
   std::vector<double> knots_s;
@@ -24,12 +24,12 @@ struct Case {
 };
 
 /// Keyframes every 10 s, from 0 to 40 s, and a row on the knots.
-Case case_on(std::vector<double> knots_s) {
+ChoiceCase case_on(std::vector<double> knots_s) {
   std::vector<motion::Keyframe> keyframes;
   for (const double time_s : {0.0, 10.0, 20.0, 30.0, 40.0}) {
     keyframes.push_back({time_s, {{time_s, std::sin(time_s), 0}, geometry::Quat::Identity()}});
   }
-  Case c;
+  ChoiceCase c;
   c.problem.path = motion::interpolate_cubic(keyframes);
   c.problem.original = c.problem.path;
   for (const motion::Keyframe& keyframe : keyframes) {
@@ -53,7 +53,7 @@ bool has(const std::vector<double>& list_s, double time_s) {
 }
 
 TEST(KnotChoice, OnlyListsThatKeepKeyframesAreValid) {
-  const Case c = case_on({12, 13, 14, 15, 16});
+  const ChoiceCase c = case_on({12, 13, 14, 15, 16});
   const KnotChoice choice(c.problem, c.part);
   EXPECT_TRUE(choice.is_valid({12, 13, 14, 15, 16}));
   EXPECT_TRUE(choice.is_valid({10, 13, 14, 15, 20})) << "keyframes at the ends";
@@ -66,18 +66,19 @@ TEST(KnotChoice, OnlyListsThatKeepKeyframesAreValid) {
 }
 
 TEST(KnotChoice, TakesTheJointsOfThePart) {
-  const Case c = case_on({8, 9, 10, 11, 12, 14});
+  const ChoiceCase c = case_on({8, 9, 10, 11, 12, 14});
   EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path), c.knots_s);
 }
 
 TEST(KnotChoice, GoesOnBeyondAnEndOfThePath) {
-  const Case c = case_on({36, 37, 38, 39, 40});
+  const ChoiceCase c = case_on({36, 37, 38, 39, 40});
   EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path),
             (std::vector<double>{36, 37, 38, 39, 40, 41, 42, 43}));
 }
 
 TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
-  const Case c = case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
+  const ChoiceCase c =
+      case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
   const KnotChoice choice(c.problem, c.part);
   for (std::size_t count = 5; count < 18; ++count) {
     const std::vector<double> spaced_s = choice.spaced(c.knots_s, c.path, count);
@@ -94,7 +95,7 @@ TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
 
 // A knot at which nothing happens goes first.
 TEST(KnotChoice, RemovesFirstWhatMattersLeast) {
-  Case c = case_on({11, 12, 13, 14, 15, 16, 17});
+  ChoiceCase c = case_on({11, 12, 13, 14, 15, 16, 17});
   std::vector<double> more_s = c.knots_s;
   more_s.insert(more_s.begin() + 3, 13.5);
   const std::vector<std::size_t> removable =
@@ -117,7 +118,7 @@ TEST(KnotChoice, LeavesAValidListWithoutAnyOneOfTheRemovable) {
         knots_s.insert(std::ranges::lower_bound(knots_s, keyframe_s), keyframe_s);
       }
     }
-    Case c = case_on(knots_s);
+    ChoiceCase c = case_on(knots_s);
     const KnotChoice choice(c.problem, c.part);
     if (!choice.is_valid(knots_s)) continue;
     for (const std::size_t i : choice.removable(knots_s, c.path)) {

@@ -27,7 +27,7 @@ using motion::CubicPath;
 using motion::Keyframe;
 using scene::Mesh;
 
-struct Case {
+struct LadderCase {
   Mesh mesh;
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
@@ -51,8 +51,8 @@ struct Case {
   }
 };
 
-Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
-  Case c;
+LadderCase case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
+  LadderCase c;
   c.mesh = mesh;
   c.index = scene::SceneIndex::build(mesh);
   c.keyframes = std::move(keyframes);
@@ -62,21 +62,21 @@ Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
 Keyframe at(double time_s, const Vec3& position) { return {time_s, {position, Quat::Identity()}}; }
 
 // Returns a path past a column that stands a little in the way.
-Case column() {
+LadderCase column() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.1, -3, -0.2}, {0.5, 3, 0.0});
   return case_with(mesh, {at(0, {-0.15, 0, 2}), at(3, {-0.15, 0, 0.9}), at(6, {-0.15, 0, -2})});
 }
 
 // Returns a wall that is endless in y, with a door at x in [2, 3.5].
-Case wall_with_door() {
+LadderCase wall_with_door() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
   testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
   return case_with(mesh, {at(0, {0, 0, 2}), at(5, {0, 0, -2})});
 }
 
-void expect_keyframes_kept(const Case& c, const CubicPath& path) {
+void expect_same_keyframes(const LadderCase& c, const CubicPath& path) {
   const motion::Path segments = path.path();
   for (const Keyframe& keyframe : c.keyframes) {
     const motion::Pose pose = segments.pose(keyframe.time_s);
@@ -85,10 +85,10 @@ void expect_keyframes_kept(const Case& c, const CubicPath& path) {
   }
 }
 
-void expect_corrected(const Case& c, const std::vector<CorrectionKind>& kinds) {
+void expect_corrected(const LadderCase& c, const std::vector<CorrectionKind>& kinds) {
   const LadderResult result = c.corrected();
   EXPECT_TRUE(c.collisions(result.path).empty());
-  expect_keyframes_kept(c, result.path);
+  expect_same_keyframes(c, result.path);
   ASSERT_FALSE(result.corrections.empty());
   for (const Correction& correction : result.corrections) {
     EXPECT_TRUE(std::ranges::count(kinds, correction.kind) == 1) << to_string(correction.kind);
@@ -104,7 +104,7 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-40, -60, -0.05}, {-0.17, 60, 0.05});
   testing::add_cuboid(mesh, {0.17, -60, -0.05}, {40, 60, 0.05});
-  Case c = case_with(mesh, {at(0, {0, 0, 1.5}), at(4, {0, 0, -1.5})});
+  LadderCase c = case_with(mesh, {at(0, {0, 0, 1.5}), at(4, {0, 0, -1.5})});
   c.body =
       motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
   expect_corrected(c, {CorrectionKind::kTurn, CorrectionKind::kGoRound});
@@ -131,7 +131,7 @@ void add_wall(Mesh& mesh, double z_m, const Vec3& low, const Vec3& high) {
 }
 
 /// Returns a camera with a quadrilateral of 40 x 30 cm.
-motion::Body wide_camera() {
+motion::Body square_camera() {
   return motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
 }
 
@@ -140,8 +140,8 @@ motion::Body wide_camera() {
 TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
   Mesh mesh = closed_room();
   add_wall(mesh, 0.0, {-0.127, -0.127, 0}, {0.127, 0.127, 0});
-  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
-  c.body = wide_camera();
+  LadderCase c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
+  c.body = square_camera();
   expect_corrected(c, {CorrectionKind::kGoRound});
 }
 
@@ -150,8 +150,8 @@ TEST(Ladder, ThreadsTwoHolesInARow) {
   Mesh mesh = closed_room();
   add_wall(mesh, 0.6, {-0.7, 0.1, 0}, {-0.3, 0.17, 0});
   add_wall(mesh, -0.6, {0.3, -0.6, 0}, {0.45, -0.2, 0});
-  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.4}), at(4, {0.3, 0.1, -1.4})});
-  c.body = wide_camera();
+  LadderCase c = case_with(mesh, {at(0, {-0.4, 0.2, 1.4}), at(4, {0.3, 0.1, -1.4})});
+  c.body = square_camera();
   expect_corrected(c, {CorrectionKind::kGoRound});
 }
 
@@ -172,7 +172,7 @@ TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
 TEST(Ladder, LeavesWhatItCannotCorrect) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
-  const Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2})});
+  const LadderCase c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2})});
   const LadderResult result = c.corrected();
   ASSERT_EQ(result.corrections.size(), 1U);
   EXPECT_EQ(result.corrections[0].kind, CorrectionKind::kNone);
@@ -184,7 +184,7 @@ TEST(Ladder, LeavesWhatItCannotCorrect) {
 TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
-  Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2}), at(4, {0, 0, 0.1})});
+  LadderCase c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2}), at(4, {0, 0, 0.1})});
   ASSERT_TRUE(c.corrected().separation);
   EXPECT_EQ(c.corrected().separation->inside, 1U);
   c.keyframes[1].is_repaired = true;
@@ -199,7 +199,7 @@ TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
 TEST(Ladder, ProvesBeforeItSearchesFar) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-20, -20, -20}, {20, 20, 20});
-  const Case c = case_with(mesh, {at(0, {0, 0, 19.4}), at(4, {0.3, 0.1, 20.6})});
+  const LadderCase c = case_with(mesh, {at(0, {0, 0, 19.4}), at(4, {0.3, 0.1, 20.6})});
   const LadderResult result = c.corrected();
   ASSERT_TRUE(result.separation);
   EXPECT_EQ(result.separation->triangles.size(), 12U);
@@ -209,7 +209,7 @@ TEST(Ladder, ProvesBeforeItSearchesFar) {
 
 // The parts of the path outside of the changed ranges keep their bits.
 TEST(Ladder, IsLocal) {
-  Case c = column();
+  LadderCase c = column();
   for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
   const CubicPath before = c.path();
   const LadderResult result = c.corrected();
@@ -224,7 +224,7 @@ TEST(Ladder, IsLocal) {
 }
 
 TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
-  Case c = wall_with_door();
+  LadderCase c = wall_with_door();
   c.options.max_inserted_keyframes = 2;
   const LadderResult result = c.corrected();
   EXPECT_LE(result.inserted_s.size(), 2U);
@@ -232,19 +232,19 @@ TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
 }
 
 TEST(Ladder, KeepsTheRequiredClearance) {
-  Case c = column();
+  LadderCase c = column();
   c.detect.clearance_m = 0.1;
   expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
 TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
-  Case c = column();
+  LadderCase c = column();
   c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)});
   expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
 // Returns a tour through clutter, with several collisions in adjacent intervals between keyframes.
-Case cluttered_tour(testing::Random& random) {
+LadderCase cluttered_tour(testing::Random& random) {
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   for (;;) {
     std::vector<Keyframe> keyframes;
@@ -252,7 +252,7 @@ Case cluttered_tour(testing::Random& random) {
       const Vec3 eye(place(random), place(random), place(random));
       keyframes.push_back({1.5 * i, {eye, random.rotation()}});
     }
-    Case c = case_with(testing::scattered_triangles(random, 25, 0.3), std::move(keyframes));
+    LadderCase c = case_with(testing::scattered_triangles(random, 25, 0.3), std::move(keyframes));
     const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
     const bool all_free = std::ranges::none_of(c.keyframes, [&](const Keyframe& keyframe) {
       return collision::collides(c.index, corners_C, keyframe.pose);
@@ -270,14 +270,14 @@ bool covers(const Correction& correction, double time_s) {
 TEST(Ladder, TellsWhatBecameOfThePath) {
   testing::Random random(4501);
   int corrected = 0;
-  constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
-                                      Objective::kSmoothest, Objective::kSafest};
+  constexpr std::array kEach = {Objective::kClosest, Objective::kShortest, Objective::kSmoothest,
+                                Objective::kSafest};
   for (int run = 0; run < 12; ++run) {
-    Case c = cluttered_tour(random);
-    c.options.objective = kObjectives[static_cast<std::size_t>(run) % kObjectives.size()];
+    LadderCase c = cluttered_tour(random);
+    c.options.objective = kEach[static_cast<std::size_t>(run) % kEach.size()];
     const CubicPath before = c.path();
     const LadderResult result = c.corrected();
-    expect_keyframes_kept(c, result.path);
+    expect_same_keyframes(c, result.path);
     constexpr int kTimes = 20000;
     std::vector<double> moved_m(result.corrections.size());
     std::vector<double> turned_rad(result.corrections.size());
@@ -294,9 +294,9 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
       }
       if (is_covered) continue;
       // A remaining part of a piece that was cut differs by rounding.
-      constexpr double kRounding = 1e-14;
-      ASSERT_LT((is.position - was.position).norm(), kRounding) << run << " at " << time_s;
-      ASSERT_LT((is.orientation.coeffs() - was.orientation.coeffs()).norm(), kRounding) << run;
+      constexpr double kPoseRounding = 1e-14;
+      ASSERT_LT((is.position - was.position).norm(), kPoseRounding) << run << " at " << time_s;
+      ASSERT_LT((is.orientation.coeffs() - was.orientation.coeffs()).norm(), kPoseRounding) << run;
     }
     for (std::size_t k = 0; k < result.corrections.size(); ++k) {
       const Correction& correction = result.corrections[k];
@@ -325,7 +325,7 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
   int corrected = 0;
   constexpr int kRuns = 24;
   for (int run = 0; run < kRuns; ++run) {
-    Case c = cluttered_tour(random);
+    LadderCase c = cluttered_tour(random);
     const CubicPath original = c.path();
     const LadderResult result = c.corrected();
     const CubicPath& closest = result.path;
@@ -363,7 +363,7 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
 }
 
 // Returns two walls with doors beside the interpolated path.
-Case two_walls(testing::Random& random) {
+LadderCase two_walls(testing::Random& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Mesh mesh;
   for (const double z : {0.8, -0.8}) {
@@ -384,7 +384,7 @@ TEST(Ladder, ClosestCostsLeast) {
   double sum_of_closest = 0.0;
   double sum_of_others = 0.0;
   for (int run = 0; run < 24; ++run) {
-    Case c = two_walls(random);
+    LadderCase c = two_walls(random);
     const CubicPath original = c.path();
     FreeSpace space(c.query(), c.options.orientation);
     const auto cost = [&](Objective objective) {
@@ -411,7 +411,7 @@ TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {
   testing::Random random(4502);
   int inserted = 0;
   for (int run = 0; run < 8; ++run) {
-    const Case c = cluttered_tour(random);
+    const LadderCase c = cluttered_tour(random);
     const LadderResult result = c.corrected();
     EXPECT_LE(result.inserted_s.size(), static_cast<std::size_t>(c.options.max_inserted_keyframes));
     double last_s = result.path.begin_s();

@@ -26,7 +26,7 @@ using motion::CubicPath;
 using testing::Draw;
 
 // Bound on the rounding of some hundred sums of coordinates and angles up to 20.
-constexpr double kRounding = 1e-12;
+constexpr double kRedrawRounding = 1e-12;
 constexpr int kDense = 40;  // knots of the corrections before they are drawn again
 
 /// A tour over blocks, corrected by hills on many knots.
@@ -151,7 +151,7 @@ TEST_F(RedrawTest, DrawsOnFewKnotsWhatWasDrawnOnMany) {
     EXPECT_LT((path_.path()
                    .pose(0.5 * path_.end_s())
                    .orientation.angularDistance(geometry::Quat::Identity())),
-              kRounding)
+              kRedrawRounding)
         << "it turns nothing";
   }
   EXPECT_LT(inserted, 8 * blocked);
@@ -169,7 +169,7 @@ TEST_F(RedrawTest, TellsWhatIsChangedAfterwards) {
       const double moved_m =
           (path_.at(time_s).position - c_.interpolated.at(time_s).position).norm();
       if (!is_told) {
-        ASSERT_LT(moved_m, kRounding) << time_s;
+        ASSERT_LT(moved_m, kRedrawRounding) << time_s;
       }
     }
   }

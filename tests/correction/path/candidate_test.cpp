@@ -20,7 +20,7 @@ using motion::CubicPath;
 using motion::CubicPoint;
 
 /// Returns a path at x = 0 with z from 4 to -4, keyframes every 2 s.
-CubicPath straight_path() {
+CubicPath path_along_z() {
   std::vector<motion::Keyframe> keyframes;
   for (int i = 0; i <= 4; ++i)
     keyframes.push_back({2.0 * i, {Vec3(0, 0, 4.0 - 2.0 * i), Quat::Identity()}});
@@ -30,7 +30,7 @@ CubicPath straight_path() {
 /// Returns the problem of the interval from 2 to 4 s, as the ladder makes it.
 Problem middle_problem() {
   Problem problem;
-  problem.path = straight_path().around(0.0, 6.0);
+  problem.path = path_along_z().around(0.0, 6.0);
   problem.original = problem.path;
   problem.keyframes_s = {0.0, 2.0, 4.0, 6.0};
   problem.leg = 1;

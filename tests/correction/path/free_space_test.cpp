@@ -26,7 +26,7 @@ motion::Pose any_pose(testing::Random& random) {
 }
 
 // Rounding of distances of a few metres.
-const double kRounding_m = geometry::triangle_distance_error_m(8.0);
+const double kDistanceRounding_m = geometry::triangle_distance_error_m(8.0);
 
 TEST(FreeSpace, TheBallHoldsTheBodyInEveryOrientation) {
   testing::Random random(1);
@@ -64,7 +64,7 @@ TEST(FreeSpace, KnowsOfPosesWhatAskingEveryTriangleTells) {
       for (const double margin_m : {0.0, 0.03}) {
         if (space.is_free(pose, margin_m)) {
           ++free;
-          EXPECT_GT(gap_m, margin_m - kRounding_m);
+          EXPECT_GT(gap_m, margin_m - kDistanceRounding_m);
         } else {
           EXPECT_LT(gap_m, margin_m + 1e-9);  // all that rounding may cost is a trillionth of that
         }
@@ -100,7 +100,8 @@ TEST(FreeSpace, FirstHitIsTheFirst) {
     const double end = hit.value_or(1.0);
     if (end > 0.0) {
       const SignedPose last = motion::between(from, to, end * (1.0 - 1e-9));
-      EXPECT_GE(least_distance_m(scene, space, {from, last}, kStep_m), keep_m - kRounding_m);
+      EXPECT_GE(least_distance_m(scene, space, {from, last}, kStep_m),
+                keep_m - kDistanceRounding_m);
     }
     if (!hit) continue;
     ++hits;
@@ -124,10 +125,10 @@ TEST(FreeSpace, BallsAreToldApartExactlyAndMeasuredAbout) {
     const double told_m = space.ball_gap_m(point_W, radius_m, 0.1);
     if (std::abs(gap_m) < 1e-9) continue;
     EXPECT_EQ(told_m > 0.0, gap_m > 0.0);
-    EXPECT_GE(told_m, std::min(gap_m, 0.1) - kRounding_m);
+    EXPECT_GE(told_m, std::min(gap_m, 0.1) - kDistanceRounding_m);
     EXPECT_LE(told_m, 0.1);
     // The obstacle that is met may be further than the nearest one by a quarter.
-    EXPECT_LE(told_m, std::min(0.1, (gap_m + radius_m) / 0.8 - radius_m) + kRounding_m);
+    EXPECT_LE(told_m, std::min(0.1, (gap_m + radius_m) / 0.8 - radius_m) + kDistanceRounding_m);
     free += told_m > 0.0 ? 1 : 0;
   }
   EXPECT_GT(free, 50);
@@ -189,15 +190,15 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
       EXPECT_EQ(space.is_free(pose, margin_m), truth_m > margin_m) << truth_m - margin_m;
       EXPECT_EQ(space.gap_m(pose, 0.3) > 0.0, truth_m > 0.0) << truth_m;
       if (truth_m > 0.0) {
-        EXPECT_NEAR(space.gap_m(pose, 0.3), std::min(truth_m, 0.3), kRounding_m);
+        EXPECT_NEAR(space.gap_m(pose, 0.3), std::min(truth_m, 0.3), kDistanceRounding_m);
       }
       const auto nearest = space.nearest(pose, 0.5);
       if (depth_m(pose) < 0.5 && depth_m(pose) < 0.8 * scene.distance_m(pose)) {
         ASSERT_TRUE(nearest);
         EXPECT_TRUE(collision::Obstacles::is_side(nearest->triangle));
-        EXPECT_NEAR(nearest->distance_m, depth_m(pose), kRounding_m);
+        EXPECT_NEAR(nearest->distance_m, depth_m(pose), kDistanceRounding_m);
       }
-      EXPECT_LE(space.at_least_m(pose), truth_m + kRounding_m);
+      EXPECT_LE(space.at_least_m(pose), truth_m + kDistanceRounding_m);
       const double ball_m = 0.1;
       const Vec3 other_W = anywhere(random, 1.2);
       EXPECT_EQ(space.ball_gap_m(other_W, ball_m, 0.3) > 0.0,

@@ -15,7 +15,7 @@ using motion::CubicPath;
 using motion::CubicPoint;
 using motion::KnotRow;
 
-constexpr double kRounding_m = 1e-12;  // of sums of a few metres
+constexpr double kSumRounding_m = 1e-12;  // of sums of a few metres
 
 /// Returns a path through three keyframes; guides replace the part between the first two.
 CubicPath path_at(const Vec3& middle, const Quat& turned) {
@@ -48,8 +48,8 @@ Guide some_guide(testing::Random& random, const CubicPath& path, int poses, doub
 }
 
 void expect_same_pose(const SignedPose& a, const SignedPose& b) {
-  EXPECT_LT((a.position - b.position).norm(), kRounding_m);
-  EXPECT_LT((a.orientation - b.orientation).norm(), kRounding_m);
+  EXPECT_LT((a.position - b.position).norm(), kSumRounding_m);
+  EXPECT_LT((a.orientation - b.orientation).norm(), kSumRounding_m);
 }
 
 TEST(SignedPoseAt, IsThePathsOwnAndContinuous) {
@@ -58,7 +58,7 @@ TEST(SignedPoseAt, IsThePathsOwnAndContinuous) {
   for (double time_s = 0.0; time_s <= 5.0; time_s += 0.01) {
     const SignedPose now = signed_pose_at(path, time_s);
     const motion::Pose pose = path.pose(time_s);
-    EXPECT_LT((now.position - pose.position).norm(), kRounding_m);
+    EXPECT_LT((now.position - pose.position).norm(), kSumRounding_m);
     EXPECT_LT(pose.orientation.angularDistance(geometry::from_wxyz(now.orientation)), 1e-7);
     EXPECT_GT(now.orientation.dot(last.orientation), 0.99);
     last = now;
@@ -97,7 +97,7 @@ TEST(TimedGuide, GoesForwardAndDoesNotHurry) {
   double last_m = 0.0;
   for (int i = 1; i <= kSteps; ++i) {
     const double now_m = gone_m(timed.at(3.0 * i / kSteps));
-    EXPECT_GE(now_m, last_m - kRounding_m);
+    EXPECT_GE(now_m, last_m - kSumRounding_m);
     EXPECT_LE(now_m - last_m, 2.0 * 10.0 / kSteps + 1e-9);
     last_m = now_m;
   }
@@ -144,9 +144,9 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
       const CubicPoint sum{old.position + (*offsets)(k).position, old.image + (*offsets)(k).image};
       const motion::Pose pose = motion::pose_of(path.reference, sum);
       const motion::Pose wanted = motion::unsigned_pose(timed.at(knots.knot_s(k)));
-      EXPECT_LT((pose.position - wanted.position).norm(), kRounding_m);
+      EXPECT_LT((pose.position - wanted.position).norm(), kSumRounding_m);
       EXPECT_LT(pose.orientation.angularDistance(wanted.orientation), 1e-7);
-      EXPECT_NEAR(sum.image.norm(), old.image.norm(), kRounding_m);
+      EXPECT_NEAR(sum.image.norm(), old.image.norm(), kSumRounding_m);
     }
     const std::optional<Offsets> moved =
         offsets_to(path, path, timed, knots, Turning::kAsPath, space);
@@ -157,7 +157,7 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
       const motion::Pose old = path.pose(knots.knot_s(k));
       const motion::Pose now{old.position + (*moved)(k).position, old.orientation};
       const motion::Pose wanted = motion::unsigned_pose(timed.at(knots.knot_s(k)));
-      EXPECT_LT((space.center_W(now) - space.center_W(wanted)).norm(), kRounding_m);
+      EXPECT_LT((space.center_W(now) - space.center_W(wanted)).norm(), kSumRounding_m);
     }
   }
 }
@@ -261,9 +261,9 @@ TEST(BumpsFor, ReproducesWhatIsLinear) {
       const double time_s = 3.0 * knot / kCount;
       const CubicPoint before = path.at(time_s);
       EXPECT_LT((now.at(time_s).position - before.position - Vec3(1, 2, 3) - knot * slope).norm(),
-                kRounding_m);
+                kSumRounding_m);
       EXPECT_LT((now.at(time_s).image - before.image - Vec4(0.1, 0, 0, 0.01 * knot)).norm(),
-                kRounding_m);
+                kSumRounding_m);
     }
   }
 }

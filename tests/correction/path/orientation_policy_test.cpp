@@ -22,7 +22,7 @@ using scene::Mesh;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFar = 60.0;
 
-struct Case {
+struct PolicyCase {
   Mesh mesh;
   motion::Body body{testing::small_camera()};
   std::vector<Keyframe> keyframes;
@@ -36,7 +36,7 @@ struct Outcome {
   double turned_deg;
 };
 
-Outcome corrected(const Case& c, const OrientationPolicy& policy, Objective objective) {
+Outcome corrected(const PolicyCase& c, const OrientationPolicy& policy, Objective objective) {
   const scene::SceneIndex index = scene::SceneIndex::build(c.mesh);
   const collision::Query query{collision::Obstacles(index), c.body};
   LadderOptions options;
@@ -61,14 +61,14 @@ Outcome corrected(const Case& c, const OrientationPolicy& policy, Objective obje
   return outcome;
 }
 
-void expect_free(const Case& c, const OrientationPolicy& policy,
+void expect_free(const PolicyCase& c, const OrientationPolicy& policy,
                  Objective objective = Objective::kClosest) {
   const Outcome outcome = corrected(c, policy, objective);
   EXPECT_TRUE(outcome.is_free);
   EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
 }
 
-void expect_stuck(const Case& c, const OrientationPolicy& policy) {
+void expect_stuck(const PolicyCase& c, const OrientationPolicy& policy) {
   const Outcome outcome = corrected(c, policy, Objective::kClosest);
   EXPECT_FALSE(outcome.is_free);
   EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
@@ -127,7 +127,7 @@ Mesh wall_with_slit(double slant_deg, double half_width_m, double thickness_m) {
 
 // The near quadrilateral is 0.4 wide and 0.1 high, and the slit 0.14 wide. The camera fits at up to
 // 5.7° from the slit; without roll only if it turns by more than 60°.
-Case slanted_slit() {
+PolicyCase slanted_slit() {
   return {wall_with_slit(30.0, 0.07, 0.5),
           camera_of(0.2, 0.05),
           {{0, {{0, 0, 1.5}, Quat::Identity()}}, {4, {{0, 0, -1.5}, Quat::Identity()}}}};
@@ -135,15 +135,15 @@ Case slanted_slit() {
 
 // A vertical gap of 0.34 and a camera that is 0.4 wide and 0.38 high: it has to be yawed by 32°,
 // between two keyframes that look down and turn.
-Case upright_gap() {
+PolicyCase upright_gap() {
   return {wall_with_slit(90.0, 0.17, 0.04),
           camera_of(0.2, 0.19),
           {{0, {{0, 0.5, 1.6}, yawed_and_pitched(-10, -15)}},
            {4, {{0, -0.5, -1.2}, yawed_and_pitched(15, -25)}}}};
 }
 
-// Returns a path past a column, looking at a point beyond it.
-Case column() {
+// Returns a path past a column_case, looking at a point beyond it.
+PolicyCase column_case() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.3, -kFar, -0.2}, {0.5, kFar, 0.0});
   return {mesh,
@@ -151,7 +151,7 @@ Case column() {
           {{0, {{-0.15, 0, 2}, Quat::Identity()}}, {6, {{-0.15, 0, -2}, Quat::Identity()}}}};
 }
 
-Case wall_with_door() {
+PolicyCase door_case() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
   testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
@@ -184,27 +184,27 @@ TEST(OrientationPolicy, DoesNotRollWhereTheHorizonHasToStayLevel) {
 TEST(OrientationPolicy, TurnsNothingWhereOrientationsAreKept) {
   expect_stuck(slanted_slit(), keep());
   expect_stuck(upright_gap(), keep());
-  expect_free(column(), keep());
-  expect_free(wall_with_door(), keep());
-  expect_free(column(), limited(0));
+  expect_free(column_case(), keep());
+  expect_free(door_case(), keep());
+  expect_free(column_case(), limited(0));
 }
 
-// Passing the column takes a motion of some 30 cm, or 4° as seen from the target.
+// Passing the column_case takes a motion of some 30 cm, or 4° as seen from the target.
 TEST(OrientationPolicy, TurnsTowardsTheTargetAsItMovesAside) {
   const OrientationPolicy policy = towards({-0.15, 0, -4}, 2.0);
-  const Outcome outcome = corrected(column(), policy, Objective::kClosest);
+  const Outcome outcome = corrected(column_case(), policy, Objective::kClosest);
   EXPECT_TRUE(outcome.is_free);
   EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
   EXPECT_GT(outcome.turned_deg, 1.0) << "or the scene asks for nothing";
 }
 
 TEST(OrientationPolicy, KeepsTheTargetInViewOnAWayRound) {
-  expect_free(wall_with_door(), towards({0, 0, -6}, 8.0));
+  expect_free(door_case(), towards({0, 0, -6}, 8.0));
 }
 
 // The target is behind the camera, which may then not turn further away from it.
 TEST(OrientationPolicy, LooksNoFurtherAwayFromATargetOutsideTheCone) {
-  expect_free(column(), towards({1, 0.5, 7}, 10.0));
+  expect_free(column_case(), towards({1, 0.5, 7}, 10.0));
 }
 
 TEST(OrientationPolicy, HoldsUnderEveryObjective) {
@@ -212,8 +212,8 @@ TEST(OrientationPolicy, HoldsUnderEveryObjective) {
        {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
     expect_free(slanted_slit(), limited(45), objective);
     expect_free(upright_gap(), level(), objective);
-    expect_free(wall_with_door(), towards({0, 0, -6}, 8.0), objective);
-    expect_free(wall_with_door(), keep(), objective);
+    expect_free(door_case(), towards({0, 0, -6}, 8.0), objective);
+    expect_free(door_case(), keep(), objective);
   }
 }
 

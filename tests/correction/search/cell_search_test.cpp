@@ -19,9 +19,9 @@ using base::Deadline;
 using geometry::Bounds;
 
 constexpr double kBall_m = 0.02;
-constexpr std::size_t kEnough = 400'000;  // cells
+constexpr std::size_t kEnoughCells = 400'000;  // cells
 // A part of the ball's radius that is larger than the rounding of distances of a few metres.
-constexpr double kRounding = 1e-9;
+constexpr double kCellRounding = 1e-9;
 
 struct Hole {
   double x_m, y_m, half_m;
@@ -71,7 +71,7 @@ struct RoomCase {
   Vec3 to_W;
 };
 
-CellOptions options_of(double smallest_m, std::size_t max_cells = kEnough) {
+CellOptions options_of(double smallest_m, std::size_t max_cells = kEnoughCells) {
   return {kBall_m, smallest_m, max_cells, /*comfort_m=*/0.3};
 }
 
@@ -83,7 +83,7 @@ void expect_free_way(const RoomCase& c, const CellResult& result) {
   EXPECT_EQ(result.way_W.back(), c.to_W);
   for (std::size_t i = 1; i < result.way_W.size(); ++i) {
     const double gap_m = c.scene.least_m({result.way_W[i - 1], result.way_W[i], result.way_W[i]});
-    EXPECT_GE(gap_m, kBall_m * (1.0 - kRounding)) << "leg " << i;
+    EXPECT_GE(gap_m, kBall_m * (1.0 - kCellRounding)) << "leg " << i;
   }
 }
 
@@ -303,7 +303,7 @@ TEST(CellWay, LeadsRoundTheOutside) {
   ASSERT_FALSE(result.way_W.empty());
   for (std::size_t i = 1; i < result.way_W.size(); ++i)
     EXPECT_GE(scene.least_m({result.way_W[i - 1], result.way_W[i], result.way_W[i]}),
-              kBall_m * (1.0 - kRounding));
+              kBall_m * (1.0 - kCellRounding));
 }
 
 TEST(CellWay, IsTheSameEachTime) {

@@ -13,22 +13,17 @@ namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
 
-constexpr double kRadius_m = 0.2;
-constexpr double kMargin_m = 0.01;
+constexpr double kBody_m = 0.2;
+constexpr double kPoseMargin_m = 0.01;
 // The length of a move is the least in its direction to within the precision, and a direction is
 // improved as long as that shortens it by half of that.
 constexpr double kPrecise = 1.0 + 2.0 * kFreePosePrecision;
 const PoseRule kAny = [](const motion::Pose&) { return true; };
 
-motion::Pose at(const Vec3& position) { return {position, Quat::Identity()}; }
-
-void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v) {
-  testing::add_triangle(mesh, corner, corner + u, corner + u + v);
-  testing::add_triangle(mesh, corner, corner + u + v, corner + v);
-}
+motion::Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 
 void expect_free(const SearchScene& scene, const motion::Pose& from, const FreePose& found) {
-  EXPECT_GE(scene.distance_m(found.pose), kMargin_m);
+  EXPECT_GE(scene.distance_m(found.pose), kPoseMargin_m);
   EXPECT_EQ(found.pose.orientation.coeffs(), from.orientation.coeffs());
   EXPECT_NEAR((found.pose.position - from.position).norm(), found.moved_m, 1e-12);
 }
@@ -40,15 +35,16 @@ TEST(NearestFreePose, OffAWallOfAnyTilt) {
   for (int run = 0; run < 100; ++run) {
     const Quat tilt = random.rotation();
     scene::Mesh mesh;
-    add_rectangle(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0), tilt * Vec3(0, 100, 0));
-    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    testing::add_parallelogram(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0),
+                               tilt * Vec3(0, 100, 0));
+    const SearchScene scene(std::move(mesh), sphere(kBody_m));
     FreeSpace space = scene.space();
-    const double depth_m = share(random) * kRadius_m;
-    const motion::Pose pose = at(tilt * Vec3(0, 0, kRadius_m - depth_m));
-    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+    const double depth_m = share(random) * kBody_m;
+    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, kBody_m - depth_m));
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     expect_free(scene, pose, *found);
-    const double least_m = depth_m + kMargin_m;
+    const double least_m = depth_m + kPoseMargin_m;
     EXPECT_GE(found->moved_m, least_m - 1e-12);
     EXPECT_LE(found->moved_m, kPrecise * least_m);
   }
@@ -61,16 +57,16 @@ TEST(NearestFreePose, OutOfACorner) {
     for (int axis = 0; axis < walls; ++axis) {
       const Vec3 u = Vec3::Unit((axis + 1) % 3);
       const Vec3 v = Vec3::Unit((axis + 2) % 3);
-      add_rectangle(mesh, -50.0 * (u + v), 100.0 * u, 100.0 * v);
+      testing::add_parallelogram(mesh, -50.0 * (u + v), 100.0 * u, 100.0 * v);
     }
-    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    const SearchScene scene(std::move(mesh), sphere(kBody_m));
     FreeSpace space = scene.space();
     for (const double gap : {0.1, 0.5, 0.9}) {
-      const motion::Pose pose = at(gap * kRadius_m * Vec3::Ones());
-      const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+      const motion::Pose pose = pose_at(gap * kBody_m * Vec3::Ones());
+      const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
       ASSERT_TRUE(found);
       expect_free(scene, pose, *found);
-      const double least_m = std::sqrt(walls) * ((1.0 - gap) * kRadius_m + kMargin_m);
+      const double least_m = std::sqrt(walls) * ((1.0 - gap) * kBody_m + kPoseMargin_m);
       EXPECT_GE(found->moved_m, least_m - 1e-12);
       EXPECT_LE(found->moved_m, kPrecise * least_m);
     }
@@ -84,11 +80,12 @@ TEST(NearestFreePose, StaysOnItsSideOfAWall) {
   for (int run = 0; run < 100; ++run) {
     const Quat tilt = random.rotation();
     scene::Mesh mesh;
-    add_rectangle(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0), tilt * Vec3(0, 100, 0));
-    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    testing::add_parallelogram(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0),
+                               tilt * Vec3(0, 100, 0));
+    const SearchScene scene(std::move(mesh), sphere(kBody_m));
     FreeSpace space = scene.space();
-    const motion::Pose pose = at(tilt * Vec3(0, 0, share(random) * kRadius_m));
-    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, share(random) * kBody_m));
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     EXPECT_GT((tilt.inverse() * found->pose.position).z(), 0.0);
   }
@@ -98,13 +95,13 @@ TEST(NearestFreePose, StaysOnItsSideOfAWall) {
 TEST(NearestFreePose, OfTwoAsNearTheOneWithMoreRoom) {
   for (const double up : {1.0, -1.0}) {
     scene::Mesh mesh;
-    const double bottom_m = -up * 2.2 * kRadius_m;
+    const double bottom_m = -up * 2.2 * kBody_m;
     testing::add_cuboid(mesh, {-50, std::min(0.0, bottom_m), -50},
                         {50, std::max(0.0, bottom_m), 50});
-    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    const SearchScene scene(std::move(mesh), sphere(kBody_m));
     FreeSpace space = scene.space();
     const std::optional<FreePose> found =
-        nearest_free_pose(space, at(Vec3::Zero()), kMargin_m, kAny);
+        nearest_free_pose(space, pose_at(Vec3::Zero()), kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     EXPECT_GT(up * found->pose.position.y(), 0.0);
   }
@@ -112,17 +109,17 @@ TEST(NearestFreePose, OfTwoAsNearTheOneWithMoreRoom) {
 
 TEST(NearestFreePose, WillDo) {
   scene::Mesh mesh;
-  add_rectangle(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
-  const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+  testing::add_parallelogram(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  const SearchScene scene(std::move(mesh), sphere(kBody_m));
   FreeSpace space = scene.space();
-  const motion::Pose pose = at({0, 0, 0.5 * kRadius_m});
+  const motion::Pose pose = pose_at({0, 0, 0.5 * kBody_m});
   const PoseRule is_beyond = [](const motion::Pose& p) { return p.position.z() < 0.0; };
-  const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, is_beyond);
+  const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, is_beyond);
   ASSERT_TRUE(found);
   EXPECT_LT(found->pose.position.z(), 0.0);
-  EXPECT_LE(found->moved_m, kPrecise * (1.5 * kRadius_m + kMargin_m));
+  EXPECT_LE(found->moved_m, kPrecise * (1.5 * kBody_m + kPoseMargin_m));
   EXPECT_FALSE(
-      nearest_free_pose(space, pose, kMargin_m, [](const motion::Pose&) { return false; }));
+      nearest_free_pose(space, pose, kPoseMargin_m, [](const motion::Pose&) { return false; }));
 }
 
 // The oracle: poses at random, none of which may be free and clearly nearer.
@@ -141,7 +138,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
     const motion::Pose pose{{x, y, z}, random.rotation()};
     if (scene.distance_m(pose) > 0.0) continue;
     ++colliding;
-    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     bool is_beaten = false;
     for (int k = 0; k < 500 && !is_beaten; ++k) {
@@ -151,7 +148,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
       const Vec3 step = std::cbrt(0.5 * (1.0 + place(random))) * found->moved_m / kPrecise *
                         Vec3(u, v, w).normalized();
       is_beaten =
-          scene.distance_m(motion::Pose{pose.position + step, pose.orientation}) > kMargin_m;
+          scene.distance_m(motion::Pose{pose.position + step, pose.orientation}) > kPoseMargin_m;
     }
     beaten += is_beaten ? 1 : 0;
   }
@@ -162,30 +159,30 @@ TEST(NearestFreePose, NothingNearerIsFree) {
 
 TEST(NearestFreePose, KeepsTheClearanceToo) {
   scene::Mesh mesh;
-  add_rectangle(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
-  SearchScene scene(std::move(mesh), sphere(kRadius_m));
+  testing::add_parallelogram(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  SearchScene scene(std::move(mesh), sphere(kBody_m));
   scene.detect.clearance_m = 0.3;
   FreeSpace space = scene.space();
-  const motion::Pose pose = at({0, 0, 0.4});
-  const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+  const motion::Pose pose = pose_at({0, 0, 0.4});
+  const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
   ASSERT_TRUE(found);
-  EXPECT_GE(scene.distance_m(found->pose), 0.3 + kMargin_m);
-  EXPECT_LE(found->moved_m, kPrecise * (0.1 + kMargin_m));
+  EXPECT_GE(scene.distance_m(found->pose), 0.3 + kPoseMargin_m);
+  EXPECT_LE(found->moved_m, kPrecise * (0.1 + kPoseMargin_m));
 }
 
 // Plates without an end stand closer than the sphere is wide, as far as they go.
 TEST(NearestFreePose, NothingWhereTheBodyIsBuriedBeyondReach) {
   for (const double reach : {0.6, 1.3}) {
-    const double end_m = reach * kFreePoseReach * kRadius_m;
+    const double end_m = reach * kFreePoseReach * kBody_m;
     scene::Mesh mesh;
-    for (double x_m = -end_m; x_m <= end_m; x_m += kRadius_m)
-      add_rectangle(mesh, {x_m, -50, -50}, {0, 100, 0}, {0, 0, 100});
-    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    for (double x_m = -end_m; x_m <= end_m; x_m += kBody_m)
+      testing::add_parallelogram(mesh, {x_m, -50, -50}, {0, 100, 0}, {0, 0, 100});
+    const SearchScene scene(std::move(mesh), sphere(kBody_m));
     FreeSpace space = scene.space();
     const std::optional<FreePose> found =
-        nearest_free_pose(space, at(Vec3::Zero()), kMargin_m, kAny);
+        nearest_free_pose(space, pose_at(Vec3::Zero()), kPoseMargin_m, kAny);
     EXPECT_EQ(found.has_value(), reach < 1.0);
-    if (found) expect_free(scene, at(Vec3::Zero()), *found);
+    if (found) expect_free(scene, pose_at(Vec3::Zero()), *found);
   }
 }
 
@@ -202,7 +199,7 @@ TEST(NearestFreePose, IsFreeWhateverTheScene) {
     const motion::Pose pose{{x, y, z}, random.rotation()};
     if (scene.distance_m(pose) > 0.0) continue;
     ++colliding;
-    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     expect_free(scene, pose, *found);
   }
@@ -211,26 +208,26 @@ TEST(NearestFreePose, IsFreeWhateverTheScene) {
 
 // However far beyond its bounds a pose is, it is brought back straight, and then out of the scene.
 TEST(NearestFreePose, BackWithinBounds) {
-  const SearchScene empty({}, sphere(kRadius_m));
+  const SearchScene empty({}, sphere(kBody_m));
   geometry::Bounds bounds;
   bounds.max_W = {1.0, 1.0, std::numeric_limits<double>::infinity()};
   FreeSpace space({collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect});
-  const auto found = nearest_free_pose(space, at({31, 41, 0}), kMargin_m, kAny);
+  const auto found = nearest_free_pose(space, pose_at({31, 41, 0}), kPoseMargin_m, kAny);
   ASSERT_TRUE(found);
-  const double inset_m = kRadius_m + kMargin_m;
+  const double inset_m = kBody_m + kPoseMargin_m;
   const double least_m = std::hypot(30.0 + inset_m, 40.0 + inset_m);
   EXPECT_GE(found->moved_m, least_m);
   // On each of two axes the margin, to within the precision.
-  EXPECT_LE(found->moved_m, least_m + 2.0 * kFreePosePrecision * kMargin_m);
+  EXPECT_LE(found->moved_m, least_m + 2.0 * kFreePosePrecision * kPoseMargin_m);
   EXPECT_EQ(found->pose.position.z(), 0.0);
 
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, 0.5, -0.1}, {1.5, 1.5, 0.1});
-  const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+  const SearchScene scene(std::move(mesh), sphere(kBody_m));
   FreeSpace blocked({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
-  const auto beside = nearest_free_pose(blocked, at({31, 41, 0}), kMargin_m, kAny);
+  const auto beside = nearest_free_pose(blocked, pose_at({31, 41, 0}), kPoseMargin_m, kAny);
   ASSERT_TRUE(beside);
-  EXPECT_GE(scene.distance_m(beside->pose), kMargin_m);
+  EXPECT_GE(scene.distance_m(beside->pose), kPoseMargin_m);
   EXPECT_GE(bounds.depth_m(beside->pose.position), inset_m);
   EXPECT_LT((beside->pose.position - found->pose.position).norm(), 0.5);
 }

@@ -17,7 +17,7 @@ using base::Deadline;
 using Cell = std::array<int, 3>;
 
 // A part of the ball's radius that is larger than the rounding of distances of a few metres.
-constexpr double kRounding = 1e-9;
+constexpr double kLatticeRounding = 1e-9;
 
 double length_m(const std::vector<Vec3>& way_W) {
   double sum_m = 0.0;
@@ -41,7 +41,7 @@ void expect_way(const SearchScene& scene, const LatticeResult& result, const Vec
   for (std::size_t i = 1; i < result.way_W.size(); ++i) {
     EXPECT_GT(scene.distance_m(result.way_W[i]), radius_m);
     EXPECT_GE(least_gap_m(scene, result.way_W[i - 1], result.way_W[i], radius_m),
-              -kRounding * radius_m);
+              -kLatticeRounding * radius_m);
   }
 }
 
@@ -206,7 +206,7 @@ TEST(LatticeWay, IsNearlyTheBestThatDijkstraFinds) {
         lattice_way(scene.space(), from_W, to_W, options, Deadline::never());
     expect_way(scene, result, from_W, to_W, options.ball_radius_m);
     Oracle strict(scene, from_W, to_W, options, 0.0);
-    Oracle loose(scene, from_W, to_W, options, -kRounding * options.ball_radius_m);
+    Oracle loose(scene, from_W, to_W, options, -kLatticeRounding * options.ball_radius_m);
     const double cost_m = strict.cost_of(result.way_W);
     EXPECT_LE(cost_m, kLatticeGreed * strict.cost_m(5) + 1e-9);
     EXPECT_GE(cost_m, loose.cost_m(5) - 1e-9);

@@ -12,7 +12,7 @@ namespace {
 using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
 
-constexpr double kMargin_m = 0.002;
+constexpr double kPassageMargin_m = 0.002;
 constexpr double kShortSide_m = 0.3;
 
 motion::Body wide_camera() {
@@ -46,7 +46,7 @@ void expect_passed(const SearchScene& scene, const std::vector<NarrowPassage>& p
   FreeSpace space = scene.space();
   for (std::size_t i = 0; i < passages.size(); ++i) {
     const NarrowPassage& passage = passages[i];
-    EXPECT_TRUE(is_proved_free(scene, {passage.before, passage.after}, kMargin_m));
+    EXPECT_TRUE(is_proved_free(scene, {passage.before, passage.after}, kPassageMargin_m));
     EXPECT_EQ(passage.before.orientation, passage.after.orientation);
     const auto z_m = [&](const SignedPose& pose) {
       return (turn_W.conjugate() * space.center_W(motion::unsigned_pose(pose))).z();
@@ -78,7 +78,7 @@ TEST(NarrowPassages, LeadThroughHolesLittleWiderThanTheShortSide) {
     const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
     const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
     const std::vector<NarrowPassage> passages =
-        narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
     expect_passed(scene, passages, {0.0}, turn_W);
   }
 }
@@ -125,7 +125,7 @@ TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
     const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
     const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
     const std::vector<NarrowPassage> passages =
-        narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
     expect_passed(scene, passages, {0.0}, turn_W);
   }
 }
@@ -141,7 +141,7 @@ TEST(NarrowPassages, AreInTheOrderOfTheWay) {
   const SignedPose from{way_W.front(), Vec4::UnitX()};
   const SignedPose to{way_W.back(), Vec4::UnitX()};
   const std::vector<NarrowPassage> passages =
-      narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+      narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
   expect_passed(scene, passages, {1.0, -1.0}, Quat::Identity());
   EXPECT_EQ(passages[0].first, 0U);
   EXPECT_EQ(passages[1].first, 2U);
@@ -156,7 +156,7 @@ std::vector<NarrowPassage> passages_of_hole(double hole_m) {
   const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}};
   const SignedPose from{way_W.front(), Vec4::UnitX()};
   const SignedPose to{way_W.back(), Vec4::UnitX()};
-  return narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+  return narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
 }
 
 TEST(NarrowPassages, NoneWhereTheBodyCannotPassOrItsBallFits) {
@@ -175,7 +175,8 @@ TEST(NarrowPassages, NoneOnWaysWithoutAnEnd) {
     const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}, {0, 0, -far_m}};
     const SignedPose from{way_W.front(), Vec4::UnitX()};
     const SignedPose to{way_W.back(), Vec4::UnitX()};
-    EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
+    EXPECT_TRUE(
+        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never()).empty());
   }
 }
 

@@ -11,16 +11,16 @@ namespace {
 using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
 
-constexpr double kMargin_m = 0.002;
+constexpr double kTreeMargin_m = 0.002;
 
-SignedPose at(const Vec3& position) { return {position, Vec4::UnitX()}; }
+SignedPose signed_at(const Vec3& position) { return {position, Vec4::UnitX()}; }
 
 TreeOptions options_from(const SignedPose& from, const SignedPose& to, std::uint64_t seed) {
   TreeOptions options;
   options.about_W = {from.position, to.position};
   options.interpolated = {motion::unsigned_pose(from), motion::unsigned_pose(to)};
   options.reach_m = 0.6;
-  options.margin_m = kMargin_m;
+  options.margin_m = kTreeMargin_m;
   options.seed = seed;
   return options;
 }
@@ -29,16 +29,16 @@ TreeOptions options_from(const SignedPose& from, const SignedPose& to, std::uint
 struct Slot {
   SearchScene scene{wall_with_gap(-0.175, 0.175),
                     motion::Body(motion::Camera{2.0 * std::atan(1.0), 2.0 * std::atan(0.75), 0.2})};
-  SignedPose from = at({0, 0, 1.5});
-  SignedPose to = at({0, 0, -1.5});
+  SignedPose from = signed_at({0, 0, 1.5});
+  SignedPose to = signed_at({0, 0, -1.5});
 };
 
 void expect_way(const SearchScene& scene, const Guide& way, const SignedPose& from,
                 const SignedPose& to) {
   ASSERT_GE(way.size(), 2U);
   EXPECT_TRUE(same({way.front(), way.back()}, {from, to}));
-  EXPECT_TRUE(is_proved_free(scene, way, kMargin_m));
-  EXPECT_GE(least_distance_m(scene, scene.space(), way, 5e-3), kMargin_m);
+  EXPECT_TRUE(is_proved_free(scene, way, kTreeMargin_m));
+  EXPECT_GE(least_distance_m(scene, scene.space(), way, 5e-3), kTreeMargin_m);
   for (std::size_t i = 1; i < way.size(); ++i) {
     EXPECT_NEAR(way[i].orientation.norm(), 1.0, 1e-12);
     // Less than half a turn, by the way that the signs say.
@@ -49,8 +49,8 @@ void expect_way(const SearchScene& scene, const Guide& way, const SignedPose& fr
 TEST(TreeWay, StraightWhereThatIsFree) {
   const SearchScene scene(wall_with_gap(-1, 1));
   FreeSpace space = scene.space();
-  const SignedPose from = at({0, 0, 1});
-  const SignedPose to = at({0.3, 0, -1});
+  const SignedPose from = signed_at({0, 0, 1});
+  const SignedPose to = signed_at({0.3, 0, -1});
   const Guide way = tree_way(space, from, to, options_from(from, to, 1), Deadline::never()).guide;
   EXPECT_TRUE(same(way, {from, to}));
 }
@@ -81,14 +81,14 @@ TEST(TreeWay, KeepsTheClearance) {
       tree_way(space, slot.from, slot.to, options_from(slot.from, slot.to, 1), Deadline::never())
           .guide;
   expect_way(slot.scene, way, slot.from, slot.to);
-  EXPECT_GE(least_distance_m(slot.scene, space, way, 5e-3), 0.015 + kMargin_m);
+  EXPECT_GE(least_distance_m(slot.scene, space, way, 5e-3), 0.015 + kTreeMargin_m);
 }
 
 // The end is the same orientation with the other sign: there it has to arrive after a full turn.
 TEST(TreeWay, ArrivesWithTheSignThatWasAskedFor) {
   const SearchScene scene(wall_with_gap(-1, 1));
-  const SignedPose from = at({0, 0, 1});
-  SignedPose to = at({0, 0, -1});
+  const SignedPose from = signed_at({0, 0, 1});
+  SignedPose to = signed_at({0, 0, -1});
   to.orientation = -to.orientation;
   TreeOptions options = options_from(from, to, 1);
   options.largest_turn_rad = 2.0 * std::numbers::pi;
@@ -120,8 +120,8 @@ TEST(TreeWay, GivesUpWithinItsBounds) {
 // Places further from the way than the reach are not tried: the gap is 3 m beside it.
 TEST(TreeWay, LooksAlongTheWayThatItIsGiven) {
   const SearchScene scene(wall_with_gap(3.0, 4.0));
-  const SignedPose from = at({0, 0, 1});
-  const SignedPose to = at({0, 0, -1});
+  const SignedPose from = signed_at({0, 0, 1});
+  const SignedPose to = signed_at({0, 0, -1});
   TreeOptions options = options_from(from, to, 1);
   options.max_samples = 400;
   FreeSpace space = scene.space();

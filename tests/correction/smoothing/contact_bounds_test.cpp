@@ -13,7 +13,7 @@ namespace {
 
 using testing::Draw;
 
-constexpr double kRadius_m = 0.5;
+constexpr double kBallRadius_m = 0.5;
 constexpr double kReply = 0.3;
 
 Contact contact(const StackedPoint& direction, double room_m, std::uint32_t triangle,
@@ -41,7 +41,7 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   Draw draw(6201);
   for (const Objective objective :
        {Objective::kClosest, Objective::kShortest, Objective::kSmoothest}) {
-    ContactBounds bounds(objective, kRadius_m, kViewingDistance_m);
+    ContactBounds bounds(objective, kBallRadius_m, kViewingDistance_m);
     const std::size_t bounds_a_contact = objective == Objective::kClosest ? 2 : 1;
     const StackedPoint moved = draw.stacked(1.0);
     std::vector<Contact> near = contacts(draw, {2.0, 0.01, -0.02});
@@ -71,8 +71,8 @@ TEST(ContactBounds, WantAShareOfTheRadiusWhereThatShiftsThePictureLittle) {
 
 TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   Draw draw(6202);
-  ContactBounds bounds(Objective::kSafest, kRadius_m, kViewingDistance_m);
-  EXPECT_EQ(bounds.wanted_m(), kComfort * kRadius_m);
+  ContactBounds bounds(Objective::kSafest, kBallRadius_m, kViewingDistance_m);
+  EXPECT_EQ(bounds.wanted_m(), kComfort * kBallRadius_m);
   bounds.keep(0.05);
   const StackedPoint moved = draw.stacked(1.0);
   // Only near contacts are hard: at the distance to keep, or at their own if that is less.
@@ -96,7 +96,7 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
 TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   Draw draw(6203);
   const auto moved_m = [](double response) {
-    ContactBounds bounds(Objective::kSafest, kRadius_m, kViewingDistance_m);
+    ContactBounds bounds(Objective::kSafest, kBallRadius_m, kViewingDistance_m);
     StackedPoint along = StackedPoint::Zero();
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
@@ -109,14 +109,14 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   };
   EXPECT_LT(moved_m(0.01), 0.5 * moved_m(0.1));
   EXPECT_LT(moved_m(0.1), 0.5 * moved_m(1.0));
-  const double missing_m = kComfort * kRadius_m - 0.6;
+  const double missing_m = kComfort * kBallRadius_m - 0.6;
   EXPECT_LT(moved_m(100.0), missing_m);
   EXPECT_GT(moved_m(100.0), 0.95 * missing_m);
 }
 
 TEST(ContactBounds, RememberForcesForTheNextTime) {
   Draw draw(6204);
-  ContactBounds bounds(Objective::kClosest, kRadius_m, kViewingDistance_m);
+  ContactBounds bounds(Objective::kClosest, kBallRadius_m, kViewingDistance_m);
   std::vector<Contact> near = contacts(draw, {0.01, 0.2});
   bounds.add(0, StackedPoint::Zero(), kReply, near);
   double force = 1.0;

@@ -18,7 +18,7 @@ using testing::Draw;
 
 /// Samples that react to each other like points of a spline: the matrix is symmetric and positive
 /// semidefinite.
-struct Case {
+struct ProgramCase {
   StackedPoints unforced;
   Eigen::MatrixXd response;
   std::vector<BoundConstraint> bounds;
@@ -29,8 +29,8 @@ struct Case {
   }
 };
 
-Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_soft) {
-  Case c;
+ProgramCase random_program(Draw& draw, int samples, int bounds_of_sample, double share_soft) {
+  ProgramCase c;
   c.unforced = draw.points(samples, 1.0);
   const Eigen::MatrixXd shares =
       Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.uniform(-0.3, 1.0); });
@@ -49,7 +49,7 @@ Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_sof
 }
 
 /// Returns the response of each bound to a unit multiplier on each, compliance included.
-Eigen::MatrixXd matrix_of(const Case& c) {
+Eigen::MatrixXd matrix_of(const ProgramCase& c) {
   Eigen::MatrixXd matrix(c.size(), c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) {
     for (Eigen::Index j = 0; j < c.size(); ++j) {
@@ -62,7 +62,7 @@ Eigen::MatrixXd matrix_of(const Case& c) {
   return matrix;
 }
 
-Eigen::VectorXd missing_in(const Case& c) {
+Eigen::VectorXd missing_in(const ProgramCase& c) {
   Eigen::VectorXd missing(c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) {
     const auto sample = static_cast<Eigen::Index>(c.bound(i).sample);
@@ -71,7 +71,7 @@ Eigen::VectorXd missing_in(const Case& c) {
   return missing;
 }
 
-Eigen::VectorXd forces_of(const Case& c) {
+Eigen::VectorXd forces_of(const ProgramCase& c) {
   Eigen::VectorXd forces(c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) forces[i] = c.bound(i).multiplier;
   return forces;
@@ -79,7 +79,7 @@ Eigen::VectorXd forces_of(const Case& c) {
 
 /// Tries all active sets. Returns the one without negative multipliers and without a violated
 /// bound.
-std::optional<Eigen::VectorXd> exact_forces(const Case& c) {
+std::optional<Eigen::VectorXd> exact_forces(const ProgramCase& c) {
   const Eigen::MatrixXd matrix = matrix_of(c);
   const Eigen::VectorXd missing = missing_in(c);
   const double rounding = 1e-9 * missing.cwiseAbs().maxCoeff();
@@ -100,7 +100,7 @@ std::optional<Eigen::VectorXd> exact_forces(const Case& c) {
 }
 
 /// Repeats the solution from the last result until nothing changes, because each call is bounded.
-void find_until_settled(Case& c) {
+void find_until_settled(ProgramCase& c) {
   constexpr double kUnchanged = 1e-14;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::VectorXd before = forces_of(c);
@@ -111,7 +111,7 @@ void find_until_settled(Case& c) {
 }
 
 /// Returns the dual objective.
-double dual_of(const Case& c, const Eigen::VectorXd& forces) {
+double dual_of(const ProgramCase& c, const Eigen::VectorXd& forces) {
   return missing_in(c).dot(forces) - 0.5 * forces.dot(matrix_of(c) * forces);
 }
 
@@ -119,7 +119,7 @@ TEST(ContactForces, AreThoseOfTheBestActiveSet) {
   Draw draw(4201);
   int with_force = 0;
   for (int run = 0; run < 300; ++run) {
-    Case c = random_case(draw, draw.integer(1, 4), draw.integer(1, 2), 0.4);
+    ProgramCase c = random_program(draw, draw.integer(1, 4), draw.integer(1, 2), 0.4);
     const std::optional<Eigen::VectorXd> exact = exact_forces(c);
     ASSERT_TRUE(exact) << run;
     find_until_settled(c);
@@ -137,7 +137,7 @@ TEST(ContactForces, MeetTheConditionsOfTheOptimumWhereThereAreMany) {
   Draw draw(4202);
   for (int run = 0; run < 20; ++run) {
     // Many hard bounds of one sample may exclude each other; soft ones cannot.
-    Case c = random_case(draw, 30, 3, 1.0);
+    ProgramCase c = random_program(draw, 30, 3, 1.0);
     find_until_settled(c);
     const Eigen::VectorXd forces = forces_of(c);
     const Eigen::VectorXd room = matrix_of(c) * forces - missing_in(c);
@@ -151,8 +151,8 @@ TEST(ContactForces, MeetTheConditionsOfTheOptimumWhereThereAreMany) {
 TEST(ContactForces, FromAnyGuessAreTheSame) {
   Draw draw(4203);
   for (int run = 0; run < 50; ++run) {
-    Case cold = random_case(draw, 12, 2, 1.0);
-    Case warm = cold;
+    ProgramCase cold = random_program(draw, 12, 2, 1.0);
+    ProgramCase warm = cold;
     for (BoundConstraint& bound : warm.bounds)
       bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 3.0);
     find_until_settled(cold);
@@ -165,7 +165,7 @@ TEST(ContactForces, FromAnyGuessAreTheSame) {
 TEST(ContactForces, NeverGetWorseThanTheGuess) {
   Draw draw(4204);
   for (int run = 0; run < 300; ++run) {
-    Case c = random_case(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
+    ProgramCase c = random_program(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
     for (BoundConstraint& bound : c.bounds)
       bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 1.0);
     const double before = dual_of(c, forces_of(c));
@@ -178,7 +178,7 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
 
 // A single bound has a closed solution.
 TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
-  Case c;
+  ProgramCase c;
   c.unforced = StackedPoints::Zero(1, 7);
   c.response = Eigen::MatrixXd::Constant(1, 1, 4.0);
   for (const double compliance : {0.0, 1.0, 3.0}) {
@@ -195,7 +195,7 @@ TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
 // multipliers is limited.
 TEST(ContactForces, AreOfLimitedNumber) {
   Draw draw(4407);
-  Case c = random_case(draw, 40, 100, 0.0);
+  ProgramCase c = random_program(draw, 40, 100, 0.0);
   solve_qp(c.bounds, c.unforced, c.response, 0.0);
   const auto felt = std::ranges::count_if(
       c.bounds, [](const BoundConstraint& bound) { return bound.multiplier > 0.0; });
@@ -218,10 +218,10 @@ TEST(ContactForces, AreOfLimitedNumber) {
 // No multiplier helps a sample that no variable moves, and it must not affect the others.
 TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   Draw draw(4205);
-  Case c = random_case(draw, 3, 1, 1.0);
-  Case without = c;
+  ProgramCase c = random_program(draw, 3, 1, 1.0);
+  ProgramCase without = c;
   without.bounds.erase(without.bounds.begin() + 1);
-  for (Case* changed : {&c, &without}) {
+  for (ProgramCase* changed : {&c, &without}) {
     changed->response.row(1).setZero();
     changed->response.col(1).setZero();
     changed->bounds[0].bound_m += 2.0;

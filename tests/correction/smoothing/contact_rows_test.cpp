@@ -20,15 +20,15 @@ using geometry::Vec4;
 using testing::Draw;
 
 constexpr double kAll_m = std::numeric_limits<double>::infinity();
-constexpr double kLever_m = 0.37;
+constexpr double kRowLever_m = 0.37;
 // Bound on the rounding of distances and planes of points within 5 m: some ten roundings of that
 // size, and the distance's own. For a short distance the error of its direction is larger in
 // proportion.
-constexpr double kRounding_m = 1e-12;
+constexpr double kRowRounding_m = 1e-12;
 constexpr double kShort_m = 1e-2;
 // Images have at least half of unit length, and the body rotates four times as fast as its image.
 // Derivatives of a point's position are below its distance from the eye times powers of that.
-constexpr double kTurn_per_m = 4.0 / (0.5 * kLever_m);
+constexpr double kTurn_per_m = 4.0 / (0.5 * kRowLever_m);
 constexpr double kSize_m = 0.6;
 constexpr double kSecond_per_m = kSize_m * kTurn_per_m * kTurn_per_m;
 constexpr double kThird_per_m2 = kSecond_per_m * kTurn_per_m;
@@ -36,7 +36,7 @@ constexpr double kThird_per_m2 = kSecond_per_m * kTurn_per_m;
 motion::Body made(const motion::BodyShape& shape) { return *motion::Body::make(shape); }
 
 /// Scattered triangles, and a pose of the body that is free of them.
-struct Case {
+struct RowsCase {
   scene::Mesh mesh;
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
@@ -49,7 +49,7 @@ struct Case {
     return FreeSpace({collision::Obstacles(index), body, detect}, policy);
   }
   [[nodiscard]] motion::Pose pose(const StackedPoint& at) const {
-    return motion::pose_of(reference, unstacked(at, kLever_m));
+    return motion::pose_of(reference, unstacked(at, kRowLever_m));
   }
   [[nodiscard]] std::vector<std::uint32_t> all() const {
     std::vector<std::uint32_t> triangles(mesh.triangles.size());
@@ -59,7 +59,8 @@ struct Case {
   [[nodiscard]] std::vector<ContactRow> rows(double horizon_m = kAll_m) const {
     FreeSpace space = this->space();
     std::vector<ContactRow> rows;
-    add_contact_rows(space, {point, reference, kLever_m, space.may_turn()}, all(), horizon_m, rows);
+    add_contact_rows(space, {point, reference, kRowLever_m, space.may_turn()}, all(), horizon_m,
+                     rows);
     return rows;
   }
   /// Returns a vertex of the body in the world.
@@ -73,8 +74,8 @@ struct Case {
   }
 };
 
-Case random_case(Draw& draw) {
-  Case c;
+RowsCase random_rows(Draw& draw) {
+  RowsCase c;
   c.mesh = testing::scattered_triangles(draw, 12, 0.5);
   c.index = scene::SceneIndex::build(c.mesh);
   if (draw.integer(0, 1) == 1) {
@@ -85,7 +86,7 @@ Case random_case(Draw& draw) {
   FreeSpace space = c.space();
   do {
     c.point.head<3>() = draw.in_cube(1.5);
-    c.point.tail<4>() = kLever_m * draw.uniform(0.5, 2.0) * geometry::wxyz(draw.turn(3.0));
+    c.point.tail<4>() = kRowLever_m * draw.uniform(0.5, 2.0) * geometry::wxyz(draw.turn(3.0));
   } while (!(space.gap_m(c.pose(c.point), 2.0 * kShort_m) > kShort_m));
   return c;
 }
@@ -93,7 +94,7 @@ Case random_case(Draw& draw) {
 TEST(Contacts, LeaveAsMuchRoomAsTheDistanceIs) {
   Draw draw(4301);
   for (int run = 0; run < 200; ++run) {
-    const Case c = random_case(draw);
+    const RowsCase c = random_rows(draw);
     const FreeSpace space = c.space();
     std::map<std::pair<std::uint32_t, std::size_t>, double> least_m;
     for (const ContactRow& row : c.rows()) {
@@ -104,7 +105,7 @@ TEST(Contacts, LeaveAsMuchRoomAsTheDistanceIs) {
     for (const auto& [pair, room_m] : least_m) {
       const double distance_m =
           geometry::triangle_distance(c.index.triangle(pair.first), c.part_W(c.point, pair.second));
-      ASSERT_NEAR(room_m, distance_m - space.keep_m(), kRounding_m / kShort_m) << run;
+      ASSERT_NEAR(room_m, distance_m - space.keep_m(), kRowRounding_m / kShort_m) << run;
     }
   }
 }
@@ -113,10 +114,10 @@ TEST(Contacts, LeaveAsMuchRoomAsTheDistanceIs) {
 TEST(Contacts, PointWhereTheRoomGrows) {
   Draw draw(4302);
   for (int run = 0; run < 100; ++run) {
-    const Case c = random_case(draw);
+    const RowsCase c = random_rows(draw);
     for (const ContactRow& row : c.rows()) {
       const Vec3 away_W = row.direction.head<3>();
-      ASSERT_NEAR(away_W.norm(), 1.0, kRounding_m);
+      ASSERT_NEAR(away_W.norm(), 1.0, kRowRounding_m);
       for (Eigen::Index i = 0; i < 7; ++i) {
         // The error of central differences is a sixth of the third derivative.
         constexpr double kStep_m = 1e-4;
@@ -124,7 +125,7 @@ TEST(Contacts, PointWhereTheRoomGrows) {
         const Vec3 moved =
             c.vertex_W(c.point + step, row.vertex) - c.vertex_W(c.point - step, row.vertex);
         ASSERT_NEAR(row.direction[i], away_W.dot(moved) / (2.0 * kStep_m),
-                    kThird_per_m2 / 6.0 * kStep_m * kStep_m + kRounding_m / kStep_m)
+                    kThird_per_m2 / 6.0 * kStep_m * kStep_m + kRowRounding_m / kStep_m)
             << run << " dimension " << i;
       }
     }
@@ -136,7 +137,7 @@ TEST(Contacts, BoundTheDistanceAfterASmallStep) {
   Draw draw(4303);
   int pairs = 0;
   for (int run = 0; run < 200; ++run) {
-    const Case c = random_case(draw);
+    const RowsCase c = random_rows(draw);
     const FreeSpace space = c.space();
     StackedPoint step = draw.stacked(1.0);
     step *= 1e-3 / step.norm();
@@ -160,7 +161,7 @@ TEST(Contacts, BoundTheDistanceAfterASmallStep) {
 TEST(Contacts, AreTheTightestOfATriangleWhereThereAreMany) {
   constexpr std::size_t kMost = 48;
   Draw draw(4306);
-  Case c = random_case(draw);
+  RowsCase c = random_rows(draw);
   motion::MeshShape shape;
   for (std::uint32_t i = 0; i < 3 * 40; i += 3) {
     const Vec3 center_C = draw.in_cube(0.2);
@@ -190,7 +191,7 @@ TEST(Contacts, AreTheTightestOfATriangleWhereThereAreMany) {
 TEST(Contacts, LeaveOutWhatIsBeyondTheHorizon) {
   Draw draw(4304);
   for (int run = 0; run < 50; ++run) {
-    const Case c = random_case(draw);
+    const RowsCase c = random_rows(draw);
     std::vector<ContactRow> expected = c.rows();
     const double horizon_m = draw.uniform(0.1, 1.0);
     std::erase_if(expected, [&](const ContactRow& row) { return row.room_m > horizon_m; });
@@ -205,7 +206,7 @@ TEST(Contacts, LeaveOutWhatIsBeyondTheHorizon) {
 
 TEST(Contacts, AskForNoTurnWhereNoneIsAllowed) {
   Draw draw(4305);
-  Case c = random_case(draw);
+  RowsCase c = random_rows(draw);
   const std::vector<ContactRow> turning = c.rows();
   c.policy.rule = OrientationRule::kKeep;
   const std::vector<ContactRow> rows = c.rows();
@@ -221,7 +222,7 @@ TEST(Contacts, AskForNoTurnWhereNoneIsAllowed) {
 TEST(Contacts, OfASideAreOfEveryVertex) {
   Draw draw(4306);
   for (int run = 0; run < 100; ++run) {
-    Case c = random_case(draw);
+    RowsCase c = random_rows(draw);
     if (run % 2 == 0) c.body = made(motion::SphereShape{draw.in_cube(0.3), 0.15});
     geometry::Bounds bounds;
     bounds.min_W.y() = -4.0;
@@ -230,21 +231,22 @@ TEST(Contacts, OfASideAreOfEveryVertex) {
     const std::vector<std::uint32_t> sides = {collision::Obstacles::number_of_side(1),
                                               collision::Obstacles::number_of_side(5)};
     std::vector<ContactRow> rows;
-    add_contact_rows(space, {c.point, c.reference, kLever_m, true}, sides, kAll_m, rows);
+    add_contact_rows(space, {c.point, c.reference, kRowLever_m, true}, sides, kAll_m, rows);
     ASSERT_EQ(rows.size(), 2 * 3 * c.body.triangles_C().size());
     for (const ContactRow& row : rows) {
       const std::size_t side = collision::Obstacles::side_of(row.triangle);
       const Vec3 away_W = geometry::Bounds::inward(side);
       EXPECT_EQ(Vec3(row.direction.head<3>()), away_W);
       const Vec3 vertex_W = c.vertex_W(c.point, row.vertex);
-      EXPECT_NEAR(row.room_m, bounds.depth_m(side, vertex_W) - c.body.ball_radius_m(), kRounding_m);
+      EXPECT_NEAR(row.room_m, bounds.depth_m(side, vertex_W) - c.body.ball_radius_m(),
+                  kRowRounding_m);
       for (Eigen::Index i = 0; i < 7; ++i) {
         constexpr double kStep_m = 1e-4;
         const StackedPoint step = kStep_m * StackedPoint::Unit(i);
         const Vec3 moved =
             c.vertex_W(c.point + step, row.vertex) - c.vertex_W(c.point - step, row.vertex);
         EXPECT_NEAR(row.direction[i], away_W.dot(moved) / (2.0 * kStep_m),
-                    kThird_per_m2 / 6.0 * kStep_m * kStep_m + kRounding_m / kStep_m);
+                    kThird_per_m2 / 6.0 * kStep_m * kStep_m + kRowRounding_m / kStep_m);
       }
     }
   }

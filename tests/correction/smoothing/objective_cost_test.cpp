@@ -18,13 +18,13 @@ using motion::CubicPath;
 using testing::Draw;
 
 /// A camera above a floor that extends beyond its view.
-struct Case {
+struct CostCase {
   scene::Mesh mesh;
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
   collision::DetectOptions detect;
 
-  Case() {
+  CostCase() {
     testing::add_cuboid(mesh, {-50, -2, -50}, {50, -1, 50});
     index = scene::SceneIndex::build(mesh);
   }
@@ -47,7 +47,7 @@ CubicPath straight(const Vec3& from, const Vec3& to, double duration_s) {
 
 // An answer reports the same numbers.
 TEST(ObjectiveCost, IsWhatMeasuresSay) {
-  const Case c;
+  const CostCase c;
   Draw draw(6101);
   for (int run = 0; run < 50; ++run) {
     std::vector<motion::Keyframe> keyframes;
@@ -68,7 +68,7 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
 // At a constant height everything is known: the missing clearance is constant, and the way is its
 // length.
 TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
-  const Case c;
+  const CostCase c;
   const double radius_m = c.space().ball_radius_m();
   const double comfort_m = kComfort * radius_m;
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
@@ -99,7 +99,7 @@ TEST(ObjectiveCost, IsBetterOnlyIfLessAndNoNearer) {
 
 // The other objectives count tight clearances only.
 TEST(ObjectiveCost, OfOthersKnowsTightGapsAlone) {
-  const Case c;
+  const CostCase c;
   const double radius_m = c.space().ball_radius_m();
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
   for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {

@@ -25,17 +25,17 @@ using motion::CubicPath;
 using motion::Keyframe;
 using testing::Draw;
 
-constexpr int kEnough = 100;  // steps
+constexpr int kEnoughSteps = 100;  // steps
 constexpr int kKnots = 12;
-constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
-                                    Objective::kSmoothest, Objective::kSafest};
+constexpr std::array kRelaxedObjectives = {Objective::kClosest, Objective::kShortest,
+                                           Objective::kSmoothest, Objective::kSafest};
 
 Keyframe at(double time_s, const Vec3& position, const Quat& orientation = Quat::Identity()) {
   return {time_s, {position, orientation}};
 }
 
 /// A scene, a camera and an interval between keyframes in it.
-struct Case {
+struct RelaxationCase {
   scene::Mesh mesh;
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
@@ -63,7 +63,7 @@ struct Case {
 };
 
 /// Returns the least distance of the near quadrilateral over equidistant times, by all triangles.
-double least_gap_m(const Case& c, const CubicPath& path, double begin_s, double end_s,
+double least_gap_m(const RelaxationCase& c, const CubicPath& path, double begin_s, double end_s,
                    int samples) {
   const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
   constexpr double kFar_m = 10.0;
@@ -82,15 +82,15 @@ double length_m(const CubicPath& path) {
   return motion::measure(segments, segments).length_m;
 }
 
-std::optional<Relaxed> correction_with(const Case& c, const Offsets& offsets, Ends ends) {
+std::optional<Relaxed> correction_with(const RelaxationCase& c, const Offsets& offsets, Ends ends) {
   FreeSpace space = c.space();
   Attempt tried = attempt(c.problem, {bumps_for(offsets, ends)}, space, Deadline::never());
   if (!tried.candidate) return std::nullopt;
   return Relaxed{offsets, std::move(*tried.candidate)};
 }
 
-Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective objective,
-                      int steps = kEnough) {
+Relaxed relaxed_fully(const RelaxationCase& c, const Relaxed& free, Ends ends, Objective objective,
+                      int steps = kEnoughSteps) {
   FreeSpace space = c.space();
   const Improvement improvement{objective};
   base::Budget budget(steps);
@@ -104,7 +104,7 @@ Offsets lifted(const Problem& problem, int count, const Vec3& by) {
   return offsets;
 }
 
-void expect_keyframes_kept(const Case& c, const CubicPath& path) {
+void expect_keyframes_kept(const RelaxationCase& c, const CubicPath& path) {
   for (const double time_s : c.problem.keyframes_s) {
     EXPECT_EQ(path.at(time_s).position, c.problem.path.at(time_s).position);
     EXPECT_EQ(path.at(time_s).image, c.problem.path.at(time_s).image);
@@ -123,7 +123,7 @@ void expect_same(const CubicPath& a, const CubicPath& b) {
 /// A tour through clutter in which one interval is crossed by a large swing that happens to be
 /// free.
 struct Swing {
-  Case c;
+  RelaxationCase c;
   Ends ends = Ends::kFree;
   std::optional<Relaxed> free;
 };
@@ -132,7 +132,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
   Swing swing;
   swing.c.policy.max_turn_rad = max_turn_rad;
   while (!swing.free) {
-    Case& c = swing.c;
+    RelaxationCase& c = swing.c;
     c.mesh = testing::scattered_triangles(draw, 25, 0.4);
     c.build();
     std::vector<Keyframe> keyframes;
@@ -159,7 +159,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
 }
 
 /// Expects the required distance at many times, except where other corrections are responsible.
-void expect_free(const Case& c, const CubicPath& path) {
+void expect_free(const RelaxationCase& c, const CubicPath& path) {
   const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
   constexpr int kTimes = 3000;
   for (int i = 0; i <= kTimes; ++i) {
@@ -183,7 +183,7 @@ TEST(Relaxation, StaysFreeKeepsKeyframesAndIsNoWorse) {
   constexpr int kRuns = testing::runs(70);
   for (int run = 0; run < kRuns; ++run) {
     const Swing swing = random_swing(draw);
-    for (const Objective objective : kObjectives) {
+    for (const Objective objective : kRelaxedObjectives) {
       const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, objective);
       expect_free(swing.c, result.candidate.path);
       expect_keyframes_kept(swing.c, result.candidate.path);
@@ -245,11 +245,11 @@ TEST(Relaxation, AfterTheDeadlineChangesNothingAndDoesNoSteps) {
   const Swing swing = random_swing(draw);
   FreeSpace space = swing.c.space();
   const Improvement improvement{Objective::kClosest};
-  base::Budget budget(kEnough);
+  base::Budget budget(kEnoughSteps);
   const Relaxed result = relaxed(swing.c.problem, *swing.free, swing.ends, improvement, budget,
                                  space, Deadline::after_s(0.0));
   expect_same(result.candidate.path, swing.free->candidate.path);
-  EXPECT_EQ(budget.left(), kEnough);
+  EXPECT_EQ(budget.left(), kEnoughSteps);
 }
 
 TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
@@ -257,7 +257,7 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
   int stopped_early = 0;
   for (int run = 0; run < 20; ++run) {
     const Swing swing = random_swing(draw);
-    for (const int steps : {1, 3, kEnough}) {
+    for (const int steps : {1, 3, kEnoughSteps}) {
       FreeSpace space = swing.c.space();
       const Improvement improvement{Objective::kSmoothest};
       base::Budget budget(steps);
@@ -265,7 +265,7 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
               Deadline::never());
       EXPECT_GE(budget.left(), 0);
       EXPECT_LT(budget.left(), steps);
-      stopped_early += steps == kEnough && budget.left() > 0 ? 1 : 0;
+      stopped_early += steps == kEnoughSteps && budget.left() > 0 ? 1 : 0;
     }
   }
   EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
@@ -273,7 +273,7 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
 
 // Without obstacles the result is the objective's minimum.
 TEST(Relaxation, ReachesTheMinimumInTheOpen) {
-  Case c;
+  RelaxationCase c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
   c.problem = testing::problem_of_leg(
@@ -285,7 +285,7 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 16, {0, 2, 0}), Ends::kFree);
   ASSERT_TRUE(free);
-  for (const Objective objective : kObjectives) {
+  for (const Objective objective : kRelaxedObjectives) {
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
     const Closeness closeness = c.space().closeness();
     const double lever_m = 4.0 * (objective == Objective::kClosest ? closeness.turn_lever_m
@@ -306,7 +306,7 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
 
 // The camera flies along a corridor close to one wall.
 TEST(Relaxation, SafestGoesAwayFromWalls) {
-  Case c;
+  RelaxationCase c;
   testing::add_cuboid(c.mesh, {-0.7, -9, -4}, {-0.6, 9, 4});
   testing::add_cuboid(c.mesh, {0.6, -9, -4}, {0.7, 9, 4});
   c.build();
@@ -332,7 +332,7 @@ TEST(Relaxation, SafestGoesAwayFromWalls) {
 }
 
 TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
-  Case c;
+  RelaxationCase c;
   testing::add_cuboid(c.mesh, {-3, -3, -0.2}, {3, 0.4, 0.2});
   c.build();
   c.policy.rule = OrientationRule::kKeep;  // tilted, it could go lower
@@ -356,8 +356,8 @@ TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
 // Plates without thickness across the path, each between two samples: at no sample is the camera,
 // which is as thin, near one of them.
 TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
-  for (const Objective objective : kObjectives) {
-    Case c;
+  for (const Objective objective : kRelaxedObjectives) {
+    RelaxationCase c;
     constexpr int kFewKnots = 8;
     c.policy.rule = OrientationRule::kKeep;
     c.problem = testing::problem_of_leg({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
@@ -401,15 +401,15 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
   constexpr int kRuns = 20;
   for (int run = 0; run < kRuns; ++run) {
     Swing swing = random_swing(draw);
-    Case& c = swing.c;
+    RelaxationCase& c = swing.c;
     c.problem.path = swing.free->candidate.path;
     // On coarser knots than before; some wide swings can only get worse on these.
     FreeSpace space = c.space();
     const Improvement improvement{Objective::kSmoothest};
-    base::Budget budget(kEnough);
+    base::Budget budget(kEnoughSteps);
     const std::optional<Candidate> better =
         polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
-    EXPECT_LE(budget.left(), kEnough);
+    EXPECT_LE(budget.left(), kEnoughSteps);
     if (!better) continue;
     ++found;
     expect_free(c, better->path);
@@ -447,7 +447,7 @@ TEST(Relaxation, GetsFarWhereTurningIsLimited) {
 // The objective's minimum is a hundredth of the ball's radius above a block that is too far away to
 // be a contact at first; one step would lead there.
 TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
-  Case c;
+  RelaxationCase c;
   c.policy.rule = OrientationRule::kKeep;
   const double radius_m = c.space().ball_radius_m();
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
@@ -467,7 +467,7 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
 
 // Over a plate that is just touched: the room that is aimed at would cost a multiple.
 TEST(Relaxation, LowersTheCostWhereRoomIsTooDear) {
-  Case c;
+  RelaxationCase c;
   c.policy.rule = OrientationRule::kKeep;
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
   testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m + 0.01, 0.3});
@@ -486,7 +486,7 @@ TEST(Relaxation, LowersTheCostWhereRoomIsTooDear) {
 
 // The next keyframe is so close that the coefficients which keep the one before would reach it.
 TEST(Relaxation, PolishesNextToAShortGap) {
-  Case c;
+  RelaxationCase c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
   c.problem = testing::problem_of_leg(
@@ -495,7 +495,7 @@ TEST(Relaxation, PolishesNextToAShortGap) {
       correction_with(c, lifted(c.problem, 12, {0, 0.5, 0}), Ends::kFixed).value().candidate.path;
   FreeSpace space = c.space();
   const Improvement improvement{Objective::kShortest};
-  base::Budget budget(kEnough);
+  base::Budget budget(kEnoughSteps);
   const std::optional<Candidate> better =
       polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
   ASSERT_TRUE(better);
@@ -505,15 +505,15 @@ TEST(Relaxation, PolishesNextToAShortGap) {
 }
 
 TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
-  Case c;
+  RelaxationCase c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
   c.problem = testing::problem_of_leg({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
   FreeSpace space = c.space();
   const Improvement improvement{Objective::kClosest};
-  base::Budget budget(kEnough);
+  base::Budget budget(kEnoughSteps);
   EXPECT_FALSE(polished(c.problem, kKnots, improvement, budget, space, Deadline::never()));
-  EXPECT_EQ(budget.left(), kEnough);
+  EXPECT_EQ(budget.left(), kEnoughSteps);
 }
 
 }  // namespace

@@ -21,23 +21,23 @@ using testing::Draw;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 // Bound on the rounding of some hundred sums and products of numbers up to 10.
-constexpr double kRounding = 1e-12;
-constexpr double kLever_m = 0.4;
+constexpr double kFormRounding = 1e-12;
+constexpr double kFormLever_m = 0.4;
 constexpr Closeness kCloseness{
-    .viewing_distance_m = 2.0, .turn_lever_m = kLever_m / 4.0, .acceleration_m_per_s2 = 0.8};
+    .viewing_distance_m = 2.0, .turn_lever_m = kFormLever_m / 4.0, .acceleration_m_per_s2 = 0.8};
 
 /// An interval of a random tour: at its beginning, at its end, between others, or alone.
-struct Case {
+struct FormCase {
   Problem problem;
   KnotRow knots;
 };
 
-Case random_case(Draw& draw) {
+FormCase random_form(Draw& draw) {
   const std::vector<motion::Keyframe> keyframes =
       testing::random_keyframes(draw, draw.integer(2, 6));
   const auto leg =
       static_cast<std::size_t>(draw.integer(0, static_cast<int>(keyframes.size()) - 2));
-  Case c{testing::problem_of_leg(keyframes, leg), {}};
+  FormCase c{testing::problem_of_leg(keyframes, leg), {}};
   c.knots = {c.problem.leg_begin_s(), c.problem.leg_end_s(), draw.integer(4, 24)};
   // A path other than the original.
   motion::BumpRow row{{c.problem.path.begin_s(), c.problem.path.end_s(), 9}, -1, {}};
@@ -54,7 +54,7 @@ void for_many(Draw& draw, int count, const Check& check) {
   int last = 0;
   int inner = 0;
   for (int i = 0; i < count; ++i) {
-    const Case c = random_case(draw);
+    const FormCase c = random_form(draw);
     const std::size_t leg = c.problem.leg;
     const bool is_last = leg + 2 == c.problem.keyframes_s.size();
     first += leg == 0 ? 1 : 0;
@@ -70,17 +70,17 @@ void for_many(Draw& draw, int count, const Check& check) {
 
 TEST(FreeCoefficients, AreWhatTheRowOfBumpsAdds) {
   Draw draw(4101);
-  for_many(draw, 150, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+  for_many(draw, 150, [&](const FormCase& c, Ends ends, const FreeCoefficients& free) {
     const StackedPoints variables = draw.points(free.size(), 1.0);
-    const Offsets offsets = free.offsets_of(variables, kLever_m);
+    const Offsets offsets = free.offsets_of(variables, kFormLever_m);
     const CubicPath after =
         motion::with_bumps(c.problem.path, std::vector{bumps_for(offsets, ends)});
     for (int i = 0; i < 60; ++i) {
       const double time_s = draw.uniform(c.problem.path.begin_s(), c.problem.path.end_s());
       const StackedPoint added = combined(free.at(time_s), variables);
-      const StackedPoint now = stacked(after.at(time_s), kLever_m);
-      const StackedPoint before = stacked(c.problem.path.at(time_s), kLever_m);
-      ASSERT_LT((before + added - now).norm(), kRounding) << "at " << time_s;
+      const StackedPoint now = stacked(after.at(time_s), kFormLever_m);
+      const StackedPoint before = stacked(c.problem.path.at(time_s), kFormLever_m);
+      ASSERT_LT((before + added - now).norm(), kFormRounding) << "at " << time_s;
     }
   });
 }
@@ -88,27 +88,27 @@ TEST(FreeCoefficients, AreWhatTheRowOfBumpsAdds) {
 TEST(FreeCoefficients, LeaveKeyframesWhereTheyAre) {
   Draw draw(4102);
   int without_room = 0;
-  for_many(draw, 500, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+  for_many(draw, 500, [&](const FormCase& c, Ends ends, const FreeCoefficients& free) {
     const StackedPoints variables = draw.points(free.size(), 1.0);
     double largest = 0.0;
     for (const double time_s : c.problem.keyframes_s) {
       const double moved = combined(free.at(time_s), variables).norm();
       const bool is_of_leg = time_s == c.knots.begin_s || time_s == c.knots.end_s;
       if (is_of_leg) {
-        ASSERT_LT(moved, kRounding);
+        ASSERT_LT(moved, kFormRounding);
       }
       largest = std::max(largest, moved);
     }
     const bool fits = ends == Ends::kFixed || fits_free_ends(c.problem, c.knots);
     without_room += fits ? 0 : 1;
-    ASSERT_EQ(largest < kRounding, fits) << "those beyond";
+    ASSERT_EQ(largest < kFormRounding, fits) << "those beyond";
   });
   EXPECT_GT(without_room, 5);
 }
 
 TEST(FreeCoefficients, FixedEndsChangeNothingBeyondNorTheSlopeThere) {
   Draw draw(4103);
-  for_many(draw, 100, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+  for_many(draw, 100, [&](const FormCase& c, Ends ends, const FreeCoefficients& free) {
     if (ends == Ends::kFree) return;
     const StackedPoints variables = draw.points(free.size(), 1.0);
     const auto size_at = [&](double time_s) { return combined(free.at(time_s), variables).norm(); };
@@ -153,12 +153,12 @@ TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
 
 TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
   Draw draw(4105);
-  for_many(draw, 100, [&](const Case& c, Ends, const FreeCoefficients& free) {
+  for_many(draw, 100, [&](const FormCase& c, Ends, const FreeCoefficients& free) {
     const StackedPoints variables = draw.points(free.size(), 1.0);
-    const Offsets offsets = free.offsets_of(variables, kLever_m);
+    const Offsets offsets = free.offsets_of(variables, kFormLever_m);
     ASSERT_EQ(offsets.first, free.first());
     ASSERT_EQ(offsets.last(), free.last());
-    const StackedPoints back = free.variables_of(offsets, kLever_m);
+    const StackedPoints back = free.variables_of(offsets, kFormLever_m);
     // Divided and multiplied by the lever arm.
     ASSERT_LE((back - variables).cwiseAbs().maxCoeff(), 2.0 * kEps);
     // The fixed coefficients keep the keyframe.
@@ -166,7 +166,7 @@ TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
       if (!free.is_held(k)) continue;
       const CubicPoint held = holding(c.knots, k, offsets(k - 1), offsets(k + 1));
       ASSERT_LT((offsets(k).position - held.position).norm(), 8.0 * kEps);
-      ASSERT_LT((offsets(k).image - held.image).norm(), 8.0 * kEps / kLever_m);
+      ASSERT_LT((offsets(k).image - held.image).norm(), 8.0 * kEps / kFormLever_m);
     }
   });
 }
@@ -174,25 +174,27 @@ TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
 /// Returns the path, extended straight beyond its ends.
 StackedPoint on(const CubicPath& path, double time_s) {
   const double inside_s = std::clamp(time_s, path.begin_s(), path.end_s());
-  const StackedPoint there = stacked(path.at(inside_s), kLever_m);
+  const StackedPoint there = stacked(path.at(inside_s), kFormLever_m);
   if (inside_s == time_s) return there;
   const bool is_before = time_s < inside_s;
   const motion::CubicPiece& piece = is_before ? path.pieces.front() : path.pieces.back();
   const std::size_t i = is_before ? 0 : 2;
   const CubicPoint slope{piece.position[i + 1] - piece.position[i],
                          piece.image[i + 1] - piece.image[i]};
-  return there + 3.0 / (piece.t1_s - piece.t0_s) * (time_s - inside_s) * stacked(slope, kLever_m);
+  return there +
+         3.0 / (piece.t1_s - piece.t0_s) * (time_s - inside_s) * stacked(slope, kFormLever_m);
 }
 
 /// Returns the objective from single control points; its weights are part of the computation.
-double value_of(const Case& c, Objective objective, const Offsets& offsets, int first, int last) {
+double value_of(const FormCase& c, Objective objective, const Offsets& offsets, int first,
+                int last) {
   const double distance = objective == Objective::kSafest ? 1.0 : 0.0;
   const double stretch = objective == Objective::kShortest ? 1.0 : 0.0;
   double bend = 1.0;
   if (objective == Objective::kShortest) bend = std::pow(0.1 * c.knots.count, 2.0);
   if (objective == Objective::kSafest) bend = std::pow(0.2 * c.knots.count, 4.0);
   const auto control_point = [&](int k) -> StackedPoint {
-    return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kLever_m);
+    return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kFormLever_m);
   };
   double sum = 0.0;
   for (int k = first - 2; k <= last + 2; ++k) {
@@ -208,16 +210,16 @@ double value_of(const Case& c, Objective objective, const Offsets& offsets, int 
   return sum;
 }
 
-constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
-                                    Objective::kSmoothest, Objective::kSafest};
+constexpr std::array kFormObjectives = {Objective::kClosest, Objective::kShortest,
+                                        Objective::kSmoothest, Objective::kSafest};
 
 template <class Check>
 void for_many_forms(Draw& draw, int count, const Check& check) {
-  for_many(draw, count, [&](const Case& c, Ends, const FreeCoefficients& free) {
+  for_many(draw, count, [&](const FormCase& c, Ends, const FreeCoefficients& free) {
     const StackedPoints about = draw.points(free.size(), 1.0);
-    for (const Objective objective : kObjectives) {
+    for (const Objective objective : kFormObjectives) {
       check(c, free, objective,
-            SmoothingForm(c.problem, free, objective, kLever_m, kCloseness, about));
+            SmoothingForm(c.problem, free, objective, kFormLever_m, kCloseness, about));
     }
   });
 }
@@ -225,28 +227,28 @@ void for_many_forms(Draw& draw, int count, const Check& check) {
 TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
   Draw draw(4106);
   for_many_forms(draw, 60,
-                 [&](const Case& c, const FreeCoefficients& free, Objective objective,
+                 [&](const FormCase& c, const FreeCoefficients& free, Objective objective,
                      const SmoothingForm& form) {
                    if (objective == Objective::kClosest) return;
                    const StackedPoints variables = draw.points(free.size(), 1.0);
                    const double expected =
-                       value_of(c, objective, free.offsets_of(variables, kLever_m), free.first(),
-                                free.last());
-                   ASSERT_NEAR(form.value(variables), expected, kRounding * expected);
+                       value_of(c, objective, free.offsets_of(variables, kFormLever_m),
+                                free.first(), free.last());
+                   ASSERT_NEAR(form.value(variables), expected, kFormRounding * expected);
                  });
 }
 
 /// Half of ∫ d² + 2·w·D·(d''/a)² dt over the row, by Simpson's rule on many steps between two
 /// knots.
-double integral_of_offset(const Case& c, const FreeCoefficients& free, const CubicPath& path) {
+double integral_of_offset(const FormCase& c, const FreeCoefficients& free, const CubicPath& path) {
   constexpr int kSteps = 64;
   const auto integrand = [&](double time_s) {
     const CubicPoint now = path.at(time_s);
     const CubicPoint was = c.problem.original.at(time_s);
     const CubicPoint bent = path.second_derivative(time_s);
     const CubicPoint was_bent = c.problem.original.second_derivative(time_s);
-    const StackedPoint d = stacked(now, kLever_m) - stacked(was, kLever_m);
-    const StackedPoint dd = stacked(bent, kLever_m) - stacked(was_bent, kLever_m);
+    const StackedPoint d = stacked(now, kFormLever_m) - stacked(was, kFormLever_m);
+    const StackedPoint dd = stacked(bent, kFormLever_m) - stacked(was_bent, kFormLever_m);
     const double a = kCloseness.acceleration_m_per_s2;
     const double bend = 2.0 * kAccelerationWeight_rad * kCloseness.viewing_distance_m / (a * a);
     return d.squaredNorm() + bend * dd.squaredNorm();
@@ -271,12 +273,12 @@ double integral_of_offset(const Case& c, const FreeCoefficients& free, const Cub
 // About no offset at all, all times have the same weight.
 TEST(SmoothingForm, OfTheClosestPathIsTheIntegralOfTheOffsetAndItsBending) {
   Draw draw(4109);
-  for_many(draw, 40, [&](Case c, Ends ends, const FreeCoefficients& free) {
+  for_many(draw, 40, [&](FormCase c, Ends ends, const FreeCoefficients& free) {
     c.problem.path = c.problem.original;
-    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kCloseness,
+    const SmoothingForm form(c.problem, free, Objective::kClosest, kFormLever_m, kCloseness,
                              StackedPoints::Zero(free.size(), 7));
     const StackedPoints variables = draw.points(free.size(), 1.0);
-    const BumpRow row = bumps_for(free.offsets_of(variables, kLever_m), ends);
+    const BumpRow row = bumps_for(free.offsets_of(variables, kFormLever_m), ends);
     const double expected =
         integral_of_offset(c, free, motion::with_bumps(c.problem.path, std::vector{row}));
     // Simpson's rule is of fourth order: 1/64^4 is 6e-8; the insets weigh 1e-9.
@@ -289,7 +291,7 @@ TEST(SmoothingForm, OfTheClosestPathFallsOnlyWhereTheCostFalls) {
   constexpr double kRoundedShare = 0.05;
   Draw draw(4111);
   int falling = 0;
-  for_many(draw, 60, [&](Case c, Ends ends, const FreeCoefficients& free) {
+  for_many(draw, 60, [&](FormCase c, Ends ends, const FreeCoefficients& free) {
     if (free.size() == 0) return;
     c.problem.path = c.problem.original;
     const auto moves = [&](double size_m) {
@@ -298,11 +300,11 @@ TEST(SmoothingForm, OfTheClosestPathFallsOnlyWhereTheCostFalls) {
       return points;
     };
     const auto path_of = [&](const StackedPoints& variables) {
-      const BumpRow row = bumps_for(free.offsets_of(variables, kLever_m), ends);
+      const BumpRow row = bumps_for(free.offsets_of(variables, kFormLever_m), ends);
       return motion::with_bumps(c.problem.path, std::vector{row});
     };
     const StackedPoints about = moves(0.5);
-    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kCloseness, about);
+    const SmoothingForm form(c.problem, free, Objective::kClosest, kFormLever_m, kCloseness, about);
     const CubicPath path = path_of(about);
     const double cost = closeness_cost(path, c.problem.original, kCloseness);
     double largest_m = 0.0;
@@ -339,7 +341,7 @@ TEST(FreeCoefficients, KeepAKeyframeWithinARowWithFixedEnds) {
     ASSERT_TRUE(free.is_held(2));
     const StackedPoints variables = draw.points(1, 1.0);
     const StackedPoint moved = combined(free.at(keyframe_s), variables);
-    ASSERT_LT(moved.norm(), kRounding);
+    ASSERT_LT(moved.norm(), kFormRounding);
     ASSERT_GT(combined(free.at(keyframe_s + after_s), variables).norm(), 0.01 * variables.norm());
     const CubicPath after = motion::with_bumps(
         problem.path, std::vector{bumps_for(free.offsets_of(variables, 1.0), Ends::kFixed)});
@@ -347,7 +349,7 @@ TEST(FreeCoefficients, KeepAKeyframeWithinARowWithFixedEnds) {
     const StackedPoint added = combined(free.at(middle_s), variables);
     const StackedPoint is =
         stacked(after.at(middle_s), 1.0) - stacked(problem.path.at(middle_s), 1.0);
-    ASSERT_LT((added - is).norm(), kRounding);
+    ASSERT_LT((added - is).norm(), kFormRounding);
   }
 }
 
@@ -357,7 +359,7 @@ TEST(SmoothingForm, IsLeastWhereItSays) {
   Draw draw(4107);
   for_many_forms(
       draw, 30,
-      [&](const Case&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
+      [&](const FormCase&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
         const StackedPoints& minimum = form.minimum();
         const double least = form.value(minimum);
         const double size = form.value(StackedPoints::Zero(free.size(), 7));
@@ -375,7 +377,7 @@ TEST(SmoothingForm, HasAPositiveHessianOfWhichItKnowsTheInverse) {
   Draw draw(4108);
   for_many_forms(
       draw, 20,
-      [&](const Case&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
+      [&](const FormCase&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
         const Eigen::MatrixXd& inverse = form.inverse();
         ASSERT_EQ(inverse.rows(), free.size());
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse, Eigen::EigenvaluesOnly);

@@ -15,7 +15,7 @@ using test::Vec3;
 using test::Vec4;
 using testing::Random;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kOneDegree_rad = std::numbers::pi / 180.0;
 
 /// Returns random orientations within about `spread` of one, or all over S³ for a large spread.
 std::vector<Vec4> random_orientations(Random& random, int count, double spread) {
@@ -29,7 +29,7 @@ std::vector<Vec4> random_orientations(Random& random, int count, double spread) 
 std::vector<Vec4> turns_about(const Vec3& axis, double turns, double step_deg) {
   std::vector<Vec4> orientations;
   for (double angle_deg = 0.0; angle_deg <= 360.0 * turns; angle_deg += step_deg)
-    orientations.push_back(geometry::wxyz(test::turned(axis, angle_deg * kDegree_rad)));
+    orientations.push_back(geometry::wxyz(test::turned(axis, angle_deg * kOneDegree_rad)));
   return aligned_orientations(orientations);
 }
 
@@ -124,7 +124,7 @@ TEST(ReferenceFrame, IsNearTheBestOfARandomSearch) {
         best = std::max(best, least_dot_with_polygon(geometry::wxyz(random.rotation()), q));
       const double clearance_rad = std::acos(-least_dot_with_polygon(reference_frame(q), q));
       const double best_rad = std::acos(-best);
-      EXPECT_GE(clearance_rad, best_rad - 1.5 * kDegree_rad) << count << " orientations";
+      EXPECT_GE(clearance_rad, best_rad - 1.5 * kOneDegree_rad) << count << " orientations";
       better += clearance_rad >= best_rad ? 1 : 0;
       ++sets;
     }

@@ -13,7 +13,7 @@ using testing::Random;
 
 double square(double value) { return value * value; }
 
-Path random_path(Random& random, int count) {
+Path random_segments(Random& random, int count) {
   return interpolate(test::with_times(test::random_poses(random, count)));
 }
 
@@ -58,7 +58,7 @@ Ends ends_of(const TimeLaw& law, std::size_t piece) {
 TEST(TimeLaw, LeavesAPathThatMeetsItsLimitsAsItIs) {
   Random random(3201);
   for (int round = 0; round < 20; ++round) {
-    const Path path = random_path(random, 6);
+    const Path path = random_segments(random, 6);
     const double factor = largest_stretch(path, {1.0, 1.0, 1.0});
     const TimeLaw law = TimeLaw::within(path, stretched({1.0, 1.0, 1.0}, 1.05 * factor), 0.05);
     EXPECT_EQ(law.stretch(), 1.0);
@@ -135,7 +135,7 @@ TEST(TimeLaw, MeetsAllLimitsAtItsKnots) {
   Random random(3202);
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(::testing::Message() << "round " << round);
-    const Path path = random_path(random, random.integer(2, 8));
+    const Path path = random_segments(random, random.integer(2, 8));
     const RateLimits limits = biting_limits(random, path);
     const TimeLaw law = TimeLaw::within(path, limits, random.log_uniform(0.02, 1.0));
     for (std::size_t i = 0; i + 1 < law.knots_s().size(); ++i) {
@@ -163,7 +163,7 @@ TEST(TimeLaw, IsSmoothNeverFasterAndNoLongerThanStretchingAllTimesAlike) {
   Random random(3203);
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(::testing::Message() << "round " << round);
-    const Path path = random_path(random, random.integer(2, 8));
+    const Path path = random_segments(random, random.integer(2, 8));
     const RateLimits limits = biting_limits(random, path);
     const TimeLaw law = TimeLaw::within(path, limits, random.log_uniform(0.02, 1.0));
     EXPECT_GE(law.stretch(), 1.0);
@@ -196,7 +196,7 @@ TEST(TimeLaw, IsSmoothNeverFasterAndNoLongerThanStretchingAllTimesAlike) {
 TEST(TimeLaw, NewTimesBelongToTheRate) {
   Random random(3204);
   for (int round = 0; round < 20; ++round) {
-    const Path path = random_path(random, 5);
+    const Path path = random_segments(random, 5);
     const TimeLaw law = TimeLaw::within(path, biting_limits(random, path), 0.05);
     constexpr int kSteps = 20000;
     double sum_s = 0.0;
@@ -212,7 +212,7 @@ TEST(TimeLaw, NewTimesBelongToTheRate) {
 TEST(TimeLaw, ConvergesToTheFastest) {
   Random random(3205);
   for (int round = 0; round < 10; ++round) {
-    const Path path = random_path(random, 5);
+    const Path path = random_segments(random, 5);
     const RateLimits limits = biting_limits(random, path);
     const double coarse = TimeLaw::within(path, limits, 0.08).stretch();
     const double middle = TimeLaw::within(path, limits, 0.02).stretch();

@@ -17,7 +17,7 @@ namespace {
 using geometry::Quat;
 using geometry::Vec3;
 
-constexpr unsigned kSeed = 1843;
+constexpr unsigned kOrderSeed = 1843;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -42,7 +42,7 @@ std::vector<motion::Keyframe> keyframes(const std::vector<Quat>& orientations) {
 
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
   EXPECT_TRUE(looks_like_xyzw(keyframes({misread(Quat::Identity()), misread(Quat::Identity())})));
-  testing::Random random(kSeed);
+  testing::Random random(kOrderSeed);
   std::uniform_real_distribution<double> heading_deg(-80, 80);
   std::uniform_real_distribution<double> small_deg(-10, 10);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -61,7 +61,7 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
 // Only half of the headings can be recognised: for the others the cameras look upright as read,
 // too.
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
-  testing::Random random(kSeed);
+  testing::Random random(kOrderSeed);
   std::uniform_real_distribution<double> heading_deg(-150, -30);
   std::uniform_real_distribution<double> small_deg(-5, 5);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -79,7 +79,7 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
 
 // Upright cameras in any direction, and cameras that are rolled on purpose.
 TEST(QuaternionOrder, IsNotDoubtedWhereOneCameraIsUprightOrNoneIsInTheOtherOrder) {
-  testing::Random random(kSeed);
+  testing::Random random(kOrderSeed);
   std::uniform_real_distribution<double> heading(-std::numbers::pi, std::numbers::pi);
   std::uniform_real_distribution<double> pitch(-1.3, 1.3);
   for (const Vec3& up_W : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {

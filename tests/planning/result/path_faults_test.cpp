@@ -25,7 +25,7 @@ using motion::Path;
 using motion::Segment;
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<Keyframe>& keyframes() {
@@ -36,7 +36,7 @@ const std::vector<Keyframe>& keyframes() {
   return kKeyframes;
 }
 
-std::vector<Segment> tour() {
+std::vector<Segment> tour_segments() {
   const Path path = motion::interpolate(keyframes());
   return {path.segments().begin(), path.segments().end()};
 }
@@ -56,7 +56,7 @@ Segment straight(double t0_s, double t1_s, double z0_m, double z1_m) {
   return segment;
 }
 
-TEST(FindFault, AcceptsOurPaths) { EXPECT_EQ(find_fault(tour()), std::nullopt); }
+TEST(FindFault, AcceptsOurPaths) { EXPECT_EQ(find_fault(tour_segments()), std::nullopt); }
 
 TEST(FindFault, NamesSegmentAndField) {
   const std::vector<std::pair<std::string, std::function<void(Segment&)>>> faults{
@@ -65,14 +65,14 @@ TEST(FindFault, NamesSegmentAndField) {
       {"segments[1].t0: ", [](Segment& s) { s.t0_s -= 0.5; }},
       {"segments[1].t0: ", [](Segment& s) { s.t0_s += 0.5; }},
       {"segments[1].t0: ", [](Segment& s) { s.t0_s = kNan; }},
-      {"segments[1].t1: ", [](Segment& s) { s.t1_s = kInfinity; }},
+      {"segments[1].t1: ", [](Segment& s) { s.t1_s = kEndless; }},
       {"segments[1].t1: ", [](Segment& s) { s.t1_s = 1e11; }},
       {"segments[1].position[2]: ", [](Segment& s) { s.position[2].y() = kNan; }},
-      {"segments[1].position[0]: ", [](Segment& s) { s.position[0].x() = -kInfinity; }},
+      {"segments[1].position[0]: ", [](Segment& s) { s.position[0].x() = -kEndless; }},
       {"segments[1].position[3]: ", [](Segment& s) { s.position[3].z() = -1e200; }},
       {"segments[1].position[1]: ", [](Segment& s) { s.position[1].z() = 1.001e9; }},
       {"segments[1].orientation[3]: ", [](Segment& s) { s.orientation[3][1] = kNan; }},
-      {"segments[1].orientation[5]: ", [](Segment& s) { s.orientation[5][2] = kInfinity; }},
+      {"segments[1].orientation[5]: ", [](Segment& s) { s.orientation[5][2] = kEndless; }},
       {"segments[1].orientation[0]: ", [](Segment& s) { s.orientation.fill(Vec4::Zero()); }},
       {"segments[1].orientation[0]: ",
        [](Segment& s) { s.orientation.fill(Vec4(1e-200, 0, 0, 0)); }},
@@ -147,7 +147,7 @@ TEST(PoseDistance, BoundsTheWayOfEveryCornerAndIsTightForATurn) {
 }
 
 TEST(FindJump, AcceptsOurPathsAndNamesTheSegmentOfALeap) {
-  std::vector<Segment> segments = tour();
+  std::vector<Segment> segments = tour_segments();
   ASSERT_GE(segments.size(), 2u);
   EXPECT_FALSE(find_jump(Path(segments), radius_m()));
   segments[1].position[0].x() += 1e-6;
@@ -157,11 +157,11 @@ TEST(FindJump, AcceptsOurPathsAndNamesTheSegmentOfALeap) {
 }
 
 TEST(FindJump, SeesALeapOfTheOrientationToo) {
-  std::vector<Segment> segments = tour();
+  std::vector<Segment> segments = tour_segments();
   segments[1].orientation[0] += Vec4(0, 1e-6, 0, 0);
   EXPECT_TRUE(find_jump(Path(segments), radius_m()));
   // Sign and length of a four-vector have no meaning.
-  segments = tour();
+  segments = tour_segments();
   for (Vec4& q : segments[1].orientation) q *= -3.0;
   EXPECT_FALSE(find_jump(Path(segments), radius_m()));
 }
@@ -219,7 +219,7 @@ TEST(Bridges, ShowAWallOfNoThicknessInTheGap) {
 }
 
 TEST(KeyframeMisses, AreRoundingOnOurPathsAndTheMissOnOthers) {
-  const Path path(tour());
+  const Path path(tour_segments());
   std::vector<Keyframe> wanted = keyframes();
   for (const double miss_m : keyframe_misses_m(path, wanted, radius_m())) {
     EXPECT_LE(miss_m, 1e-14);  // a spline's solution and an evaluation, of numbers up to 2

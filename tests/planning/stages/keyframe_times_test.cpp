@@ -10,6 +10,7 @@
 
 #include "daemon/motion/spline/knot_row.h"
 #include "daemon/planning/plan.h"
+#include "tests/planning/plan_fixture.h"
 #include "tests/support/path_continuity.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -21,10 +22,7 @@ using geometry::Quat;
 using geometry::Vec3;
 using motion::Keyframe;
 using motion::KeyframeOrigin;
-
-PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, base::Deadline::never());
-}
+using testing_plan::planned;
 
 constexpr int kCells = 5;  // in a row of columns, 2 m apart
 

@@ -13,6 +13,7 @@
 #include "daemon/planning/plan.h"
 #include "daemon/planning/stages/check.h"
 #include "tests/motion/smooth_joins.h"
+#include "tests/planning/plan_fixture.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -22,13 +23,10 @@ using geometry::Quat;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, base::Deadline::never());
-}
+using testing_plan::planned;
 
 // Returns a column that the tour below grazes.
-std::shared_ptr<const scene::Snapshot> column_scene() {
+std::shared_ptr<const scene::Snapshot> grazed_column() {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
@@ -47,7 +45,7 @@ PlanRequest bulging_tour() {
 
 /// Adds limits that the answer without limits breaks at some places.
 PlanRequest limited(PlanRequest request, double share) {
-  const PlanResult free = planned(*column_scene(), request);
+  const PlanResult free = planned(*grazed_column(), request);
   EXPECT_EQ(free.status, Status::kOk) << free.message;
   request.options.limits.speed_m_per_s = share * free.measures->largest_speed_m_per_s;
   request.options.limits.acceleration_m_per_s2 =
@@ -64,7 +62,7 @@ PlanRequest retimed(PlanRequest request) {
 TEST(Limits, AreNamedWithTheTimeWhereTheyAreBroken) {
   PlanRequest request = bulging_tour();
   request.options.limits.turn_rate_rad_per_s = 0.5;
-  const PlanResult refused = planned(*column_scene(), request);
+  const PlanResult refused = planned(*grazed_column(), request);
   EXPECT_EQ(refused.status, Status::kPartial);
   EXPECT_THAT(refused.message, HasSubstr("options.limits: the path is free, but too fast from"));
   EXPECT_THAT(refused.message, HasSubstr("turn rate"));
@@ -76,8 +74,8 @@ TEST(Limits, AreNamedWithTheTimeWhereTheyAreBroken) {
 }
 
 TEST(Limits, OfAPathThatMeetsThemChangeNothing) {
-  const PlanResult free = planned(*column_scene(), bulging_tour());
-  const PlanResult same = planned(*column_scene(), retimed(limited(bulging_tour(), 1.01)));
+  const PlanResult free = planned(*grazed_column(), bulging_tour());
+  const PlanResult same = planned(*grazed_column(), retimed(limited(bulging_tour(), 1.01)));
   EXPECT_EQ(same.message, free.message);
   EXPECT_EQ(same.time_scale, 1.0);
   EXPECT_EQ(same.path.end_s(), free.path.end_s());
@@ -87,7 +85,7 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
   for (const double share : {0.9, 0.7, 0.3}) {
     SCOPED_TRACE(::testing::Message() << "share " << share);
     const PlanRequest request = retimed(limited(bulging_tour(), share));
-    const auto snapshot = column_scene();
+    const auto snapshot = grazed_column();
     const PlanResult slower = planned(*snapshot, request);
     ASSERT_EQ(slower.status, Status::kOk) << slower.message;
     EXPECT_THAT(slower.message, HasSubstr("slowed in part"));
@@ -116,8 +114,8 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
 
 TEST(Limits, KeyframesAndIntervalsMoveToTheNewTimes) {
   const PlanRequest request = limited(bulging_tour(), 0.7);
-  const PlanResult before = planned(*column_scene(), request);
-  const PlanResult after = planned(*column_scene(), retimed(request));
+  const PlanResult before = planned(*grazed_column(), request);
+  const PlanResult after = planned(*grazed_column(), retimed(request));
   ASSERT_EQ(after.keyframes.size(), before.keyframes.size());
   for (std::size_t i = 0; i < after.keyframes.size(); ++i) {
     const motion::Keyframe& is = after.keyframes[i];
@@ -154,7 +152,7 @@ TEST(Limits, AreMetWhereTimesAreDerived) {
   PlanRequest request = bulging_tour();
   request.has_times = false;
   request = retimed(limited(request, 0.6));
-  const PlanResult slower = planned(*column_scene(), request);
+  const PlanResult slower = planned(*grazed_column(), request);
   EXPECT_EQ(slower.status, Status::kOk) << slower.message;
   EXPECT_TRUE(motion::meets(slower.path, request.options.limits));
 }
@@ -164,7 +162,7 @@ TEST(Limits, OrientationPoliciesAreKept) {
   request.options.orientation.rule = correction::OrientationRule::kLevel;
   request.options.orientation.max_turn_rad = 0.3;
   request = retimed(limited(request, 0.6));
-  const PlanResult slower = planned(*column_scene(), request);
+  const PlanResult slower = planned(*grazed_column(), request);
   ASSERT_EQ(slower.status, Status::kOk) << slower.message;
   EXPECT_THAT(slower.message, HasSubstr("slowed in part"));
   EXPECT_TRUE(motion::meets(slower.path, request.options.limits));
@@ -173,10 +171,10 @@ TEST(Limits, OrientationPoliciesAreKept) {
 TEST(Limits, StretchAllTimesOfAPathThatCollides) {
   PlanRequest request = bulging_tour();
   request.options.max_inserted_keyframes = 0;
-  const PlanResult before = planned(*column_scene(), request);
+  const PlanResult before = planned(*grazed_column(), request);
   ASSERT_EQ(before.status, Status::kPartial);
   request.options.limits.speed_m_per_s = 0.5 * before.measures->largest_speed_m_per_s;
-  const PlanResult after = planned(*column_scene(), retimed(request));
+  const PlanResult after = planned(*grazed_column(), retimed(request));
   EXPECT_EQ(after.status, Status::kPartial);
   EXPECT_THAT(after.message, HasSubstr("slowed all the way"));
   EXPECT_NEAR(after.time_scale, 2.0, 0.01);
@@ -191,7 +189,7 @@ TEST(Limits, StretchAllTimesOfAPathThatCollides) {
 
 TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
   const PlanRequest request = limited(bulging_tour(), 0.7);
-  const auto snapshot = column_scene();
+  const auto snapshot = grazed_column();
   const auto body = motion::Body::make(request.camera);
   const motion::CubicPath path = motion::interpolate_cubic(request.keyframes);
   const collision::Query query{collision::Obstacles(*snapshot), *body};
@@ -217,8 +215,8 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
 
 TEST(Limits, TheSameRequestGivesTheSameBits) {
   const PlanRequest request = retimed(limited(bulging_tour(), 0.7));
-  const PlanResult a = planned(*column_scene(), request);
-  const PlanResult b = planned(*column_scene(), request);
+  const PlanResult a = planned(*grazed_column(), request);
+  const PlanResult b = planned(*grazed_column(), request);
   EXPECT_EQ(a.time_scale, b.time_scale);
   ASSERT_EQ(a.path.segments().size(), b.path.segments().size());
   for (std::size_t i = 0; i < a.path.segments().size(); ++i) {

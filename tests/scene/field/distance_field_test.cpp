@@ -22,7 +22,7 @@ using geometry::Triangle;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyond_m = std::numeric_limits<double>::infinity();
 
 oracle::Real true_distance_m(const Mesh& mesh, const Vec3& point) {
   oracle::Real least = HUGE_VALL;
@@ -51,8 +51,8 @@ Vec3 snapped_to_faces(testing::Random& random, const CellGrid& grid, Vec3 point)
     if (random() % 2 == 0) continue;
     const double face = std::round(grid.in_cells(point)[axis]);
     point[axis] = grid.low_W[axis] + face * grid.resolution_m;
-    if (random() % 3 == 0) point[axis] = std::nextafter(point[axis], kInfinity);
-    if (random() % 3 == 0) point[axis] = std::nextafter(point[axis], -kInfinity);
+    if (random() % 3 == 0) point[axis] = std::nextafter(point[axis], kBeyond_m);
+    if (random() % 3 == 0) point[axis] = std::nextafter(point[axis], -kBeyond_m);
   }
   return point;
 }
@@ -215,7 +215,7 @@ TEST(DistanceField, KnowsHowFarAPointOutsideIs) {
 TEST(DistanceField, KnowsNothingOfPointsThatAreNotFinite) {
   const auto result = DistanceField::build(room(1.0, 0.1, Vec3::Zero()));
   ASSERT_TRUE(result);
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kBeyond_m, -kBeyond_m}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (const double other_m : {1.0, -100.0}) {
         Vec3 point = Vec3::Constant(other_m);
@@ -229,7 +229,7 @@ TEST(DistanceField, KnowsNothingOfPointsThatAreNotFinite) {
 TEST(DistanceField, StaysWithinTheMemoryAllowed) {
   testing::Random random(7);
   const Mesh mesh = soup(random, 200, 10.0, Vec3::Zero());
-  double coarser_m = kInfinity;
+  double coarser_m = kBeyond_m;
   for (const std::size_t limit : {3000U, 10'000U, 50'000U}) {
     DistanceFieldOptions options;
     options.memory_limit_bytes = limit;
@@ -241,7 +241,7 @@ TEST(DistanceField, StaysWithinTheMemoryAllowed) {
     EXPECT_LT(statistics.resolution_m, coarser_m);
     coarser_m = statistics.resolution_m;
   }
-  EXPECT_LT(coarser_m, kInfinity) << "none was built";
+  EXPECT_LT(coarser_m, kBeyond_m) << "none was built";
 }
 
 TEST(DistanceField, IsTheSameForAnyNumberOfThreads) {

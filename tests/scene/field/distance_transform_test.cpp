@@ -12,7 +12,7 @@
 namespace camway::scene {
 namespace {
 
-constexpr std::uint64_t kSeed = 2012;
+constexpr std::uint64_t kTransformSeed = 2012;
 
 using Size = std::array<std::int32_t, 3>;
 
@@ -37,11 +37,11 @@ std::vector<int> transformed(const Size& size, const std::vector<std::uint8_t>& 
   return squared;
 }
 
-struct Cell {
+struct TransformCell {
   int x, y, z;
 };
 
-Cell cell_of(const Size& size, std::size_t index) {
+TransformCell cell_of(const Size& size, std::size_t index) {
   const int i = static_cast<int>(index);
   return {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])};
 }
@@ -52,14 +52,14 @@ int squared_gap(int difference) {
 }
 
 std::vector<int> brute_force(const Size& size, const std::vector<std::uint8_t>& marks) {
-  std::vector<Cell> marked;
+  std::vector<TransformCell> marked;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (marks[i] != 0) marked.push_back(cell_of(size, i));
   }
   std::vector<int> squared(marks.size(), kMaxSquaredCellDistance);
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    const Cell c = cell_of(size, i);
-    for (const Cell& m : marked) {
+    const TransformCell c = cell_of(size, i);
+    for (const TransformCell& m : marked) {
       const int distance = squared_gap(c.x - m.x) + squared_gap(c.y - m.y) + squared_gap(c.z - m.z);
       squared[i] = std::min(squared[i], distance);
     }
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> random_marks(testing::Random& random, std::size_t cell
 }
 
 TEST(DistanceTransform, IsExact) {
-  testing::Random random(kSeed);
+  testing::Random random(kTransformSeed);
   for (const Size& size : {Size{1, 1, 1}, Size{7, 1, 1}, Size{1, 9, 1}, Size{1, 1, 8},
                            Size{31, 9, 6}, Size{32, 8, 7}, Size{33, 21, 5}, Size{65, 6, 30}}) {
     for (const std::uint64_t one_in : {2U, 20U, 300U, 3000U}) {
@@ -100,7 +100,7 @@ TEST(DistanceTransform, StopsAtItsReach) {
 }
 
 TEST(DistanceTransform, IsTheSameForAnyNumberOfThreads) {
-  testing::Random random(kSeed);
+  testing::Random random(kTransformSeed);
   const Size size{70, 41, 33};
   const std::vector<std::uint8_t> marks = random_marks(random, count(size), 2000);
   const std::vector<int> expected = transformed(size, marks, 1);

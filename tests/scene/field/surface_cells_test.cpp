@@ -18,9 +18,9 @@ namespace {
 using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
-using Cell = std::array<std::int32_t, 3>;
+using SurfaceCell = std::array<std::int32_t, 3>;
 
-constexpr std::uint64_t kSeed = 20120;
+constexpr std::uint64_t kCellsSeed = 20120;
 
 /// Returns a grid of 32 cells per axis whose face number 16 is at `middle_m` on each axis.
 CellGrid grid_about(double middle_m, double resolution_m) {
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> marks_of(const Mesh& mesh, const CellGrid& grid, unsig
 }
 
 /// Returns the exact cube of a cell, with all sides moved outwards by `margin_cells`.
-oracle::RealBox cube_of(const CellGrid& grid, const Cell& cell, oracle::Real margin_cells) {
+oracle::RealBox cube_of(const CellGrid& grid, const SurfaceCell& cell, oracle::Real margin_cells) {
   oracle::RealBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const oracle::Real low = grid.low_W[static_cast<Eigen::Index>(axis)];
@@ -67,7 +67,7 @@ void expect_marks_as_clipping_says(const Mesh& mesh, const CellGrid& grid) {
   for (std::int32_t z = 0; z < grid.size[2]; ++z) {
     for (std::int32_t y = 0; y < grid.size[1]; ++y) {
       for (std::int32_t x = 0; x < grid.size[0]; ++x, ++at) {
-        const Cell cell{x, y, z};
+        const SurfaceCell cell{x, y, z};
         if (marks[at] == 0) {
           ASSERT_FALSE(touched(mesh, cube_of(grid, cell, promised))) << "a cell is missing";
         } else {
@@ -79,7 +79,7 @@ void expect_marks_as_clipping_says(const Mesh& mesh, const CellGrid& grid) {
 }
 
 TEST(MarkTouchedCells, AgreesWithClippingEveryCell) {
-  testing::Random random(kSeed);
+  testing::Random random(kCellsSeed);
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
     const double resolution_m = random.log_uniform(1e-5, 10.0);
@@ -89,7 +89,7 @@ TEST(MarkTouchedCells, AgreesWithClippingEveryCell) {
 }
 
 TEST(MarkTouchedCells, AgreesWithClippingFarFromTheOrigin) {
-  testing::Random random(kSeed);
+  testing::Random random(kCellsSeed);
   for (int trial = 0; trial < 20; ++trial) {
     SCOPED_TRACE(trial);
     const double resolution_m = random.log_uniform(1e-5, 10.0);
@@ -131,7 +131,7 @@ TEST(MarkTouchedCells, MarksTheCellBeyondAFaceWithinTheMargin) {
 }
 
 TEST(MarkTouchedCells, LooksAtNoMoreCellsThanTheEffortForetells) {
-  testing::Random random(kSeed);
+  testing::Random random(kCellsSeed);
   double fullest = 0.0;
   for (int trial = 0; trial < 500; ++trial) {
     const double resolution_m = random.log_uniform(1e-3, 10.0);
@@ -155,7 +155,7 @@ TEST(SurfaceExtent, OfATriangleWithSides3And4And5) {
 }
 
 TEST(SurfaceCells, AreTheSameForAnyNumberOfThreads) {
-  testing::Random random(kSeed);
+  testing::Random random(kCellsSeed);
   const Mesh mesh = oracle::random_mesh(random, 1.0, 5000);
   const CellGrid grid = grid_about(0.0, 1.0);
   for (const unsigned threads : {2U, 7U}) {
@@ -169,7 +169,7 @@ TEST(CellGrid, KeepsHalfACellAroundTheSceneOnAllSides) {
   const Box bounds(Vec3(-1.0, 2.0, 1e6), Vec3(9.0, 2.0, 1e6 + 3.3));
   const auto grid = CellGrid::around(bounds, 0.5);
   ASSERT_TRUE(grid);
-  EXPECT_EQ(grid->size, (Cell{21, 1, 8}));
+  EXPECT_EQ(grid->size, (SurfaceCell{21, 1, 8}));
   EXPECT_EQ(grid->cells(), 21U * 8U);
   const Vec3 low = grid->in_cells(bounds.min());
   const Vec3 high = grid->in_cells(bounds.max());

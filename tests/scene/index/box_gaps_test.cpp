@@ -19,8 +19,8 @@ using geometry::Triangle;
 using geometry::Vec3;
 
 /// A frame with eight boxes in it, and these boxes before they were quantised to bytes.
-struct Sample {
-  Sample(RandomTriangles& random, const Vec3& at, double size_m) {
+struct BoxSample {
+  BoxSample(RandomTriangles& random, const Vec3& at, double size_m) {
     // Some boxes are flat in one or two directions.
     const Vec3 extent(size_m * (random.integer(0, 3) == 0 ? 0.0 : random.log_uniform(1e-4, 1.0)),
                       size_m * (random.integer(0, 3) == 0 ? 0.0 : random.log_uniform(1e-4, 1.0)),
@@ -54,7 +54,7 @@ TEST(ByteFrame, BoxesOfBytesHoldTheBoxesAndLittleMore) {
   RandomTriangles random(531);
   for (const Place& place : kPlaces) {
     for (int i = 0; i < 300; ++i) {
-      const Sample s(random, place.from_origin_m * random.in_cube(1.0), place.size_m);
+      const BoxSample s(random, place.from_origin_m * random.in_cube(1.0), place.size_m);
       for (std::size_t k = 0; k < s.boxes.size(); ++k) {
         const Box held = s.frame.box_of(get_box(s.bytes, k));
         ASSERT_TRUE(held.contains(s.boxes[k])) << place.from_origin_m << " " << place.size_m;
@@ -78,7 +78,7 @@ TEST(BoxGaps, NeverExceedTheDistanceAndComeCloseToIt) {
   for (const Place& place : kPlaces) {
     for (int i = 0; i < 500; ++i) {
       const Vec3 at = place.from_origin_m * random.in_cube(1.0);
-      const Sample s(random, at, place.size_m);
+      const BoxSample s(random, at, place.size_m);
       const double reach_m = (place.size_m + 1e-3) * random.log_uniform(1e-3, 1e6);
       Box box(Vec3(at + reach_m * random.in_cube(1.0)));
       box.extend(Vec3(box.min() + (place.size_m + 1e-3) * random.in_cube(0.3)));
@@ -113,7 +113,7 @@ TEST(BoxGaps, NeverExceedTheDistanceAndComeCloseToIt) {
 TEST(BoxGaps, CountTouchingAsNoGap) {
   RandomTriangles random(533);
   for (int i = 0; i < 2000; ++i) {
-    const Sample s(random, random.in_cube(1e3), 1.0);
+    const BoxSample s(random, random.in_cube(1e3), 1.0);
     for (std::size_t k = 0; k < s.boxes.size(); ++k) {
       // Shares exactly one corner with the box.
       Box corner(s.boxes[k].max());
@@ -128,7 +128,7 @@ TEST(BoxGaps, CountTouchingAsNoGap) {
 
 TEST(BoxGaps, ProveNothingOfWhatIsNotANumber) {
   RandomTriangles random(534);
-  const Sample s(random, Vec3(1, 2, 3), 1.0);
+  const BoxSample s(random, Vec3(1, 2, 3), 1.0);
   const double nan = std::nan("");
   BoxGaps gaps;
   box_gaps(s.frame, s.bytes, BoxSides(Box(Vec3(nan, nan, nan), Vec3(nan, nan, nan))), 0.0, gaps);
@@ -141,7 +141,7 @@ TEST(ObliqueGaps, NeverExceedTheDistanceToTheBody) {
   for (const Place& place : kPlaces) {
     for (int i = 0; i < 500; ++i) {
       const Vec3 at = place.from_origin_m * random.in_cube(1.0);
-      const Sample s(random, at, place.size_m);
+      const BoxSample s(random, at, place.size_m);
       const double size_m = (place.size_m + 1e-3) * random.log_uniform(1e-3, 1e2);
       const Vec3 p = at + size_m * random.in_cube(3.0);
       const std::array<Triangle, 1> body = {

@@ -15,7 +15,7 @@ namespace {
 using geometry::Box;
 using geometry::Vec3;
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kCostsSeed = 20261122;
 
 struct Costs {
   double total;
@@ -33,7 +33,7 @@ bool is_passed_by(double cost, const BallWay& way) { return cost > way.length_m(
 
 /// Otherwise a search along a long way would test everything beside it.
 TEST(BallWay, ItsBoundKnowsOfMostBoxesThatTheyArePassedByHoweverLongTheWay) {
-  testing::Random random(kSeed);
+  testing::Random random(kCostsSeed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (const double length_m : {10.0, 1e2, 1e4, 1e7}) {

@@ -19,7 +19,7 @@ namespace {
 using geometry::Quat;
 using geometry::Vec3;
 
-constexpr std::uint64_t kSeed = 77411;
+constexpr std::uint64_t kVoxelsSeed = 77411;
 constexpr double kCellM = 0.25;
 
 /// A placed map with its faces.
@@ -56,7 +56,7 @@ Placement random_placement(testing::Random& random) {
 }
 
 /// Returns single voxels, and cubes of which some fill blocks and some cross them.
-VoxelSet random_voxels(testing::Random& random) {
+VoxelSet scattered_voxels(testing::Random& random) {
   std::uniform_int_distribution<std::int32_t> anywhere(-14, 14);
   VoxelSet voxels;
   for (int i = 0; i < 12; ++i) {
@@ -98,10 +98,10 @@ VoxelSet by_asking_all(const PlacedMap& map, double resolution_m) {
 }
 
 TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
-  testing::Random random(kSeed);
+  testing::Random random(kVoxelsSeed);
   for (int run = 0; run < 6; ++run) {
     const Placement placement = run % 3 == 0 ? Placement() : random_placement(random);
-    const PlacedMap map(kCellM, random_voxels(random), placement);
+    const PlacedMap map(kCellM, scattered_voxels(random), placement);
     for (const double resolution_m : {0.4 * kCellM, 0.5 * kCellM, kCellM, 2.7 * kCellM, 5.0}) {
       const MirrorVoxels made = mirror_voxels(map.task(resolution_m, kMany));
       ASSERT_TRUE(made.voxels);
@@ -112,9 +112,9 @@ TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
 }
 
 TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
-  testing::Random random(kSeed);
+  testing::Random random(kVoxelsSeed);
   for (int run = 0; run < testing::runs(12); ++run) {
-    const PlacedMap map(kCellM, random_voxels(random), random_placement(random));
+    const PlacedMap map(kCellM, scattered_voxels(random), random_placement(random));
     for (const double resolution_m : {0.1 * kCellM, 0.5 * kCellM, kCellM}) {
       const std::uint64_t voxels = mirror_voxels(map.task(resolution_m, kMany)).voxels->size();
       EXPECT_LE(least_voxels(map.task(resolution_m, kMany)), static_cast<double>(voxels));

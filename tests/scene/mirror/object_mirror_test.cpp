@@ -26,7 +26,7 @@ using geometry::Vec3;
 using oracle::Real;
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kSeed = 77003;
+constexpr std::uint64_t kMirrorSeed = 77003;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,14 +53,14 @@ Vec3 voxel_center(const Voxel& voxel, double resolution_m) {
 }
 
 /// A random small scene with the list of its occupied voxels, found by testing every voxel.
-struct Sample {
+struct MirroredObject {
   double resolution_m = 0.0;
   Mesh mesh;
   std::shared_ptr<const ObjectMirror> map;
   std::vector<Voxel> occupied;
   double face_error_m = 0.0;  ///< an upper bound for all faces
 
-  explicit Sample(testing::Random& random) {
+  explicit MirroredObject(testing::Random& random) {
     resolution_m = random.log_uniform(1e-3, 10.0);
     mesh = oracle::random_mesh(random, resolution_m, 1 + static_cast<int>(random() % 4));
     map = build(mesh, resolution_m);
@@ -86,9 +86,9 @@ struct Sample {
 };
 
 TEST(ObjectMirror, OccupiesWhatTheTrianglesTouch) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   for (int trial = 0; trial < 300; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     std::set<Voxel> expected;
     for (std::size_t i = 0; i < sample.mesh.triangles.size(); ++i) {
       for_each_voxel_touched(VoxelGrid(sample.resolution_m), sample.mesh.triangle(i),
@@ -104,10 +104,10 @@ TEST(ObjectMirror, OccupiesWhatTheTrianglesTouch) {
 
 /// The promise of the map: no point of the scene is in free space.
 TEST(ObjectMirror, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     for (int i = 0; i < 50; ++i) {
       const Triangle triangle = sample.mesh.triangle(random() % sample.mesh.triangles.size());
       double s = unit(random);
@@ -132,9 +132,9 @@ TEST(ObjectMirror, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
 }
 
 TEST(ObjectMirror, DistanceSphereAndBoxAgreeWithEveryVoxel) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   for (int trial = 0; trial < 300; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     for (int i = 0; i < 30; ++i) {
       const Vec3 p = sample.point(random);
       const Box query(p, p + Vec3(sample.point(random).cwiseAbs() * 0.2));
@@ -171,9 +171,9 @@ TEST(ObjectMirror, DistanceSphereAndBoxAgreeWithEveryVoxel) {
 
 /// The searches skip nothing of relevance: their answers equal those of a test of every cube.
 TEST(ObjectMirror, SearchesAnswerAsAskingEveryCubeDoes) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   for (int trial = 0; trial < 300; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     const VoxelGrid grid(sample.resolution_m);
     const auto least = [&](const auto& cost, double limit) {
       double cheapest = kInfinity;
@@ -203,10 +203,10 @@ TEST(ObjectMirror, SearchesAnswerAsAskingEveryCubeDoes) {
 /// The answer is between the entries into the voxels grown by the face error and into the exact
 /// ones.
 TEST(ObjectMirror, RayAgreesWithEveryVoxel) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   int hits = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     for (int i = 0; i < 60; ++i) {
       const Vec3 origin = sample.point(random);
       Vec3 direction = 0.3 * sample.point(random) - origin;
@@ -241,11 +241,11 @@ TEST(ObjectMirror, RayAgreesWithEveryVoxel) {
 /// The answer is between the first contact with the voxels and with larger ones beyond all
 /// rounding.
 TEST(ObjectMirror, SpherePathAgreesWithEveryVoxel) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   int hits = 0;
   int misses = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const Sample sample(random);
+    const MirroredObject sample(random);
     for (int i = 0; i < 20; ++i) {
       const Vec3 from = sample.point(random);
       Vec3 to = 0.3 * sample.point(random) - (i % 2 == 0 ? from : Vec3(Vec3::Zero()));
@@ -402,7 +402,7 @@ TEST(ObjectMirror, RefusesWhatItCannotHold) {
 
 // Filling the last one would take hours.
 TEST(ObjectMirror, KnowsFromTheLargestTriangleWhatIsHopeless) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   std::uniform_real_distribution<double> place(-2.0, 2.0);
   for (int run = 0; run < 30; ++run) {
     std::array<Vec3, 3> corners;
@@ -423,7 +423,7 @@ TEST(ObjectMirror, KnowsFromTheLargestTriangleWhatIsHopeless) {
 TEST(ObjectMirror, IsNotMadeAfterAStop) {
   std::stop_source stop;
   stop.request_stop();
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   VoxelSet voxels;
   voxels.insert(Voxel{1, 2, 3});
@@ -438,7 +438,7 @@ TEST(ObjectMirror, IsNotMadeAfterAStop) {
 }
 
 TEST(ObjectMirror, TheVoxelLimitIsExact) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   const std::uint64_t voxels = build(mesh, 0.1)->statistics().occupied_voxels;
   EXPECT_TRUE(ObjectMirror::build(mesh, 0.1, std::nullopt, voxels).map);
@@ -466,7 +466,7 @@ std::string written(const std::shared_ptr<const ObjectMirror>& map, const std::s
 }
 
 TEST(ObjectMirror, OctoMapReadsBackWhatIsWritten) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 0.123456789}) {
     Mesh mesh = oracle::random_mesh(random, resolution_m, 6);
     // A point at the centre of an aligned block of eight voxels: it touches all, and they are
@@ -506,7 +506,7 @@ TEST(ObjectMirror, FailureToWriteNamesTheFile) {
 
 /// The map depends on the set of triangles only.
 TEST(ObjectMirror, TheSameSceneGivesTheSameBytes) {
-  testing::Random random(kSeed);
+  testing::Random random(kMirrorSeed);
   Mesh mesh = oracle::random_mesh(random, 0.1, 20);
   const std::string bytes = written(build(mesh, 0.1), "first.bt");
   EXPECT_EQ(written(build(mesh, 0.1), "again.bt"), bytes);

@@ -18,20 +18,20 @@ using geometry::Box;
 using geometry::RandomTriangles;
 using geometry::Vec3;
 
-constexpr double kResolutionM = 0.25;
+constexpr double kMirrorResolution_m = 0.25;
 
 std::shared_ptr<const ObjectMirror> map_of(const Mesh& mesh) {
-  return ObjectMirror::build(mesh, kResolutionM).map;
+  return ObjectMirror::build(mesh, kMirrorResolution_m).map;
 }
 
 /// Several meshes mirrored one by one, and as one mesh.
-struct Sample {
-  explicit Sample(std::uint64_t seed, int count) {
+struct MirroredScene {
+  explicit MirroredScene(std::uint64_t seed, int count) {
     testing::Random random(seed);
     Mesh whole;
     std::vector<std::shared_ptr<const ObjectMirror>> maps;
     for (int i = 0; i < count; ++i) {
-      const Mesh mesh = oracle::random_mesh(random, kResolutionM, 4);
+      const Mesh mesh = oracle::random_mesh(random, kMirrorResolution_m, 4);
       const auto first = static_cast<std::uint32_t>(whole.vertices.size());
       whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
       for (const auto& t : mesh.triangles) {
@@ -40,7 +40,7 @@ struct Sample {
       maps.push_back(map_of(mesh));
     }
     one = map_of(whole);
-    several = std::make_unique<SceneMirror>(kResolutionM, maps);
+    several = std::make_unique<SceneMirror>(kMirrorResolution_m, maps);
   }
 
   std::shared_ptr<const ObjectMirror> one;
@@ -51,7 +51,7 @@ TEST(SceneMirror, AnswersAsOneMapOfAllObjects) {
   RandomTriangles random(1301);
   int occupied = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Sample sample(seed, 1 + static_cast<int>(seed) % 5);
+    const MirroredScene sample(seed, 1 + static_cast<int>(seed) % 5);
     for (int i = 0; i < 300; ++i) {
       const Vec3 point = random.in_cube(3.0);
       const Vec3 other = random.in_cube(3.0);
@@ -77,7 +77,7 @@ TEST(SceneMirror, AnswersAsOneMapOfAllObjects) {
 
 TEST(SceneMirror, WritesOneMapOfAllObjects) {
   for (std::uint64_t seed = 30; seed < 40; ++seed) {
-    const Sample sample(seed, 3);
+    const MirroredScene sample(seed, 3);
     std::stringstream united;
     std::stringstream whole;
     sample.several->write_bt(united);
@@ -85,13 +85,13 @@ TEST(SceneMirror, WritesOneMapOfAllObjects) {
     ASSERT_EQ(united.str(), whole.str());
     octomap::OcTree read(1.0);
     ASSERT_TRUE(read.readBinary(united));
-    EXPECT_EQ(read.getResolution(), kResolutionM);
+    EXPECT_EQ(read.getResolution(), kMirrorResolution_m);
   }
 }
 
 TEST(SceneMirror, OfNothingIsFree) {
-  const SceneMirror none(kResolutionM, {});
-  EXPECT_EQ(none.resolution_m(), kResolutionM);
+  const SceneMirror none(kMirrorResolution_m, {});
+  EXPECT_EQ(none.resolution_m(), kMirrorResolution_m);
   EXPECT_FALSE(none.occupied_at(Vec3::Zero()));
   EXPECT_FALSE(none.distance_m(Vec3::Zero(), 1e9));
   std::stringstream out;

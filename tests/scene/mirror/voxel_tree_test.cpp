@@ -13,7 +13,7 @@
 namespace camway::scene {
 namespace {
 
-constexpr std::uint64_t kSeed = 77103;
+constexpr std::uint64_t kTreeSeed = 77103;
 
 using Cubes = std::vector<std::array<std::int32_t, 4>>;  ///< lowest voxel and size, sorted
 
@@ -74,7 +74,7 @@ Cubes octomaps_cubes(const VoxelSet& set) {
 }
 
 TEST(VoxelTree, ConsistsOfOctoMapsCubes) {
-  testing::Random random(kSeed);
+  testing::Random random(kTreeSeed);
   int large = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const VoxelSet set = random_voxels(random);
@@ -89,7 +89,7 @@ TEST(VoxelTree, ConsistsOfOctoMapsCubes) {
 }
 
 TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
-  testing::Random random(kSeed + 1);
+  testing::Random random(kTreeSeed + 1);
   for (int trial = 0; trial < 300; ++trial) {
     const VoxelSet set = random_voxels(random);
     const VoxelTree tree(set);
@@ -109,7 +109,7 @@ TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
 
 /// Full cubes come and go, so that branches fill up, vanish and appear.
 TEST(VoxelTree, UpdatedIsTheTreeThatIsMadeAnew) {
-  testing::Random random(kSeed + 2);
+  testing::Random random(kTreeSeed + 2);
   for (int trial = 0; trial < 60; ++trial) {
     VoxelSet set = random_voxels(random);
     VoxelTree tree(set);

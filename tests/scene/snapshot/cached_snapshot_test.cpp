@@ -16,7 +16,7 @@ namespace {
 using testing::expect_same;
 using testing::prepared_of;
 
-constexpr std::uint64_t kSeed = 20261125;
+constexpr std::uint64_t kCacheSeed = 20261125;
 
 class CachedSnapshot : public ::testing::Test {
  protected:
@@ -41,7 +41,7 @@ class CachedSnapshot : public ::testing::Test {
   SceneCache cache_{folder_.path() / "cache", {.least_triangles = 1}};
 };
 
-void expect_same(const Snapshot& a, const Snapshot& b) {
+void expect_same_scene(const Snapshot& a, const Snapshot& b) {
   testing::expect_same(prepared_of(a), prepared_of(b));
   EXPECT_EQ(a.digest, b.digest);
   EXPECT_TRUE(a.index.has_same_trees_as(b.index));
@@ -60,7 +60,7 @@ void expect_same(const Snapshot& a, const Snapshot& b) {
 }
 
 TEST_F(CachedSnapshot, IsTheOneWithoutACacheToTheBit) {
-  testing::Random random(kSeed);
+  testing::Random random(kCacheSeed);
   for (const int triangles : {1, 40, 3000}) {
     for (const bool has_field : {true, false}) {
       SCOPED_TRACE(::testing::Message() << triangles << " triangles, field " << has_field);
@@ -76,14 +76,14 @@ TEST_F(CachedSnapshot, IsTheOneWithoutACacheToTheBit) {
       ASSERT_TRUE(without.snapshot && first.snapshot && second.snapshot);
       EXPECT_FALSE(first.is_from_cache);
       ASSERT_TRUE(second.is_from_cache);
-      expect_same(*without.snapshot, *first.snapshot);
-      expect_same(*without.snapshot, *second.snapshot);
+      expect_same_scene(*without.snapshot, *first.snapshot);
+      expect_same_scene(*without.snapshot, *second.snapshot);
     }
   }
 }
 
 TEST_F(CachedSnapshot, HasTheMirrorOfTheScene) {
-  testing::Random random(kSeed);
+  testing::Random random(kCacheSeed);
   const std::string file = write_obj("scene.obj", testing::scattered_triangles(random, 100, 0.2));
   SnapshotOptions options;
   options.occupancy_resolution_m = 0.1;
@@ -100,7 +100,7 @@ TEST_F(CachedSnapshot, HasTheMirrorOfTheScene) {
 }
 
 TEST_F(CachedSnapshot, IsNotThatOfAnEarlierFileOrOfOtherOptions) {
-  testing::Random random(kSeed);
+  testing::Random random(kCacheSeed);
   const std::string file = write_obj("scene.obj", testing::scattered_triangles(random, 50, 0.2));
   const std::string digest = load(file).snapshot->digest;
   SnapshotOptions inches;
@@ -113,7 +113,7 @@ TEST_F(CachedSnapshot, IsNotThatOfAnEarlierFileOrOfOtherOptions) {
 }
 
 TEST_F(CachedSnapshot, IsMadeAnewWhereItsFileIsDamaged) {
-  testing::Random random(kSeed);
+  testing::Random random(kCacheSeed);
   const std::string file = write_obj("scene.obj", testing::scattered_triangles(random, 50, 0.2));
   const SnapshotResult first = load(file);
   ASSERT_TRUE(load(file).is_from_cache);
@@ -122,7 +122,7 @@ TEST_F(CachedSnapshot, IsMadeAnewWhereItsFileIsDamaged) {
   }
   const SnapshotResult second = load(file);
   EXPECT_FALSE(second.is_from_cache);
-  expect_same(*first.snapshot, *second.snapshot);
+  expect_same_scene(*first.snapshot, *second.snapshot);
   EXPECT_TRUE(load(file).is_from_cache) << "and is kept again";
 }
 

@@ -24,7 +24,7 @@ using geometry::Quat;
 using geometry::Triangle;
 using geometry::Vec3;
 
-constexpr double kResolutionM = 0.1;
+constexpr double kScanResolution_m = 0.1;
 
 struct Case {
   UnknownSpace unknown = UnknownSpace::kFree;
@@ -40,7 +40,7 @@ std::vector<Case> cases(testing::Random& random) {
   std::vector<Case> all;
   for (const UnknownSpace unknown : {UnknownSpace::kFree, UnknownSpace::kOccupied}) {
     all.push_back({unknown, {}, {}});
-    all.back().options.occupancy_resolution_m = kResolutionM;
+    all.back().options.occupancy_resolution_m = kScanResolution_m;
     all.push_back({unknown, {}, {}});
     all.back().options.occupancy_resolution_m = 0.25;
     all.push_back({unknown, elsewhere, {}});
@@ -49,7 +49,7 @@ std::vector<Case> cases(testing::Random& random) {
 }
 
 /// Returns the scan of a sensor there: walls of rooms of 3 m, and rays without a return.
-std::vector<Vec3> sight(testing::Random& random, const Vec3& origin) {
+std::vector<Vec3> sight_in_room(testing::Random& random, const Vec3& origin) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points;
   for (int i = 0; i < 60; ++i) {
@@ -168,7 +168,7 @@ void expect_told(const Snapshot& before, const Snapshot& now) {
   const VoxelSet& solid = object.source->map_O->solid();
   const auto middle = [&](const Voxel& voxel) {
     const Vec3 at_O(voxel[0] + 0.5, voxel[1] + 0.5, voxel[2] + 0.5);
-    return object.placement.to_world(kResolutionM * at_O);
+    return object.placement.to_world(kScanResolution_m * at_O);
   };
   bool has_come = false;
   solid.for_each([&](const Voxel& voxel) {
@@ -197,11 +197,11 @@ TEST(ScannedScene, IsTheSceneThatIsMadeAnewOfTheSameVoxels) {
   for (const Case& at : cases(random)) {
     SensorModel sensor;
     sensor.max_range_m = 2.0;
-    auto map = VoxelMap::build(kResolutionM, {}, {}, at.unknown, {}, sensor).map;
+    auto map = VoxelMap::build(kScanResolution_m, {}, {}, at.unknown, {}, sensor).map;
     std::shared_ptr<const Snapshot> scene = after(empty_scene(at), put(map, at));
     for (int scan = 0; scan < 6; ++scan) {
       const Vec3 origin = 2.0 * Vec3(unit(random), unit(random), unit(random));
-      const VoxelMapResult next = scanned(*map, {origin, sight(random, origin)});
+      const VoxelMapResult next = scanned(*map, {origin, sight_in_room(random, origin)});
       ASSERT_TRUE(next.map) << next.error;
       const std::shared_ptr<const Snapshot> now = after(scene, put(next.map, at));
       const std::shared_ptr<const Snapshot> other =
@@ -223,12 +223,12 @@ TEST(ScannedScene, IsTheSceneThatIsMadeAnewOfTheSameVoxels) {
 TEST(ScannedScene, CanBeBuiltAgain) {
   testing::Random random(77402);
   const Case at = cases(random).front();
-  auto map = VoxelMap::build(kResolutionM, {}, {}, at.unknown).map;
+  auto map = VoxelMap::build(kScanResolution_m, {}, {}, at.unknown).map;
   std::shared_ptr<const Snapshot> scene = after(empty_scene(at), put(map, at));
   SceneHistory history(*scene, {});
   std::vector<std::shared_ptr<const Snapshot>> revisions;
   for (int scan = 0; scan < 4; ++scan) {
-    map = scanned(*map, {Vec3::Constant(0.5), sight(random, Vec3::Constant(0.5))}).map;
+    map = scanned(*map, {Vec3::Constant(0.5), sight_in_room(random, Vec3::Constant(0.5))}).map;
     const SceneChange change = put(map, at);
     scene = after(scene, change);
     history.add({change}, {scene->revision, {}});

@@ -16,7 +16,7 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 using ::testing::HasSubstr;
-using Kind = SceneChange::Kind;
+using ChangeKind = SceneChange::Kind;
 
 ObjectOptions mirrored() {
   ObjectOptions options;
@@ -51,8 +51,11 @@ SceneChange random_change(RandomTriangles& random, const Snapshot& scene) {
   change.object = std::string(1, static_cast<char>('a' + random.integer(0, 5)));
   const bool is_there = scene.find(change.object) != nullptr;
   const int kind = random.integer(0, 5);
-  change.kind = !is_there || kind == 0 ? Kind::kPut : kind == 1 ? Kind::kRemove : Kind::kMove;
-  if (change.kind == Kind::kPut) change.source = box(Vec3(0.2, 0.2, 0.2) + random.in_cube(0.1));
+  change.kind = !is_there || kind == 0 ? ChangeKind::kPut
+                : kind == 1            ? ChangeKind::kRemove
+                                       : ChangeKind::kMove;
+  if (change.kind == ChangeKind::kPut)
+    change.source = box(Vec3(0.2, 0.2, 0.2) + random.in_cube(0.1));
   change.placement = at(random.in_cube(2.0), Quat(1, random.uniform(-1, 1), 0, 0.3));
   return change;
 }
@@ -75,9 +78,9 @@ void expect_same(const Snapshot& a, const Snapshot& b) {
 
 TEST(SceneChange, SharesWhatDidNotChange) {
   const auto one =
-      after(*empty_scene(), {Kind::kPut, "wall", box(Vec3(4, 1, 0.1)), at(Vec3(0, 0, 3))});
-  const auto two = after(*one, {Kind::kPut, "ball", box(Vec3(1, 1, 1)), {}});
-  const auto three = after(*two, {Kind::kMove, "ball", nullptr, at(Vec3(0, 5, 0))});
+      after(*empty_scene(), {ChangeKind::kPut, "wall", box(Vec3(4, 1, 0.1)), at(Vec3(0, 0, 3))});
+  const auto two = after(*one, {ChangeKind::kPut, "ball", box(Vec3(1, 1, 1)), {}});
+  const auto three = after(*two, {ChangeKind::kMove, "ball", nullptr, at(Vec3(0, 5, 0))});
   EXPECT_EQ(three->revision, 4U);
   EXPECT_EQ(three->find("wall"), one->find("wall"));
   EXPECT_EQ(three->find("ball")->source, two->find("ball")->source);
@@ -114,13 +117,14 @@ TEST(SceneChange, LeavesASceneAsIfBuiltAtOnce) {
 
 TEST(SceneChange, DependsOnWhatIsThereAndNotOnHowItCame) {
   const auto source = box(Vec3(1, 2, 3));
-  const auto first = after(*after(*empty_scene(), {Kind::kPut, "a", source, at(Vec3(1, 0, 0))}),
-                           {Kind::kPut, "b", source, at(Vec3(9, 0, 0))});
-  auto second = after(*empty_scene(), {Kind::kPut, "b", source, {}});
-  second = after(*second, {Kind::kPut, "c", source, {}});
-  second = after(*second, {Kind::kPut, "a", source, at(Vec3(1, 0, 0))});
-  second = after(*second, {Kind::kRemove, "c", nullptr, {}});
-  second = after(*second, {Kind::kMove, "b", nullptr, at(Vec3(9, 0, 0))});
+  const auto first =
+      after(*after(*empty_scene(), {ChangeKind::kPut, "a", source, at(Vec3(1, 0, 0))}),
+            {ChangeKind::kPut, "b", source, at(Vec3(9, 0, 0))});
+  auto second = after(*empty_scene(), {ChangeKind::kPut, "b", source, {}});
+  second = after(*second, {ChangeKind::kPut, "c", source, {}});
+  second = after(*second, {ChangeKind::kPut, "a", source, at(Vec3(1, 0, 0))});
+  second = after(*second, {ChangeKind::kRemove, "c", nullptr, {}});
+  second = after(*second, {ChangeKind::kMove, "b", nullptr, at(Vec3(9, 0, 0))});
   expect_same(*first, *second);
 }
 
@@ -131,18 +135,19 @@ TEST(SceneChange, OfASingleObjectHasItsDigest) {
 }
 
 TEST(SceneChange, SaysWhatCannotBeDone) {
-  const auto scene = after(*empty_scene(), {Kind::kPut, "a", box(Vec3(1, 1, 1)), {}});
-  EXPECT_THAT(changed(*scene, {Kind::kMove, "b", nullptr, {}}, 3).error, HasSubstr("'b'"));
-  EXPECT_THAT(changed(*scene, {Kind::kRemove, "b", nullptr, {}}, 3).error, HasSubstr("'room'"));
+  const auto scene = after(*empty_scene(), {ChangeKind::kPut, "a", box(Vec3(1, 1, 1)), {}});
+  EXPECT_THAT(changed(*scene, {ChangeKind::kMove, "b", nullptr, {}}, 3).error, HasSubstr("'b'"));
+  EXPECT_THAT(changed(*scene, {ChangeKind::kRemove, "b", nullptr, {}}, 3).error,
+              HasSubstr("'room'"));
   // 32768 voxels of 0.25 m.
-  const SceneChange far{Kind::kMove, "a", nullptr, at(Vec3(8193, 0, 0))};
+  const SceneChange far{ChangeKind::kMove, "a", nullptr, at(Vec3(8193, 0, 0))};
   const std::string error = changed(*scene, far, 3).error;
   EXPECT_THAT(error, HasSubstr("a: "));
   EXPECT_THAT(error, HasSubstr("8192.5"));
   EXPECT_THAT(error, HasSubstr("0.25 m"));
   ObjectOptions plain;
-  const auto unmirrored =
-      changed(*empty_scene(plain), {Kind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(1e9, 0, 0))}, 2);
+  const auto unmirrored = changed(
+      *empty_scene(plain), {ChangeKind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(1e9, 0, 0))}, 2);
   EXPECT_THAT(unmirrored.error, HasSubstr("1e9 m"));
 }
 
@@ -200,7 +205,7 @@ TEST(SceneHistory, KeepsWithinItsBytes) {
   std::shared_ptr<const Snapshot> scene = empty_scene();
   SceneHistory history(*scene, {.changes = 1000, .bytes = 3 * box(Vec3(1, 1, 1))->memory_bytes()});
   for (int i = 0; i < 10; ++i) {
-    const SceneChange change{Kind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(i, 0, 0))};
+    const SceneChange change{ChangeKind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(i, 0, 0))};
     scene = after(*scene, change);
     history.add({change}, {scene->revision, {}});
   }

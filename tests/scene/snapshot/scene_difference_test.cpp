@@ -17,7 +17,7 @@ namespace {
 
 using geometry::Quat;
 using geometry::Vec3;
-using Kind = SceneChange::Kind;
+using ChangeKind = SceneChange::Kind;
 
 Placement at(const Vec3& position) {
   std::string fault;
@@ -56,8 +56,8 @@ TEST(SceneDifference, IsWhatComparingAllObjectsSays) {
     const auto before = store.find("room");
     for (int change = 0; change < 4; ++change) {
       const std::string name(1, static_cast<char>('a' + random() % 6));
-      const Kind kind = static_cast<Kind>(random() % 3);
-      store.change("room", {kind, name, kind == Kind::kPut ? box(0.5) : nullptr,
+      const ChangeKind kind = static_cast<ChangeKind>(random() % 3);
+      store.change("room", {kind, name, kind == ChangeKind::kPut ? box(0.5) : nullptr,
                             at({place(random), place(random), place(random)})});
     }
     const auto after = store.find("room");
@@ -85,7 +85,7 @@ TEST(SceneDifference, IsWhatComparingAllObjectsSays) {
 TEST(SceneDifference, OfARevisionToItselfIsNone) {
   SceneStore store;
   store.put(assemble("room", 1, {}, {}));
-  store.change("room", {Kind::kPut, "a", box(1.0), at({0, 0, 0})});
+  store.change("room", {ChangeKind::kPut, "a", box(1.0), at({0, 0, 0})});
   const auto snapshot = store.find("room");
   EXPECT_TRUE(difference(*snapshot, *snapshot).empty());
 }
@@ -94,7 +94,7 @@ TEST(SceneDifference, AnotherSceneOfThatNameIsAllNew) {
   const auto make = [] {
     SceneStore store;
     store.put(assemble("room", 1, {}, {}));
-    return store.change("room", {Kind::kPut, "a", box(1.0), at({0, 0, 0})}).snapshot;
+    return store.change("room", {ChangeKind::kPut, "a", box(1.0), at({0, 0, 0})}).snapshot;
   };
   const SceneDifference found = difference(*make(), *make());
   EXPECT_EQ(found.added.size(), 1U);

@@ -41,9 +41,9 @@ namespace camway::scene {
 namespace {
 
 using geometry::Vec3;
-using Kind = SceneChange::Kind;
+using ChangeKind = SceneChange::Kind;
 
-constexpr std::uint64_t kSeed = 1503;
+constexpr std::uint64_t kMemorySeed = 1503;
 
 /// Returns a sphere of some thousand triangles, or a map of as many voxels.
 std::shared_ptr<const ObjectSource> random_source(testing::Random& random) {
@@ -86,10 +86,10 @@ SceneChange random_change(testing::Random& random, const Snapshot& scene) {
   change.object = std::string(1, static_cast<char>('a' + random() % 4));
   const SceneObject* const object = scene.find(change.object);
   const auto kind = random() % 4;
-  change.kind = object == nullptr || kind < 2 ? Kind::kPut
-                : kind == 2                   ? Kind::kRemove
-                                              : Kind::kMove;
-  if (change.kind == Kind::kPut) {
+  change.kind = object == nullptr || kind < 2 ? ChangeKind::kPut
+                : kind == 2                   ? ChangeKind::kRemove
+                                              : ChangeKind::kMove;
+  if (change.kind == ChangeKind::kPut) {
     const bool is_scan = object != nullptr && object->source->map_O && random() % 4 != 0;
     change.source = is_scan ? scanned(random, *object->source->map_O) : random_source(random);
   }
@@ -98,7 +98,7 @@ SceneChange random_change(testing::Random& random, const Snapshot& scene) {
 
 /// Compares the reported bytes of a history with the memory that its destruction frees.
 TEST(SceneHistory, KeepsWhatItsBytesSay) {
-  testing::Random random(kSeed);
+  testing::Random random(kMemorySeed);
   for (int trial = 0; trial < 20; ++trial) {
     std::shared_ptr<const Snapshot> scene = assemble("room", 1, {}, {});
     const int before = static_cast<int>(random() % 4);
@@ -128,11 +128,12 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
 
 /// Many revisions of a map that scans change a little take little more memory than the map.
 TEST(SceneHistory, KeepsOfScansWhatTheyChanged) {
-  testing::Random random(kSeed);
+  testing::Random random(kMemorySeed);
   VoxelSet voxels;
   voxels.insert(VoxelCube{{0, 0, 0}, 256});
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  SceneChange change{Kind::kPut, "map", make_map_source(map, report_of(*map, "OctoMap"), {}), {}};
+  SceneChange change{
+      ChangeKind::kPut, "map", make_map_source(map, report_of(*map, "OctoMap"), {}), {}};
   const std::uint64_t bytes_of_map = change.source->memory_bytes();
   auto scene = assemble("room", 1, {}, {});
   scene = changed(*scene, change, 2).snapshot;

@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using Real = long double;
 using RealVec3 = Eigen::Matrix<Real, 3, 1>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Expects that each edge belongs to two triangles with opposite directions: the mesh is closed,
 /// and all triangles face the same side.
@@ -131,7 +131,7 @@ TEST(CloudMesh, EnclosesEveryPointAndNoMoreThanTheirCells) {
                            0.5) *
                           cell_m;
       const std::array<Triangle, 1> point = {Triangle{middle, middle, middle}};
-      const auto nearest = index.nearest(point, kInfinity);
+      const auto nearest = index.nearest(point, kEndless_m);
       ASSERT_GE(nearest->distance_m, 0.49 * cell_m) << "no face runs through a cell";
     }
   }
@@ -145,7 +145,7 @@ TEST(CloudMesh, DoesNotDependOnTheOrderOfItsPoints) {
 }
 
 TEST(ShapeMesh, RefusesWhatIsNoLengthByName) {
-  for (const double bad : {0.0, -1.0, kNaN, kInfinity, 1.1e9}) {
+  for (const double bad : {0.0, -1.0, kNoNumber, kEndless_m, 1.1e9}) {
     EXPECT_THAT(box_mesh(Vec3(1, bad, 1)).error, HasSubstr("size_m"));
     EXPECT_THAT(sphere_mesh(bad, 0.1).error, HasSubstr("radius_m"));
     EXPECT_THAT(sphere_mesh(1, bad).error, HasSubstr("chord_error_m"));
@@ -156,7 +156,7 @@ TEST(ShapeMesh, RefusesWhatIsNoLengthByName) {
   }
   const std::vector<Vec3> far = {Vec3::Zero(), Vec3(0, 0, 1.1e6)};
   EXPECT_THAT(cloud_mesh(far, 1.0).error, HasSubstr("points_m[1]"));
-  const std::vector<Vec3> not_a_number = {Vec3(kNaN, 0, 0)};
+  const std::vector<Vec3> not_a_number = {Vec3(kNoNumber, 0, 0)};
   EXPECT_THAT(cloud_mesh(not_a_number, 1.0).error, HasSubstr("points_m[0]"));
   EXPECT_EQ(sphere_mesh(1.0, 1e-9).error,
             "chord_error_m: 1e-09 m needs more than 2000000 triangles");

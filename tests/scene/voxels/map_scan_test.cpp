@@ -17,11 +17,11 @@ namespace {
 using geometry::Vec3;
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kSeed = 77301;
-constexpr double kResolutionM = 0.1;
+constexpr std::uint64_t kScanSeed = 77301;
+constexpr double kVoxel_m = 0.1;
 
 std::shared_ptr<const VoxelMap> empty_map(const SensorModel& sensor) {
-  return VoxelMap::build(kResolutionM, {}, {}, UnknownSpace::kFree, {}, sensor).map;
+  return VoxelMap::build(kVoxel_m, {}, {}, UnknownSpace::kFree, {}, sensor).map;
 }
 
 /// Returns the scan of a sensor in a room of 4 m, with rays without a return.
@@ -42,7 +42,7 @@ std::vector<Vec3> sight(testing::Random& random, const Vec3& origin) {
 
 /// The oracle for a series of scans is OctoMap itself, with one tree that is never copied.
 TEST(Scanned, IsWhatOctoMapMakesOfTheSameScans) {
-  testing::Random random(kSeed);
+  testing::Random random(kScanSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const double max_range_m : {std::numeric_limits<double>::infinity(), 3.0}) {
     SensorModel sensor;
@@ -51,7 +51,7 @@ TEST(Scanned, IsWhatOctoMapMakesOfTheSameScans) {
     sensor.least_probability = 0.05;
     sensor.most_probability = 0.9;
     sensor.max_range_m = max_range_m;
-    octomap::OcTree tree(kResolutionM);
+    octomap::OcTree tree(kVoxel_m);
     tree.setProbHit(sensor.hit_probability);
     tree.setProbMiss(sensor.miss_probability);
     tree.setClampingThresMin(sensor.least_probability);
@@ -101,7 +101,7 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
   VoxelSet free;
   occupied.insert(Voxel{5, 0, 0});
   free.insert(Voxel{0, 5, 0});
-  const auto before = VoxelMap::build(kResolutionM, occupied, free, UnknownSpace::kFree).map;
+  const auto before = VoxelMap::build(kVoxel_m, occupied, free, UnknownSpace::kFree).map;
   const std::vector<Vec3> beyond = {Vec3(1.05, 0.05, 0.05)};
   std::shared_ptr<const VoxelMap> map = before;
   int scans = 0;
@@ -117,8 +117,8 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
 
 /// The same, but map and tree begin with a file whose content counts as certain.
 TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
-  testing::Random random(kSeed + 1);
-  octomap::OcTree tree(kResolutionM);
+  testing::Random random(kScanSeed + 1);
+  octomap::OcTree tree(kVoxel_m);
   VoxelSet occupied;
   VoxelSet free;
   for (int i = 0; i < 4000; ++i) {
@@ -134,7 +134,7 @@ TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
   }
   tree.updateInnerOccupancy();
   std::shared_ptr<const VoxelMap> map =
-      VoxelMap::build(kResolutionM, occupied, free, UnknownSpace::kFree).map;
+      VoxelMap::build(kVoxel_m, occupied, free, UnknownSpace::kFree).map;
   for (int scan = 0; scan < 10; ++scan) {
     const Vec3 origin(0.4, -0.3, 0.2);
     const std::vector<Vec3> points = sight(random, origin);

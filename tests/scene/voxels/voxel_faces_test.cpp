@@ -14,7 +14,7 @@
 namespace camway::scene {
 namespace {
 
-constexpr std::uint64_t kSeed = 77101;
+constexpr std::uint64_t kFacesSeed = 77101;
 
 /// Returns six times the enclosed volume, in units of a voxel.
 long double volume_sixfold(const Mesh& mesh) {
@@ -27,7 +27,7 @@ long double volume_sixfold(const Mesh& mesh) {
 }
 
 TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
-  testing::Random random(kSeed + 2);
+  testing::Random random(kFacesSeed + 2);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     std::size_t faces = 0;
@@ -62,7 +62,7 @@ TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
 }
 
 TEST(SkinOf, DependsOnTheSetOnly) {
-  testing::Random random(kSeed + 3);
+  testing::Random random(kFacesSeed + 3);
   for (int trial = 0; trial < 20; ++trial) {
     const VoxelSample sample(random);
     VoxelSet other;
@@ -92,7 +92,7 @@ Corners sorted_triangles(const Mesh& mesh) {
 }
 
 TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
-  testing::Random random(kSeed + 5);
+  testing::Random random(kFacesSeed + 5);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     const Mesh whole = *faces_of(sample.set, 0.1, 1'000'000);
@@ -115,7 +115,7 @@ TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
 /// After any changes the faces equal those made from scratch, and share all equal bricks with those
 /// before.
 TEST(VoxelFaces, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
-  testing::Random random(kSeed + 6);
+  testing::Random random(kFacesSeed + 6);
   int shared = 0;
   int others = 0;
   for (int trial = 0; trial < 30; ++trial) {

@@ -18,7 +18,7 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-constexpr std::uint64_t kSeed = 20061;
+constexpr std::uint64_t kGridSeed = 20061;
 
 std::set<Voxel> touched(const VoxelGrid& grid, const Triangle& triangle) {
   std::set<Voxel> voxels;
@@ -31,7 +31,7 @@ std::set<Voxel> touched(const VoxelGrid& grid, const Triangle& triangle) {
 
 /// Every coordinate maps to OctoMap's voxel, also within an ulp of a face.
 TEST(VoxelGrid, MapsCoordinatesAsOctoMapDoes) {
-  testing::Random random(kSeed);
+  testing::Random random(kGridSeed);
   for (const double resolution_m : {0.05, 0.1, 1.0 / 3.0, 0.07, 2.5, 1e-3}) {
     const VoxelGrid grid(resolution_m);
     const octomap::OcTree tree(resolution_m);
@@ -65,7 +65,7 @@ TEST(VoxelGrid, KnowsWhereTheKeysEnd) {
 }
 
 TEST(VoxelGrid, BoxesOfChildrenNestBitForBit) {
-  testing::Random random(kSeed);
+  testing::Random random(kGridSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 7.1}) {
     const VoxelGrid grid(resolution_m);
     for (int i = 0; i < 2000; ++i) {
@@ -95,7 +95,7 @@ TEST(ForEachVoxelTouched, FaceEdgeAndCornerTouchAllNeighbours) {
 
 /// Finds every voxel of exact clipping, and no voxel beyond the stated error.
 TEST(ForEachVoxelTouched, AgreesWithClippingEveryVoxel) {
-  testing::Random random(kSeed);
+  testing::Random random(kGridSeed);
   std::size_t on_border = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const double resolution_m = random.log_uniform(1e-3, 10.0);

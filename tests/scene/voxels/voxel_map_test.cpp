@@ -25,12 +25,12 @@ using geometry::Quat;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kSeed = 77201;
-constexpr double kResolutionM = 0.25;
+constexpr std::uint64_t kMapSeed = 77201;
+constexpr double kMapResolution_m = 0.25;
 
 /// Returns a tree with free and occupied voxels, some of them pruned.
 octomap::OcTree random_tree(testing::Random& random) {
-  octomap::OcTree tree(kResolutionM);
+  octomap::OcTree tree(kMapResolution_m);
   std::uniform_real_distribution<double> anywhere(-2.5, 2.5);
   for (int i = 0; i < 120; ++i) {
     const octomap::point3d at(static_cast<float>(anywhere(random)),
@@ -85,12 +85,12 @@ ImportResult imported(octomap::OcTree& tree, const std::string& name,
 }
 
 TEST(MapImport, ReadsWhatOctoMapWrote) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   for (const std::string name : {"map.bt", "map.ot", "MAP.BT"}) {
     octomap::OcTree tree = random_tree(random);
     const ImportResult result = imported(tree, name == "MAP.BT" ? "x.bt" : name);
     ASSERT_TRUE(result.map) << result.error;
-    EXPECT_EQ(result.map->resolution_m(), kResolutionM);
+    EXPECT_EQ(result.map->resolution_m(), kMapResolution_m);
     EXPECT_EQ(result.report.format, "OctoMap");
     EXPECT_EQ(result.report.triangles, result.mesh->triangles.size());
     for_each_around(
@@ -99,12 +99,12 @@ TEST(MapImport, ReadsWhatOctoMapWrote) {
 }
 
 TEST(MapImport, TurnsAndScalesLikeAMesh) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   octomap::OcTree tree = random_tree(random);
   for (const UpAxis up : {UpAxis::kZToY, UpAxis::kYToZ}) {
     const ImportResult result = imported(tree, "map.bt", {.scale = 4.0, .up = up});
     ASSERT_TRUE(result.map) << result.error;
-    EXPECT_EQ(result.map->resolution_m(), 4.0 * kResolutionM);
+    EXPECT_EQ(result.map->resolution_m(), 4.0 * kMapResolution_m);
     for_each_around([&](const Voxel& file) {
       const Voxel scene = up == UpAxis::kZToY ? Voxel{file[0], file[2], -file[1] - 1}
                                               : Voxel{file[0], -file[2] - 1, file[1]};
@@ -129,7 +129,7 @@ TEST(MapImport, ReadsTreesWithColours) {
 }
 
 TEST(MapImport, WhateverIsInAFileGetsAnAnswer) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   octomap::OcTree tree = random_tree(random);
   const TemporaryFolder folder;
   for (const std::string name : {"good.bt", "good.ot"}) {
@@ -157,7 +157,7 @@ TEST(MapImport, WhateverIsInAFileGetsAnAnswer) {
 }
 
 TEST(VoxelMap, UnknownSpaceFillsTheBoxAndALayerAboutIt) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   octomap::OcTree tree = random_tree(random);
   const ImportResult as_free = imported(tree, "map.bt");
   const ImportResult as_occupied = imported(tree, "map.bt", {.unknown = UnknownSpace::kOccupied});
@@ -193,7 +193,7 @@ TEST(VoxelMap, RefusesWhatIsTooLarge) {
 
 /// A point is in the solid exactly if OctoMap calls its voxel occupied, unless rounding hides it.
 TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   octomap::OcTree tree = random_tree(random);
   const ImportResult import = imported(tree, "map.bt");
@@ -210,10 +210,10 @@ TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
         {{import.map, placement, placed_mesh(*import.mesh, placement).bounds()}});
     int inside = 0;
     for (int i = 0; i < 3000; ++i) {
-      const Vec3 point_O = 8.0 * kResolutionM * Vec3(unit(random), unit(random), unit(random));
-      const Voxel voxel{static_cast<std::int32_t>(std::floor(point_O.x() / kResolutionM)),
-                        static_cast<std::int32_t>(std::floor(point_O.y() / kResolutionM)),
-                        static_cast<std::int32_t>(std::floor(point_O.z() / kResolutionM))};
+      const Vec3 point_O = 8.0 * kMapResolution_m * Vec3(unit(random), unit(random), unit(random));
+      const Voxel voxel{static_cast<std::int32_t>(std::floor(point_O.x() / kMapResolution_m)),
+                        static_cast<std::int32_t>(std::floor(point_O.y() / kMapResolution_m)),
+                        static_cast<std::int32_t>(std::floor(point_O.z() / kMapResolution_m))};
       const bool is_inside = in_tree(tree, voxel) == Is::kOccupied;
       inside += is_inside ? 1 : 0;
       ASSERT_EQ(solids.hold(placement.to_world(point_O)), is_inside) << "place " << place;
@@ -226,13 +226,13 @@ TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
 }
 
 TEST(Snapshot, OfAMapHasItsVoxelsInTheMirror) {
-  testing::Random random(kSeed);
+  testing::Random random(kMapSeed);
   octomap::OcTree tree = random_tree(random);
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "map.bt").string();
   ASSERT_TRUE(tree.writeBinary(file));
   SnapshotOptions options;
-  options.occupancy_resolution_m = kResolutionM;
+  options.occupancy_resolution_m = kMapResolution_m;
   const auto same = load_snapshot("map", file, options).snapshot;
   ASSERT_TRUE(same && same->solids);
   EXPECT_STREQ(to_string(same->objects[0]->source->kind), "occupancy map");
@@ -240,7 +240,8 @@ TEST(Snapshot, OfAMapHasItsVoxelsInTheMirror) {
   options.occupancy_resolution_m = 0.1;
   const auto finer = load_snapshot("map", file, options).snapshot;
   for_each_around([&](const Voxel& voxel) {
-    const Vec3 middle = (Vec3(voxel[0], voxel[1], voxel[2]).array() + 0.5).matrix() * kResolutionM;
+    const Vec3 middle =
+        (Vec3(voxel[0], voxel[1], voxel[2]).array() + 0.5).matrix() * kMapResolution_m;
     const bool is_occupied = in_tree(tree, voxel) == Is::kOccupied;
     ASSERT_EQ(same->occupancy->occupied_at(middle), is_occupied);
     // The finer map marks voxels that touch a face, so a voxel beside an occupied one may be

@@ -13,10 +13,10 @@
 namespace camway::scene {
 namespace {
 
-constexpr std::uint64_t kSeed = 77101;
+constexpr std::uint64_t kSetSeed = 77101;
 
 TEST(VoxelSet, HoldsWhatWasPutIn) {
-  testing::Random random(kSeed);
+  testing::Random random(kSetSeed);
   for (int trial = 0; trial < 200; ++trial) {
     const VoxelSample sample(random);
     ASSERT_EQ(voxels_of(sample.set), sample.reference);
@@ -50,7 +50,7 @@ VoxelSet complement_in(const VoxelSet::Range& range, const VoxelSet& set) {
 }
 
 TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
-  testing::Random random(kSeed + 1);
+  testing::Random random(kSetSeed + 1);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     VoxelSet::Range range;
@@ -82,7 +82,7 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
 
 /// Copies that are changed separately are compared with sets that share nothing.
 TEST(VoxelSet, CopiesGoTheirOwnWays) {
-  testing::Random random(kSeed + 4);
+  testing::Random random(kSetSeed + 4);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<VoxelSample> samples{VoxelSample(random)};
     for (int step = 0; step < 8; ++step) {

@@ -13,10 +13,10 @@
 namespace camway::service {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kHistogramSeed = 20261122;
 
 TEST(LatencyHistogram, EveryDurationIsWithinTheBoundsOfItsBucket) {
-  testing::Random random(kSeed);
+  testing::Random random(kHistogramSeed);
   // From below the first bound to above the last.
   std::uniform_real_distribution<double> exponent(-20.0, 10.0);
   for (int trial = 0; trial < 10'000; ++trial) {

@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using Time = LimitedLog::Clock::time_point;
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kLogSeed = 20261122;
 const Time kBegin = Time{} + 1h;
 
 std::size_t lines_of(const std::string& text) {
@@ -62,7 +62,7 @@ TEST(LimitedLog, NoStretchOfTimeHoldsMoreThanTheLimitsSayAndNothingIsForgotten) 
   constexpr double kRate = 10.0;
   constexpr double kBurst = 5.0;
   LimitedLog limited(log.log(), LogLevel::kInfo, "x", {kRate, kBurst});
-  testing::Random random(kSeed);
+  testing::Random random(kLogSeed);
   std::vector<Time> logged;
   Time now = kBegin;
   std::size_t before = 0;

@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = FairQueue::Clock;
 
-constexpr std::uint64_t kSeed = 20060619;
+constexpr std::uint64_t kQueueSeed = 20060619;
 
 Job job_of(const std::string& client, Priority priority = Priority::kNormal,
            Clock::time_point expires = Clock::time_point::max()) {
@@ -216,7 +216,7 @@ TEST(FairQueue, AJobThatWaitsCanBeTakenOut) {
 }
 
 TEST(FairQueue, KnowsHowManyAreAheadIfNoMoreCome) {
-  testing::Random random(kSeed);
+  testing::Random random(kQueueSeed);
   for (int trial = 0; trial < 100; ++trial) {
     FairQueue queue(wide());
     std::vector<std::pair<std::string, std::int64_t>> jobs;
@@ -357,7 +357,7 @@ TEST(FairQueue, AClientHasNoMoreWorkersThanItsPart) {
 /// Compares with a simple model: one job of each strand at a time, each client's in order, of each
 /// client at most its quota; and a worker is idle only if no job may begin.
 TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
-  testing::Random random(kSeed);
+  testing::Random random(kQueueSeed);
   FairQueue queue({.jobs = 60, .jobs_of_a_client = 60, .running_of_a_client = 2});
   std::map<std::pair<std::string, std::string>, std::deque<std::int64_t>> waiting;
   std::deque<FairQueue::Begun> running;
@@ -397,7 +397,7 @@ TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
 
 // Checks invariants: no job is lost or doubled.
 TEST(FairQueue, EveryJobLeavesOnceWhateverHappens) {
-  testing::Random random(kSeed);
+  testing::Random random(kQueueSeed);
   FairQueue queue({.jobs = 20, .jobs_of_a_client = 6});
   std::deque<FairQueue::Begun> running;
   std::size_t in = 0;

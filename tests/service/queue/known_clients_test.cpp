@@ -12,7 +12,7 @@
 namespace camway::service {
 namespace {
 
-constexpr std::uint64_t kSeed = 20061112;
+constexpr std::uint64_t kClientsSeed = 20061112;
 
 std::string id_of(const char* kind, int number) { return kind + std::to_string(number); }
 
@@ -35,7 +35,7 @@ TEST(KnownClients, AFloodOfIdsForgetsOnlyThoseThatCameOnce) {
 
 /// Compares with two lists that are searched linearly.
 TEST(KnownClients, AgreesWithTheRuleWrittenOut) {
-  testing::Random random(kSeed);
+  testing::Random random(kClientsSeed);
   constexpr std::size_t kHalf = 5;
   KnownClients known(2 * kHalf);
   std::deque<std::string> once;  // the newest first

@@ -20,7 +20,7 @@ using base::Deadline;
 using collision::CollisionInterval;
 using collision::DetectOptions;
 
-constexpr unsigned kSeed = 20260914;
+constexpr unsigned kSearchSeed = 20260914;
 
 /// Time to bracket the end of an interval to a millimetre on these paths, which are never slower
 /// than 5 cm/s for long.
@@ -88,7 +88,7 @@ std::vector<double> touching_times_s(const scene::Mesh& mesh, const motion::Path
 
 // A search in parts misses no collision, and finds only those of a search of the whole path.
 TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
-  testing::Random random(kSeed);
+  testing::Random random(kSearchSeed);
   const scene::Mesh mesh = dust_mesh(random);
   const auto made = scene::make_snapshot("dust", mesh);
   ASSERT_TRUE(made.snapshot) << made.error;
@@ -126,7 +126,7 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
 // Collisions found before the deadline are kept. The test does not depend on the machine's speed:
 // it searches for a deadline between two of them.
 TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
-  testing::Random random(kSeed);
+  testing::Random random(kSearchSeed);
   const auto made = scene::make_snapshot("dust", dust_mesh(random));
   ASSERT_TRUE(made.snapshot) << made.error;
   const motion::Body body{motion::Camera{1.5, 1.2, 0.3}};
@@ -164,7 +164,7 @@ TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
 TEST(PathSearch, ADeadlineThatHasPassedLeavesNothingKnown) {
   const auto made = scene::make_snapshot("wall", wall_mesh());
   ASSERT_TRUE(made.snapshot) << made.error;
-  testing::Random random(kSeed);
+  testing::Random random(kSearchSeed);
   const motion::Path path = random_path(random);
   const PathSearch search =
       search_path({collision::Obstacles(*made.snapshot), motion::Body{motion::Camera{}}}, path,

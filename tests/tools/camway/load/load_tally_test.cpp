@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Pair;
 
-constexpr std::uint32_t kSeed = 2006;
+constexpr std::uint32_t kTallySeed = 2006;
 
 /// Returns the daemon's answer as the client reads it.
 PlanResponse answer_of(const planning::PlanResult& result) {
@@ -56,7 +56,7 @@ PlanResponse answer_of(const planning::PlanResult& result) {
 class LoadTallyTest : public ::testing::Test {
  protected:
   LoadTallyTest() {
-    camway::testing::Random random(kSeed);
+    camway::testing::Random random(kTallySeed);
     question_.name = "q.json";
     question_.expected = camway::testing::sample_result(5, random);
     question_.expected.status = planning::Status::kOk;
@@ -145,7 +145,7 @@ TEST(Percentiles, AreThoseOfTheSortedValues) {
   EXPECT_EQ(percentiles({3.0f}).p999, 3.0);
   std::vector<float> values;
   for (int i = 1; i <= 1000; ++i) values.push_back(static_cast<float>(i));
-  std::shuffle(values.begin(), values.end(), testing::Random(kSeed));
+  std::shuffle(values.begin(), values.end(), testing::Random(kTallySeed));
   const Percentiles p = percentiles(values);
   EXPECT_EQ(p.p50, 500.0);
   EXPECT_EQ(p.p99, 990.0);
