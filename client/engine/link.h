@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "client/messages/bytes.h"
+#include "lcmtypes/wire/pages.h"
 
 namespace lcm {
 class LCM;
@@ -20,6 +20,8 @@ struct ReceiveBuffer;
 }  // namespace lcm
 
 namespace camway {
+
+using wire::Bytes;
 
 using Clock = std::chrono::steady_clock;
 

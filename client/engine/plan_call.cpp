@@ -11,7 +11,6 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "client/engine/handler.h"
-#include "client/messages/plan_members.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 

@@ -40,6 +40,15 @@ bool is_answer(const PlanResponse& response) {
          response.status != Status::kOverloaded;
 }
 
+/// Returns the event that an answer came.
+WatchEvent answer_event(PlanResponse response) {
+  WatchEvent event;
+  event.kind = WatchEvent::Kind::kAnswer;
+  event.scene_revision = response.scene_revision;
+  event.answer = std::move(response);
+  return event;
+}
+
 /// Returns whether two events kBroken say the same of a path. Unrelated changes of the scene alone
 /// do not make a difference; that the scene is gone does.
 bool is_same_break(const WatchEvent& a, const WatchEvent& b) {
@@ -109,29 +118,31 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
     return;
   }
   const bool is_first = watched.held_revision < 0;
-  WatchEvent event;
-  event.kind = WatchEvent::Kind::kAnswer;
-  event.scene_revision = response.scene_revision;
-  event.answer = response;
   watched.held_revision = response.scene_revision;
   if (has_proof(response)) {
-    watched.is_broken = false;
-    to_acknowledge_.insert(request_id);
-    if (watched.refusal && !is_first) {
-      watched.untold = {std::move(event)};
-      return;
-    }
-    tell(watched, std::move(event));
-    if (watched.refusal) tell_lost(watched, *watched.refusal);
+    take_proof(watched, response, is_first);
+  } else if (!is_first && watched.serial != 0) {  // the previous path stays watched
+    tell(watched, answer_event(response));
+  } else {
+    end_without_proof(watched, response);
+  }
+}
+
+void WatchList::take_proof(Watched& watched, const PlanResponse& response, bool is_first) {
+  watched.is_broken = false;
+  to_acknowledge_.insert(watched.request.request_id);
+  if (watched.refusal && !is_first) {
+    watched.untold = {answer_event(response)};
     return;
   }
-  if (!is_first && watched.serial != 0) {  // the previous path stays watched
-    tell(watched, std::move(event));
-    return;
-  }
+  tell(watched, answer_event(response));
+  if (watched.refusal) tell_lost(watched, *watched.refusal);
+}
+
+void WatchList::end_without_proof(Watched& watched, const PlanResponse& response) {
   Watched last = std::move(watched);
-  remove(request_id);
-  tell(last, std::move(event));
+  remove(last.request.request_id);
+  tell(last, answer_event(response));
   WatchEvent end;
   end.kind = WatchEvent::Kind::kEnded;
   end.status = response.status;
@@ -153,11 +164,7 @@ void WatchList::take_answer(std::int64_t request_id, std::span<const std::uint8_
   watched.ask_at = Clock::time_point::max();
   watched.held_revision = response.scene_revision;
   if (has_proof(response)) watched.is_broken = false;
-  WatchEvent event;
-  event.kind = WatchEvent::Kind::kAnswer;
-  event.scene_revision = response.scene_revision;
-  event.answer = std::move(response);
-  tell(watched, std::move(event));
+  tell(watched, answer_event(std::move(response)));
 }
 
 void WatchList::take_offer(std::int64_t request_id, std::span<const std::uint8_t> bytes) {

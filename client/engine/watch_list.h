@@ -100,6 +100,10 @@ class WatchList {
 
   void ask(Watched& watched);
   void answered(std::int64_t request_id, const PlanResponse& response);
+  /// The answer has a proved path, which is watched from now on.
+  void take_proof(Watched& watched, const PlanResponse& response, bool is_first);
+  /// The answer has no proved path, and there is none before it: ends the watch.
+  void end_without_proof(Watched& watched, const PlanResponse& response);
   void take_state(const path_state_t& state, const watch_report_t& report, Clock::time_point now);
   void take_new_state(Watched& watched, const path_state_t& state, const watch_report_t& report,
                       Clock::time_point now);

@@ -12,8 +12,6 @@
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
 
-#include "client/messages/bytes.h"
-
 namespace camway {
 
 /// Returns the fault of a batch that cannot be sent, or nothing.

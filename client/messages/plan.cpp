@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "client/messages/plan.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "client/messages/members.h"
-#include "client/messages/plan_members.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/path_fault.h"
 
 namespace camway {
 namespace {
@@ -18,25 +16,6 @@ constexpr std::size_t kMaxKeyframes = 100'000;  // as in plan_request_t.lcm
 
 bool has_times(const PlanRequest& request) {
   return !request.keyframes.empty() && request.keyframes.front().time_s.has_value();
-}
-
-bool finite(const segment_t& segment) {
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  return is_finite(segment.t0_s) && is_finite(segment.t1_s) &&
-         std::all_of(&segment.position_m[0][0], &segment.position_m[0][0] + 4 * 3, is_finite) &&
-         std::all_of(&segment.orientation_wxyz[0][0], &segment.orientation_wxyz[0][0] + 7 * 4,
-                     is_finite);
-}
-
-/// Returns why segment `next` cannot follow `previous` in a path, or nothing.
-std::optional<std::string> fault_in_segment(const segment_t* previous, const segment_t& next) {
-  if (!finite(next)) return "holds numbers that are not finite";
-  if (!(next.t0_s < next.t1_s)) return "does not end after it begins";
-  // The daemon sends the same number twice, so that there is neither gap nor overlap.
-  if (previous != nullptr && previous->t1_s != next.t0_s) {
-    return "does not begin where the one before ends";
-  }
-  return std::nullopt;
 }
 
 /// Returns whether plan requests are answered with this status.
@@ -48,13 +27,7 @@ bool is_known(std::int32_t status) {
 /// Returns why the path and the report of an answer make no sense; nothing if they do.
 std::optional<std::string> fault_in(const plan_response_t& whole) {
   if (!is_known(whole.status)) return "status " + std::to_string(whole.status) + " is unknown";
-  const segment_t* previous = nullptr;
-  for (const segment_t& segment : whole.segments) {
-    if (const auto fault = fault_in_segment(previous, segment)) {
-      return "a segment of the path at " + std::to_string(segment.t0_s) + " s " + *fault;
-    }
-    previous = &segment;
-  }
+  if (std::string fault = wire::path_fault(whole.segments); !fault.empty()) return fault;
   for (const correction_t& correction : whole.corrections) {
     if (correction.method < correction_t::NONE || correction.method > correction_t::SHRINK) {
       return "a correction by method " + std::to_string(correction.method);
@@ -73,23 +46,16 @@ std::optional<std::string> fault_in_count(const std::string& field, std::size_t 
          " are allowed";
 }
 
-/// Returns the fault of a body with too many points or triangles. The daemon judges the values.
-std::optional<std::string> fault_in_form(const Body& body) {
-  if (body.shape == Body::Shape::kConvex) {
-    // An empty piece has a size on the wire all the same.
-    if (auto fault = fault_in_count("body.pieces_m", body.pieces_m.size(), wire::kMaxBodyPoints)) {
-      return fault;
-    }
-    std::size_t count = 0;
-    for (const auto& piece : body.pieces_m) count += piece.size();
-    return fault_in_count("points in body.pieces_m", count, wire::kMaxBodyPoints);
+/// Returns the fault of a keyframe whose time is set or not set unlike that of keyframe 0.
+std::optional<std::string> fault_in_times(const PlanRequest& request) {
+  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
+    if (request.keyframes[i].time_s.has_value() == has_times(request)) continue;
+    return "keyframes[" + std::to_string(i) + "].time_s: " +
+           (has_times(request) ? "is not set, that of keyframe 0 is"
+                               : "is set, that of keyframe 0 is not") +
+           "; all keyframes have a time, or none has";
   }
-  if (body.shape != Body::Shape::kMesh) return std::nullopt;
-  if (auto fault =
-          fault_in_count("body.vertices_m", body.vertices_m.size(), wire::kMaxBodyPoints)) {
-    return fault;
-  }
-  return fault_in_count("body.triangles", body.triangles.size(), wire::kMaxBodyTriangles);
+  return std::nullopt;
 }
 
 PlanResponse bad_answer(const plan_response_t& wire, const std::string& what) {
@@ -105,18 +71,20 @@ PlanResponse bad_answer(const plan_response_t& wire, const std::string& what) {
 }  // namespace
 
 std::optional<std::string> fault_in_form(const PlanRequest& request) {
-  if (auto fault = fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes)) return fault;
-  if (auto fault = fault_in_text("method", request.method, wire::kMaxMethodBytes)) return fault;
-  if (auto fault = fault_in_form(request.body)) return fault;
-  if (auto fault = fault_in_count("keyframes", request.keyframes.size(), kMaxKeyframes)) {
-    return fault;
-  }
-  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
-    if (request.keyframes[i].time_s.has_value() == has_times(request)) continue;
-    return "keyframes[" + std::to_string(i) + "].time_s: " +
-           (has_times(request) ? "is not set, that of keyframe 0 is"
-                               : "is set, that of keyframe 0 is not") +
-           "; all keyframes have a time, or none has";
+  const Body& body = request.body;
+  std::size_t points = 0;
+  for (const auto& piece : body.pieces_m) points += piece.size();
+  for (auto& fault :
+       {fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes),
+        fault_in_text("method", request.method, wire::kMaxMethodBytes),
+        // An empty piece has a size on the wire all the same.
+        fault_in_count("body.pieces_m", body.pieces_m.size(), wire::kMaxBodyPoints),
+        fault_in_count("points in body.pieces_m", points, wire::kMaxBodyPoints),
+        fault_in_count("body.vertices_m", body.vertices_m.size(), wire::kMaxBodyPoints),
+        fault_in_count("body.triangles", body.triangles.size(), wire::kMaxBodyTriangles),
+        fault_in_count("keyframes", request.keyframes.size(), kMaxKeyframes),
+        fault_in_times(request)}) {
+    if (fault) return fault;
   }
   return std::nullopt;
 }

@@ -9,12 +9,25 @@
 #include <string>
 #include <vector>
 
+#include <camway/plan_progress_t.hpp>
+#include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
-#include "client/messages/bytes.h"
 #include "lcmtypes/wire/pages.h"
 
 namespace camway {
+
+using wire::Bytes;
+
+/// Writes a request except its ids and its time of sending.
+void convert(const PlanRequest& mine, plan_request_t& wire);
+/// Reads a whole request that has a value in every option. Requires the counts of a body that add
+/// up.
+void convert(const plan_request_t& wire, PlanRequest& mine);
+/// Reads a whole answer except its path.
+void convert(const plan_response_t& wire, PlanResponse& mine);
+/// Reads a progress report. A stage that this client does not know becomes kWaiting.
+void convert(const plan_progress_t& wire, PlanProgress& mine);
 
 /// Returns the fault of a request that cannot be sent (the field and its limit), or nothing. The
 /// daemon checks the values, such as a zero quaternion.

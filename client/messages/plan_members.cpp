@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "client/messages/plan_members.h"
-
 #include <span>
 
-#include "client/messages/bounds.h"
 #include "client/messages/members.h"
+#include "client/messages/plan.h"
 
 namespace camway {
 namespace {
@@ -24,17 +22,6 @@ void convert(const Keyframe& mine, keyframe_t& wire) {
 }
 
 void convert(const keyframe_t& wire, Keyframe& mine) { convert_common(wire, mine); }
-
-void convert(const Orientation& mine, orientation_t& wire) {
-  static_assert(wire::lacks_only<orientation_t, Orientation>({"has_max_turn"}));
-  convert_common(mine, wire);
-  wire.has_max_turn = mine.max_turn_rad ? 1 : 0;
-}
-
-void convert(const orientation_t& wire, Orientation& mine) {
-  convert_common(wire, mine);
-  if (wire.has_max_turn == 0) mine.max_turn_rad.reset();
-}
 
 /// Writes the lists that the shape uses; the daemon refuses others.
 void convert(const Body& mine, body_t& wire) {
@@ -68,17 +55,15 @@ void convert(const body_t& wire, Body& mine) {
 
 void convert(const PlanRequest& mine, plan_request_t& wire) {
   static_assert(wire::lacks_only<plan_request_t, PlanRequest>(
-      {"client_id", "utime", "page", "num_pages", "correct_nothing", "has_times", "has_frame"}));
+      {"client_id", "utime", "page", "num_pages", "correct_nothing", "has_times"}));
   convert_common(mine, wire);
   wire.correct_nothing = mine.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = !mine.keyframes.empty() && mine.keyframes.front().time_s ? 1 : 0;
-  wire.has_frame = mine.frame ? 1 : 0;
   wire::set_counts(wire);
 }
 
 void convert(const plan_request_t& wire, PlanRequest& mine) {
   convert_common(wire, mine);
-  if (wire.has_frame == 0) mine.frame.reset();
   if (wire.has_times != 0) return;
   for (Keyframe& keyframe : mine.keyframes) keyframe.time_s.reset();
 }
@@ -87,23 +72,6 @@ void convert(const keyframe_t& wire, PathKeyframe& mine) {
   static_assert(wire::lacks_only<keyframe_t, PathKeyframe>({"origin"}));
   convert_common(wire, mine);
   mine.inserted = wire.origin == keyframe_t::ORIGIN_INSERTED;
-}
-
-void convert(const collision_interval_t& wire, CollisionInterval& mine) {
-  mine.t_begin_s = wire.t_begin_s;
-  mine.t_end_s = wire.t_end_s;
-  if (wire.has_witness == 0) return;
-  mine.witness = Witness{wire.witness_time_s,  wire.witness_object,  wire.witness_triangle,
-                         wire.witness_feature, wire.witness_depth_m, {}};
-  convert(wire.witness_point_m, mine.witness->point_m);
-}
-
-void convert(const correction_t& wire, Correction& mine) {
-  static_assert(wire::lacks_only<correction_t, Correction>(
-      {"tried_directions", "tried_paths", "tried_lattice_points", "tried_tree_samples"}));
-  convert_common(wire, mine);
-  mine.tried = {wire.tried_directions, wire.tried_paths, wire.tried_lattice_points,
-                wire.tried_tree_samples};
 }
 
 void convert(const keyframe_fault_t& wire, KeyframeFault& mine) {
@@ -117,15 +85,11 @@ void convert(const keyframe_fault_t& wire, KeyframeFault& mine) {
 
 void convert(const plan_response_t& wire, PlanResponse& mine) {
   static_assert(wire::lacks_only<plan_response_t, PlanResponse>(
-      {"client_id", "utime", "page", "num_pages", "has_measures_before", "has_measures",
-       "has_infeasibility", "keyframe_inside", "keyframe_outside", "has_cage", "proof_cage",
-       "motion_ms", "detect_ms", "correct_ms", "certify_ms", "total_ms", "segments",
-       "proof_triangles", "has_frame"}));
+      {"client_id", "utime", "page", "num_pages", "has_infeasibility", "keyframe_inside",
+       "keyframe_outside", "has_cage", "proof_cage", "motion_ms", "detect_ms", "correct_ms",
+       "certify_ms", "total_ms", "segments", "proof_triangles"}));
   convert_common(wire, mine);
   convert_common(wire, mine.timing);
-  if (wire.has_frame == 0) mine.frame.reset();
-  if (wire.has_measures_before == 0) mine.measures_before.reset();
-  if (wire.has_measures == 0) mine.measures.reset();
   if (wire.has_infeasibility == 0) return;
   convert_common(wire, mine.infeasibility.emplace());
   mine.infeasibility->triangles = wire.proof_triangles;

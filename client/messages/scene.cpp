@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "client/messages/bounds.h"
 #include "client/messages/members.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"

@@ -5,7 +5,6 @@
 
 #include <camway/status_t.hpp>
 
-#include "client/messages/bounds.h"
 #include "client/messages/members.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"

@@ -60,7 +60,7 @@ class ClearanceSearch {
     const SegmentMotion motion(segment);
     double width = 1.0;
     for (double u = 0.0; u < 1.0;) {
-      if (looks_++ % kLooksPerClock == 0 && deadline_.passed()) {
+      if (steps_++ % kStepsPerClock == 0 && deadline_.passed()) {
         timed_out_ = true;
         return false;
       }
@@ -69,14 +69,12 @@ class ClearanceSearch {
       const Stretch stretch = motion.around(u, end);
       const double reach_m = probe_.reach_m(stretch);
       const bool splittable = 0.5 * (u + end) > u && 0.5 * (u + end) < end;
-      if (std::isfinite(reach_m) && reach_m > kWorthACheck * target_reach_m_ && splittable) {
-        width *= std::max(target_reach_m_ / reach_m, kLargestShrink);
-        continue;
+      if (!is_too_long(reach_m, target_reach_m_) || !splittable) {
+        const Verdict verdict = settle(stretch, splittable);
+        if (verdict == Verdict::kTouches) return false;
+        if (verdict == Verdict::kSettled) u = end;
       }
-      const Verdict verdict = settle(stretch, splittable);
-      if (verdict == Verdict::kTouches) return false;
-      if (verdict == Verdict::kSettled) u = end;
-      width *= std::clamp(target_reach_m_ / reach_m, kLargestShrink, kLargestStep);
+      width *= width_factor(reach_m, target_reach_m_, kClearanceGrowth);
     }
     return true;
   }
@@ -126,18 +124,14 @@ class ClearanceSearch {
   // Chosen by measurement: none changes what is proved.
   static constexpr double kShare = 0.93;  // the true distance is at least this share
   static constexpr int kPlacesASegment = 8;
-  static constexpr double kWorthACheck = 1.5;   // share of the reach aimed at
   static constexpr double kApproach = 0.8;      // reach aimed at, as a share of the gap
-  static constexpr double kLargestStep = 4.0;   // largest growth of a width
   static constexpr double kLargestShare = 0.8;  // share of a reach that was too long
-  static constexpr double kLargestShrink = 1.0 / 64.0;
-  static constexpr unsigned kLooksPerClock = 16;
 
   Probe probe_;
   const base::Deadline& deadline_;
   double target_reach_m_ = std::numeric_limits<double>::infinity();
   double asked_m_ = 0.0;
-  unsigned looks_ = 0;
+  unsigned steps_ = 0;
   bool timed_out_ = false;
   double lower_m_ = kLargestClearance_m;
   double upper_m_ = kLargestClearance_m;

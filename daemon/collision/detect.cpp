@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "daemon/collision/open_interval.h"
 #include "daemon/collision/probe.h"
 #include "daemon/collision/step_control.h"
-#include "daemon/collision/witness.h"
 #include "daemon/motion/path/stretch.h"
 
 namespace camway::collision {
@@ -45,25 +45,59 @@ void join_close_intervals(std::vector<CollisionInterval>& intervals, double gap_
   if (!intervals.empty()) intervals.resize(kept + 1);
 }
 
-/// A stretch u0 <= u <= u1 of a segment, as parameters of the whole segment and not as control
-/// points of its own, so that rounding does not add up over subdivisions.
-struct Piece {
-  const Segment* segment;
-  double u0;
-  double u1;
-
-  [[nodiscard]] double middle() const { return 0.5 * (u0 + u1); }
-  /// False for a piece so short that its middle is one of its ends.
-  [[nodiscard]] bool splittable() const { return middle() > u0 && middle() < u1; }
-  [[nodiscard]] double begin_s() const { return motion::segment_time_s(*segment, u0); }
-  [[nodiscard]] double end_s() const { return motion::segment_time_s(*segment, u1); }
-};
-
 /// When a walk ends before the end of the path.
 enum class Goal : std::uint8_t {
   kAll,
   kFirst,  ///< at the end of the first interval
   kAny,    ///< at the first stretch that collides at its middle, or that is resolved
+};
+
+/// What is known of the obstacle in which the body is, from one step within a collision to the
+/// next. A step is proved to collide if one obstacle is hit everywhere on it. Looking for such an
+/// obstacle is expensive where there is none, so after each failure more steps pass before the next
+/// attempt.
+class HitTracker {
+ public:
+  explicit HitTracker(Probe& probe) : probe_(probe) {}
+
+  /// Forgets the obstacle, at the beginning of a collision.
+  void restart() {
+    proved_.reset();
+    checks_left_ = backoff_ = 0;
+  }
+
+  /// Returns whether the last stretch was proved to hit an obstacle.
+  [[nodiscard]] bool is_proved() const { return proved_.has_value(); }
+
+  /// Returns whether the obstacle that the last stretch was proved to hit is hit everywhere on this
+  /// one, too.
+  [[nodiscard]] bool stays(const Stretch& stretch) const {
+    return proved_ && probe_.surely_collides_with(*proved_, stretch);
+  }
+
+  /// Returns whether the body touches an obstacle at the middle of the stretch; tries at times to
+  /// prove that it hits one everywhere.
+  bool touches(const Stretch& stretch) {
+    proved_.reset();
+    const std::optional<std::uint32_t> touched = probe_.touched_in_the_middle(stretch, touched_);
+    if (!touched) return false;
+    touched_ = *touched;
+    if (checks_left_-- <= 0) {
+      proved_ = probe_.surely_hit(stretch);
+      backoff_ = proved_ ? 0 : std::min(2 * backoff_ + 1, kMostBackoff);
+      checks_left_ = backoff_;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kMostBackoff = 15;  // by measurement
+
+  Probe& probe_;
+  std::optional<std::uint32_t> proved_;  ///< obstacle that the last stretch was proved to hit
+  std::uint32_t touched_ = 0;            ///< obstacle that was touched last: tried first
+  int checks_left_ = 0;                  ///< checks until the next attempt of a proof
+  int backoff_ = 0;                      ///< checks between attempts after the next failure
 };
 
 // Walks the path from beginning to end in steps whose length follows the distance to the scene, and
@@ -73,6 +107,7 @@ class Detector {
  public:
   Detector(const Query& query, const base::Deadline& deadline, Goal goal)
       : probe_(query.obstacles, query.body, query.options.clearance_m),
+        hit_(probe_),
         options_(query.options),
         deadline_(deadline),
         goal_(goal) {}
@@ -100,7 +135,7 @@ class Detector {
     double width = all.u1 - all.u0;
     for (double u = all.u0; u < all.u1 && !finished_;) {
       if (out_of_time()) {
-        until_s_ = last_ ? begin_s_ : motion::segment_time_s(*all.segment, u);
+        until_s_ = open_.is_open() ? open_.begin_s() : motion::segment_time_s(*all.segment, u);
         return;
       }
       const Piece piece{all.segment, u, end_of_step(u, width, all.u1)};
@@ -108,13 +143,9 @@ class Detector {
       const Stretch stretch = motion.around(piece.u0, piece.u1);
       // Only the motion matters: splitting does not reduce the rounding.
       const double motion_m = probe_.reach_m(stretch) - probe_.rounding_m(stretch);
-      const bool too_long = std::isfinite(motion_m) && motion_m > kWorthACheck * target_reach_m_;
-      if (too_long && piece.splittable()) {
-        width *= std::max(target_reach_m_ / motion_m, kLargestShrink);
-        continue;
-      }
-      if (settle(piece, stretch)) u = piece.u1;
-      width *= std::clamp(target_reach_m_ / motion_m, kLargestShrink, kLargestStep);
+      const bool is_skipped = is_too_long(motion_m, target_reach_m_) && piece.splittable();
+      if (!is_skipped && settle(piece, stretch)) u = piece.u1;
+      width *= width_factor(motion_m, target_reach_m_, kDetectionGrowth);
     }
   }
 
@@ -122,7 +153,7 @@ class Detector {
 
   // Checks a piece and chooses the reach of the next; returns false if the piece was too long.
   bool settle(const Piece& piece, const Stretch& stretch) {
-    const Verdict inside = last_ ? settle_inside(piece, stretch) : Verdict::kUnknown;
+    const Verdict inside = open_.is_open() ? settle_inside(piece, stretch) : Verdict::kUnknown;
     if (inside != Verdict::kUnknown) return inside == Verdict::kSettled;
     const ProbeResult seen = look(piece, stretch, Probe::Way::kForwards);
     if (seen.free) {
@@ -140,7 +171,8 @@ class Detector {
       target_reach_m_ = kGrowthInCollision * seen.reach_m;
       return true;
     }
-    const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.joining_distance_m;
+    const bool counts =
+        open_.is_open() && seen.collides() && seen.motion_m() <= options_.joining_distance_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/goal_ == Goal::kAny);
       if (goal_ == Goal::kAny) close();
@@ -157,14 +189,14 @@ class Detector {
   // Measures the distance at the middle only if the piece will not be split.
   ProbeResult look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
     ProbeResult seen = probe_.check(stretch, /*margin_m=*/0.0, way);
-    const double largest_m = last_ ? options_.joining_distance_m : options_.tolerance_m;
+    const double largest_m = open_.is_open() ? options_.joining_distance_m : options_.tolerance_m;
     if (seen.motion_m() <= largest_m || !piece.splittable()) probe_.refine(stretch, seen);
     return seen;
   }
 
   // The reach below which a piece need not be split.
   [[nodiscard]] double least_reach_m(const ProbeResult& seen) const {
-    return last_ && seen.collides() ? options_.joining_distance_m : finest_m(seen);
+    return open_.is_open() && seen.collides() ? options_.joining_distance_m : finest_m(seen);
   }
 
   // Within a collision: extends it by a stretch that is proved to collide everywhere, or one that
@@ -174,7 +206,7 @@ class Detector {
     if (!std::isfinite(reach_m)) return Verdict::kUnknown;
     const double motion_m = reach_m - probe_.rounding_m(stretch);
     const bool is_short = motion_m <= options_.joining_distance_m || !piece.splittable();
-    if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
+    if (hit_.stays(stretch)) {
       extend(piece, 0.0, /*surely=*/true);
       target_reach_m_ = kGrowthInCollision * reach_m;
       return Verdict::kSettled;
@@ -183,17 +215,10 @@ class Detector {
       target_reach_m_ = std::max(0.5 * motion_m, kBelow * options_.joining_distance_m);
       return Verdict::kTooLong;
     }
-    hit_.reset();
-    const std::optional<std::uint32_t> touched = probe_.touched_in_the_middle(stretch, touched_);
-    if (!touched) return Verdict::kUnknown;
-    touched_ = *touched;
-    if (checks_left_-- <= 0) {
-      hit_ = probe_.surely_hit(stretch);
-      backoff_ = hit_ ? 0 : std::min(2 * backoff_ + 1, kMostBackoff);
-      checks_left_ = backoff_;
-    }
-    extend(piece, 0.0, hit_.has_value());
-    target_reach_m_ = hit_ ? kGrowthInCollision * reach_m : kBelow * options_.joining_distance_m;
+    if (!hit_.touches(stretch)) return Verdict::kUnknown;
+    extend(piece, 0.0, hit_.is_proved());
+    target_reach_m_ =
+        hit_.is_proved() ? kGrowthInCollision * reach_m : kBelow * options_.joining_distance_m;
     return Verdict::kSettled;
   }
 
@@ -207,8 +232,7 @@ class Detector {
   }
 
   bool out_of_time() {
-    // Reading the clock takes as long as a look-up in the distance field.
-    if (looks_++ % kLooksPerClock != 0 || !deadline_.passed()) return false;
+    if (steps_++ % kStepsPerClock != 0 || !deadline_.passed()) return false;
     timed_out_ = finished_ = true;
     return true;
   }
@@ -222,34 +246,26 @@ class Detector {
   }
 
   void extend(const Piece& piece, double gap_m, bool surely) {
-    if (!last_) {
-      begin_s_ = piece.begin_s();
-      closest_gap_m_ = std::numeric_limits<double>::infinity();
-      contacts_.clear();
-      hit_.reset();
-      checks_left_ = backoff_ = 0;
-    }
-    last_ = piece;
-    last_is_sure_ = surely;
-    if (gap_m <= 0.0 || gap_m < closest_gap_m_) {
-      if (closest_gap_m_ > 0.0) contacts_.clear();
-      closest_gap_m_ = std::min(closest_gap_m_, gap_m);
-      contacts_.push_back(piece);
-    }
+    if (!open_.is_open()) hit_.restart();
+    open_.extend(piece, gap_m, surely);
   }
 
   void close() {
-    if (!last_) return;
-    const SegmentMotion motion(*last_->segment);
+    if (!open_.is_open()) return;
+    const Piece last = open_.last();
+    const SegmentMotion motion(*last.segment);
     const double end_s =
-        last_is_sure_ ? last_->end_s() : last_not_free(motion, *last_).value_or(last_->end_s());
+        open_.is_last_sure() ? last.end_s() : last_not_free(motion, last).value_or(last.end_s());
+    const double begin_s = open_.begin_s();
     if (timed_out_) {
-      until_s_ = begin_s_;
+      until_s_ = begin_s;
       return;
     }
-    intervals_.push_back({begin_s_, end_s, std::nullopt});
-    if (goal_ == Goal::kAll) intervals_.back().witness = witness(0.5 * (begin_s_ + end_s));
-    last_.reset();
+    intervals_.push_back({begin_s, end_s, std::nullopt});
+    if (goal_ == Goal::kAll) {
+      intervals_.back().witness = open_.witness(probe_, 0.5 * (begin_s + end_s));
+    }
+    open_.close();
     finished_ = finished_ || goal_ != Goal::kAll;
   }
 
@@ -268,58 +284,30 @@ class Detector {
       }
       const double aim_m = std::max(next_reach_m(seen), kBelow * finest_m(seen));
       width = (part.u1 - part.u0) *
-              std::clamp(aim_m / seen.reach_m, kLargestShrink, seen.free ? kLargestStep : kBelow);
+              width_factor(seen.reach_m, aim_m, seen.free ? kDetectionGrowth : kBelow);
     }
     return std::nullopt;
   }
 
-  // The deepest contact of the piece whose middle is nearest to `time_s`.
-  std::optional<Witness> witness(double time_s) {
-    const auto distance_s = [&](const Piece& piece) {
-      return std::abs(motion::segment_time_s(*piece.segment, piece.middle()) - time_s);
-    };
-    const auto contact = std::ranges::min_element(contacts_, {}, distance_s);
-    if (contact == contacts_.end()) return std::nullopt;
-    const double u = contact->middle();
-    std::optional<Witness> found = deepest_contact(
-        probe_, SegmentMotion(*contact->segment).around(u, u), std::max(closest_gap_m_, 0.0));
-    if (found) found->time_s = motion::segment_time_s(*contact->segment, u);
-    return found;
-  }
-
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthACheck = 1.5;        // share of the reach aimed at
   static constexpr double kFinestShare = 0.1;        // share of the tolerance
   static constexpr double kBelow = 0.9;              // keeps rounding from exceeding a limit
   static constexpr double kGrowthInCollision = 2.0;  // after a stretch proved to collide
-  static constexpr double kLargestStep = 8.0;        // largest growth of a width
-  static constexpr double kLargestShrink = 1.0 / 64.0;
-  static constexpr unsigned kLooksPerClock = 16;
-  static constexpr int kMostBackoff = 15;  // checks between attempts to prove a collision
 
   Probe probe_;
+  HitTracker hit_;
   const DetectOptions& options_;
   const base::Deadline& deadline_;
   const Goal goal_;
 
   /// Reach of the next step, rounding apart.
   double target_reach_m_ = std::numeric_limits<double>::infinity();
-  unsigned looks_ = 0;
+  unsigned steps_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;
   double until_s_ = 0.0;
 
-  // State of the open interval.
-  std::optional<Piece> last_;
-  bool last_is_sure_ = false;
-  double begin_s_ = 0.0;
-  double closest_gap_m_ = 0.0;
-  std::optional<std::uint32_t> hit_;  ///< obstacle that the last stretch was proved to hit
-  std::uint32_t touched_ = 0;         ///< obstacle that was touched last: tried first
-  int checks_left_ = 0;               ///< checks until the next attempt of a proof
-  int backoff_ = 0;                   ///< checks between attempts after the next failure
-  std::vector<Piece> contacts_;
-
+  OpenInterval open_;
   std::vector<CollisionInterval> intervals_;
 };
 

@@ -142,6 +142,18 @@ double Probe::ball_depth_m(const motion::Stretch& stretch) const {
   return depth_m - body_.center_radius_m() * kRoundUp;
 }
 
+Probe::Depths Probe::least_depths() const {
+  Depths least;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      least.middle_m = std::min(least.middle_m, obstacles_.bounds.depth_m(placed_[i][k]));
+      least.first_m = std::min(least.first_m, obstacles_.bounds.depth_m(ends_[2 * i][k]));
+      least.last_m = std::min(least.last_m, obstacles_.bounds.depth_m(ends_[2 * i + 1][k]));
+    }
+  }
+  return least;
+}
+
 void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way way,
                          ProbeResult& result) {
   const double ball_m = body_.ball_radius_m();
@@ -159,23 +171,15 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
     if (!result.is_measured) result.gap_m = std::min(result.gap_m, all_inside_m - ball_m);
     return;
   }
-  double middle_m = std::numeric_limits<double>::infinity();
-  double first_m = middle_m;
-  double last_m = middle_m;
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      middle_m = std::min(middle_m, obstacles_.bounds.depth_m(placed_[i][k]));
-      first_m = std::min(first_m, obstacles_.bounds.depth_m(ends_[2 * i][k]));
-      last_m = std::min(last_m, obstacles_.bounds.depth_m(ends_[2 * i + 1][k]));
-    }
-  }
+  const Depths depth = least_depths();
   // A reach that is not a number fails both conditions.
-  const bool is_inside = result.reach_m < std::numeric_limits<double>::infinity() &&
-                         (middle_m > (result.reach_m + keep_m) * kRoundUp ||
-                          std::min(first_m, last_m) > (body.bend_m + keep_m) * kRoundUp);
+  const bool is_inside =
+      result.reach_m < std::numeric_limits<double>::infinity() &&
+      (depth.middle_m > (result.reach_m + keep_m) * kRoundUp ||
+       std::min(depth.first_m, depth.last_m) > (body.bend_m + keep_m) * kRoundUp);
   const bool is_bent = body.bend_m > scene::kStraightWay * result.reach_m;
-  const double change_m = last_m - first_m;
-  const double room_m = (is_inside ? last_m : first_m) - keep_m;
+  const double change_m = depth.last_m - depth.first_m;
+  const double room_m = (is_inside ? depth.last_m : depth.first_m) - keep_m;
   const double step_scale =
       !is_inside && is_bent ? 0.5 : scene::way_ahead(room_m, change_m, body.bend_m);
   if (result.free || !is_inside) {
@@ -183,9 +187,10 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
         result.free != is_inside ? step_scale : std::min(result.step_scale, step_scale);
   }
   result.contains = result.contains || surely_leaves(result.reach_m);
+  const double gap_m = depth.middle_m - ball_m;
   // Where no obstacle was near, what is left of the scene's gap is a lower bound, often 0.
   const bool is_alone = !is_inside && !result.is_measured;
-  result.gap_m = is_alone ? middle_m - ball_m : std::min(result.gap_m, middle_m - ball_m);
+  result.gap_m = is_alone ? gap_m : std::min(result.gap_m, gap_m);
   result.is_measured = result.is_measured || !is_inside;
   result.free = result.free && is_inside;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -152,6 +153,14 @@ class Probe {
   void check_bounds(const motion::Stretch& stretch, double margin_m, Way way, ProbeResult& result);
   /// Lower bound of the depth of the body's triangles inside the bounds.
   [[nodiscard]] double ball_depth_m(const motion::Stretch& stretch) const;
+  /// Least depths of the vertices inside the bounds, of the triangles that were moved last: at the
+  /// middle of the stretch, and at its ends in the direction of the check.
+  struct Depths {
+    double middle_m = std::numeric_limits<double>::infinity();
+    double first_m = std::numeric_limits<double>::infinity();
+    double last_m = std::numeric_limits<double>::infinity();
+  };
+  [[nodiscard]] Depths least_depths() const;
   /// The body on the stretch, or its triangles that may be within `within_m` of an obstacle at the
   /// middle; valid until it is placed again.
   scene::SweptBody move(const motion::Stretch& stretch, double within_m, Way way);

@@ -47,6 +47,22 @@ void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, bool
   }
 }
 
+/// Returns whether the object has the content that was read. Maps are never equal here: two may
+/// have the same faces, and differ in which side is solid.
+bool has_content(const scene::SceneObject& object, const scene::ImportResult& read) {
+  return !read.map && !object.source->map_O &&
+         scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object.source->parts_O.front().mesh);
+}
+
+std::shared_ptr<const scene::ObjectSource> source_of(scene::ImportResult read,
+                                                     const scene::ObjectOptions& options) {
+  if (read.map) {
+    return scene::make_map_source(std::move(read.map), std::move(read.report), options);
+  }
+  return scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh), std::move(read.report),
+                            options);
+}
+
 bool same(const SceneArgument& a, const SceneArgument& b) {
   return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
          a.options.import.up == b.options.import.up &&
@@ -156,16 +172,8 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
                {{"scene", scene.name}, {"reason", service::with_setting(read.error, read.limit)}});
     return false;
   }
-  // Maps are never equal here: two may have the same faces, and differ in which side is solid.
-  const bool is_same =
-      !read.map && !object->source->map_O &&
-      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->parts_O.front().mesh);
-  if (is_same) return true;
-  const std::shared_ptr<const scene::ObjectSource> source =
-      read.map
-          ? scene::make_map_source(std::move(read.map), std::move(read.report), before->options)
-          : scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh),
-                               std::move(read.report), before->options);
+  if (has_content(*object, read)) return true;
+  const auto source = source_of(std::move(read), before->options);
   const scene::StoreResult changed = store_.change(
       scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
       {.operation = "put", .object = scene.name});

@@ -107,85 +107,140 @@ int exit_code_of(service::RunOutcome outcome, const std::string& url, service::L
   return kExitLcm;
 }
 
+/// The parts of a daemon that serves, in the order in which they are made and needed.
+class ServingDaemon {
+ public:
+  ServingDaemon(const DaemonOptions& options, const std::shared_ptr<service::Log>& log)
+      : options_(options), log_(log), manager_(ServiceManager::from_environment()) {}
+
+  /// Opens the network, the keys and the page of metrics. Returns the exit code if one of them
+  /// cannot be opened, after having logged why.
+  std::optional<int> open() {
+    std::optional<int> code = open_network();
+    if (!code) code = open_keys();
+    if (!code) code = open_page_of_metrics();
+    return code;
+  }
+
+  /// Serves until a signal ends it. Returns the exit code. Requires that all is open.
+  int run(Reloader::Read read_again, scene::SceneStore& scenes, ConfiguredScenes& configured) {
+    if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
+      log_->info("removed uploads that a daemon left behind", {{"files", files}});
+    }
+    const service::Planner planner =
+        [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
+           const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); };
+    service::ServiceConfig config = options_.service;
+    config.claim_window = options_.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
+    service::Service service(transport(), scenes, std::move(config), planner, log_, hooks());
+    log_->info("serving", {{"url", options_.lcm_url},
+                           {"prefix", options_.service.prefix},
+                           {"workers", options_.service.workers},
+                           {"scene_workers", options_.service.scene_workers},
+                           {"queue", options_.service.queue.jobs},
+                           {"client_queue", options_.service.queue.jobs_of_a_client}});
+    Reloader reloader(options_, std::move(read_again), configured, reloads_, manager_, log_, auth_);
+    const SignalWaiter signals(
+        [&](int signal) {
+          log_->info("signal", {{"number", signal}});
+          service.request_stop();
+        },
+        [&] { reloader.request(); });
+    return exit_code_of(service.run(), options_.lcm_url, *log_);
+  }
+
+ private:
+  std::optional<int> open_network() {
+    const std::string other = url_of_environment();
+    if (!other.empty() && other != options_.lcm_url) {
+      log_->warn("LCM_DEFAULT_URL is set, but does not count",
+                 {{"LCM_DEFAULT_URL", other}, {"url", options_.lcm_url}});
+    }
+    base::Result<std::unique_ptr<service::Transport>> opened =
+        service::open_lcm_transport(options_.lcm_url, [log = log_](const std::string& reason) {
+          log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
+        });
+    if (!opened) {
+      log_->error("LCM cannot be used", {{"reason", opened.error}});
+      return kExitLcm;
+    }
+    network_ = *std::move(opened);
+    return std::nullopt;
+  }
+
+  std::optional<int> open_keys() {
+    base::Result<std::shared_ptr<wire::MessageAuth>> auth = open_auth(options_.auth);
+    if (!auth) {
+      log_->error("keys cannot be used",
+                  {{"setting", options_.where("auth.key_file")}, {"reason", auth.error}});
+      return kExitBadInput;
+    }
+    auth_ = *std::move(auth);
+    if (!auth_) return std::nullopt;
+    signing_.emplace(*network_, auth_, options_.auth.required,
+                     service::LimitedLog(log_, service::LogLevel::kWarn, "distrusted",
+                                         options_.service.log_limits));
+    log_->info("messages are signed",
+               {{"unsigned_ones", options_.auth.required ? "dropped" : "accepted"}});
+    return std::nullopt;
+  }
+
+  std::optional<int> open_page_of_metrics() {
+    base::Result<std::unique_ptr<HttpPage>> page = open_metrics(options_, latest_, log_);
+    if (!page) {
+      log_->error("there can be no page of metrics", {{"reason", page.error}});
+      return kExitMetrics;
+    }
+    metrics_ = *std::move(page);
+    if (metrics_) {
+      log_->info("page of metrics", {{"address", options_.metrics.ip}, {"port", metrics_->port()}});
+    }
+    return std::nullopt;
+  }
+
+  service::Transport& transport() {
+    return signing_ ? static_cast<service::Transport&>(*signing_) : *network_;
+  }
+
+  service::ServiceHooks hooks() {
+    service::ServiceHooks hooks;
+    hooks.ready = [this] { manager_.ready("serving"); };
+    hooks.stopping = [this] { manager_.stopping(); };
+    hooks.alive = [this] { manager_.alive(); };
+    hooks.status = [this](status_t& status) { complete(status); };
+    hooks.alive_period = manager_.alive_period();
+    return hooks;
+  }
+
+  /// Adds to a status what the service itself does not know.
+  void complete(status_t& status) {
+    if (signing_) {
+      add_distrusted(signing_->distrusted(), status);
+      signing_->tell_left_out();
+    }
+    status.signed_only = signing_ && options_.auth.required ? 1 : 0;
+    reloads_.add_to(status);
+    if (metrics_) latest_.set(status);
+  }
+
+  const DaemonOptions& options_;
+  const std::shared_ptr<service::Log>& log_;
+  std::unique_ptr<service::Transport> network_;
+  std::shared_ptr<wire::MessageAuth> auth_;        ///< null without keys
+  std::optional<service::AuthTransport> signing_;  ///< over the network, with keys
+  LatestStatus latest_;
+  std::unique_ptr<HttpPage> metrics_;  ///< null if the options ask for none
+  const ServiceManager manager_;
+  ReloadRecord reloads_;
+};
+
 }  // namespace
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
           ConfiguredScenes& configured, const std::shared_ptr<service::Log>& log) {
-  if (const std::string other = url_of_environment(); !other.empty() && other != options.lcm_url) {
-    log->warn("LCM_DEFAULT_URL is set, but does not count",
-              {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
-  }
-  const base::Result<std::unique_ptr<service::Transport>> opened =
-      service::open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
-        log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
-      });
-  if (!opened) {
-    log->error("LCM cannot be used", {{"reason", opened.error}});
-    return kExitLcm;
-  }
-  const base::Result<std::shared_ptr<wire::MessageAuth>> auth = open_auth(options.auth);
-  if (!auth) {
-    log->error("keys cannot be used",
-               {{"setting", options.where("auth.key_file")}, {"reason", auth.error}});
-    return kExitBadInput;
-  }
-  std::optional<service::AuthTransport> signing;
-  if (*auth) {
-    signing.emplace(**opened, *auth, options.auth.required,
-                    service::LimitedLog(log, service::LogLevel::kWarn, "distrusted",
-                                        options.service.log_limits));
-    log->info("messages are signed",
-              {{"unsigned_ones", options.auth.required ? "dropped" : "accepted"}});
-  }
-  service::Transport& transport = signing ? static_cast<service::Transport&>(*signing) : **opened;
-  LatestStatus latest;
-  const base::Result<std::unique_ptr<HttpPage>> metrics = open_metrics(options, latest, log);
-  if (!metrics) {
-    log->error("there can be no page of metrics", {{"reason", metrics.error}});
-    return kExitMetrics;
-  }
-  const ServiceManager manager = ServiceManager::from_environment();
-  ReloadRecord reloads;
-  service::ServiceHooks hooks;
-  hooks.ready = [&] { manager.ready("serving"); };
-  hooks.stopping = [&] { manager.stopping(); };
-  hooks.alive = [&] { manager.alive(); };
-  if (*metrics) {
-    log->info("page of metrics", {{"address", options.metrics.ip}, {"port", (*metrics)->port()}});
-  }
-  hooks.status = [&](status_t& status) {
-    if (signing) {
-      add_distrusted(signing->distrusted(), status);
-      signing->tell_left_out();
-    }
-    status.signed_only = signing && options.auth.required ? 1 : 0;
-    reloads.add_to(status);
-    if (*metrics) latest.set(status);
-  };
-  hooks.alive_period = manager.alive_period();
-  const service::Planner planner =
-      [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
-         const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); };
-  if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
-    log->info("removed uploads that a daemon left behind", {{"files", files}});
-  }
-  service::ServiceConfig config = options.service;
-  config.claim_window = options.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
-  service::Service service(transport, scenes, std::move(config), planner, log, std::move(hooks));
-  log->info("serving", {{"url", options.lcm_url},
-                        {"prefix", options.service.prefix},
-                        {"workers", options.service.workers},
-                        {"scene_workers", options.service.scene_workers},
-                        {"queue", options.service.queue.jobs},
-                        {"client_queue", options.service.queue.jobs_of_a_client}});
-  Reloader reloader(options, std::move(read_again), configured, reloads, manager, log, *auth);
-  const SignalWaiter signals(
-      [&](int signal) {
-        log->info("signal", {{"number", signal}});
-        service.request_stop();
-      },
-      [&] { reloader.request(); });
-  return exit_code_of(service.run(), options.lcm_url, *log);
+  ServingDaemon daemon(options, log);
+  if (const std::optional<int> code = daemon.open()) return *code;
+  return daemon.run(std::move(read_again), scenes, configured);
 }
 
 }  // namespace camway::process

@@ -27,7 +27,7 @@ constexpr std::size_t length_of() {
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Converts each member that a message and a struct have under the same name. Calls
+/// Converts each member of a message that has a partner in a struct (`Members`). Calls
 /// `io(from, to)` for the members.
 template <class Io, class From, class To>
 void convert_common(const Io& io, const From& from, To& to) {
@@ -38,8 +38,8 @@ void convert_common(const Io& io, const From& from, To& to) {
   }
 }
 
-/// Converts a struct that has every member of the message under the same name; otherwise it does
-/// not compile.
+/// Converts a struct that has a partner of every member of the message; otherwise it does not
+/// compile.
 template <class Io, class From, class To>
 void convert_whole(const Io& io, const From& from, To& to) {
   if constexpr (Described<From>) {
@@ -53,7 +53,7 @@ void convert_whole(const Io& io, const From& from, To& to) {
 /// Converts a value of a message to one of a struct, or the other way: numbers and enumerations by
 /// `static_cast`, arrays and lists by their elements, structs by their members. Calls
 /// `io(from, to)` for elements and members. Requires `to` as it is by default: lists are appended
-/// to. An empty optional leaves `to` as it is; no optional is empty afterwards.
+/// to. An empty optional leaves `to` as it is; none is empty afterwards, but by its flag `has_...`.
 template <class Io, class From, class To>
 void convert(const Io& io, const From& from, To& to) {
   if constexpr (Number<From> && Number<To>) {

@@ -159,18 +159,47 @@ class Generator:
 
 
 def members_header(structs):
-    """The members of every struct, as lcmtypes/wire/members.h describes them."""
+    """The members of every struct, as lcmtypes/wire/member.h describes them."""
     tables = []
     for name, members in sorted(structs.items()):
         counts = {m.sizes[0] for m in members if m.sizes}
         listed = [m for m in members if m.name not in counts]
+        names = [m.name for m in listed]
         tables.append(MEMBERS.format(
             name=name, all=",\n      ".join(described(name, m) for m in listed),
-            has=",\n      ".join(f"requires(Other& other) {{ other.{m.name}; }}" for m in listed),
-            common="\n    ".join(f"if constexpr (requires {{ other.{m.name}; }}) visit(message.{m.name}, other.{m.name});"
-                                 for m in listed)))
+            marks=",\n      ".join(f"Mark{{&{name}::{flag}, &{name}::{marked}}}"
+                                   for flag in names for marked in marked_by(flag, names)),
+            has=",\n      ".join(" || ".join(f"requires(const {name}& message, Other& other) {{ {form}; }}"
+                                            for form, _ in partners(n, names)) for n in names),
+            common="\n    ".join("\n    else ".join(f"if constexpr (requires {{ {form}; }}) {action}"
+                                                   for form, action in partners(n, names))
+                                for n in sorted(names, key=is_flag))))
     includes = "\n".join(f"#include <camway/{name}.hpp>" for name in sorted(structs))
     return MEMBERS_HEADER.format(includes=includes, tables="\n".join(tables))
+
+
+def is_flag(name):
+    return name.startswith("has_")
+
+
+def marked_by(flag, names):
+    """The members that a flag marks: has_x marks x, or else the members x_..."""
+    x = flag.removeprefix("has_")
+    return [n for n in names if is_flag(flag) and (n == x or x not in names and n.startswith(x + "_"))]
+
+
+def partners(name, names):
+    """The forms that a member may have in another struct, each with the statement that visits both: the same name; x.y
+    for x_y, if several members begin with x_; the optional that a flag marks."""
+    forms = [(f"other.{name}", f"visit(message.{name}, other.{name});")]
+    x, _, y = name.partition("_")
+    if y and not is_flag(name) and sum(n.startswith(x + "_") for n in names) > 1:
+        forms.append((f"group(other.{x})->{y}",
+                      f"{{ if (auto* part = group(other.{x})) visit(message.{name}, part->{y}); }}"))
+    if marked := marked_by(name, names):
+        optional = f"other.{marked[0] if len(marked) == 1 else name.removeprefix('has_')}"
+        forms.append((f"mark(message.{name}, {optional})", f"mark(message.{name}, {optional});"))
+    return forms
 
 
 def described(struct, member):
@@ -247,6 +276,8 @@ MEMBERS = """template <>
 struct Members<{name}> {{
   static constexpr auto kAll = std::make_tuple(
       {all});
+  static constexpr auto kMarks = std::make_tuple(
+      {marks});
   template <class Other>
   static constexpr std::array<bool, std::tuple_size_v<decltype(kAll)>> kHas{{
       {has}}};

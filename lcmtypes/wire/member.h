@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -47,13 +48,55 @@ template <class Message, class Element>
 List(const char*, std::vector<Element> Message::*, std::int32_t Message::*, int)
     -> List<Message, Element>;
 
+/// A flag `has_x`, and a member that counts only with it: `x`, or each of `x_...` if there is no
+/// `x`. Flag and member may be arrays, which go by elements.
+template <class FlagPointer, class Pointer>
+struct Mark {
+  FlagPointer flag;
+  Pointer member;
+};
+template <class FlagPointer, class Pointer>
+Mark(FlagPointer, Pointer) -> Mark<FlagPointer, Pointer>;
+
 /// The members of a wire type. The generated header specialises it:
 ///  - `kAll`: a tuple of `Plain`, `Text` and `List`, in wire order, counts left out;
-///  - `kHas<Other>`: for each element of `kAll`, whether the struct `Other` has a member of that
-///  name;
-///  - `common(message, other, visit)`: calls `visit` with both members for each name in common.
+///  - `kMarks`: a tuple of `Mark`;
+///  - `common(message, other, visit)`: calls `visit` with a member of the message and its partner
+///    in the struct `other`, for each that has one. The partner of `x` is `x`, that of `x_y` may be
+///    `x.y`. `has_x` follows from the optional `x` of `other`, or the other way round;
+///  - `kHas<Other>`: for each element of `kAll`, whether it has a partner.
 template <class Message>
 struct Members;
+
+/// Returns the struct that members of a message are a part of; null for an optional that is empty
+/// and cannot be filled.
+template <class Group>
+auto* group(Group& group) {
+  if constexpr (requires { group.has_value(); }) {
+    if constexpr (!std::is_const_v<Group>) {
+      if (!group) group.emplace();
+    }
+    return group ? &*group : nullptr;
+  } else {
+    return &group;
+  }
+}
+
+/// Writes the flag of an optional member.
+template <class Value>
+void mark(std::int8_t& flag, const std::optional<Value>& member) {
+  flag = member ? 1 : 0;
+}
+/// Empties an optional member that was read although its flag is not set.
+template <class Value>
+void mark(const std::int8_t& flag, std::optional<Value>& member) {
+  if (flag == 0) member.reset();
+}
+template <class Flag, std::size_t kCount, class List>
+requires requires(Flag& flag, List& members) { mark(flag, members[0]); }
+void mark(Flag (&flags)[kCount], List& members) {
+  for (std::size_t i = 0; i < kCount; ++i) mark(flags[i], members[i]);
+}
 
 template <class Message>
 concept Described = requires {
@@ -100,7 +143,53 @@ bool is_blank(const Member& member) {
   }
 }
 
-/// Whether `names` are those members of `Message` that `Other` does not have. For a
+/// Calls `visit(member, flag)` for a member that has a value although its flag is not set.
+template <class Flag, class Member, class Visit>
+void visit_unmarked(const Flag& flag, const Member& member, const Visit& visit) {
+  if constexpr (std::is_array_v<Flag>) {
+    for (std::size_t i = 0; i < std::extent_v<Flag>; ++i) visit_unmarked(flag[i], member[i], visit);
+  } else if (flag == 0 && !is_blank(member)) {
+    visit(member, flag);
+  }
+}
+/// Visits such members of a message and of the structs in it, but not of its lists.
+template <Described Message, class Visit>
+void visit_unmarked(const Message& message, const Visit& visit) {
+  std::apply(
+      [&](const auto&... marks) {
+        (visit_unmarked(message.*marks.flag, message.*marks.member, visit), ...);
+      },
+      Members<Message>::kMarks);
+  for_each_member<Message>([&](const auto& described) {
+    using Member = std::remove_cvref_t<decltype(message.*described.member)>;
+    if constexpr (Described<Member>) visit_unmarked(message.*described.member, visit);
+  });
+}
+
+/// Returns the path of the part of `whole` that has this address and size, for example
+/// "bounds.min_m[1]"; nothing if `whole` has no such part.
+template <class Whole>
+std::optional<std::string> path_of(const void* part, std::size_t size, const Whole& whole) {
+  if (&whole == part && sizeof(whole) == size) return "";
+  std::optional<std::string> path;
+  const auto look_in = [&](const auto& member, const std::string& name) {
+    if (path) return;
+    path = path_of(part, size, member);
+    if (path) path->insert(0, path->empty() || path->front() == '[' ? name : name + ".");
+  };
+  if constexpr (Described<Whole>) {
+    for_each_member<Whole>([&](const auto& described) {
+      look_in(whole.*described.member, std::string(described.name));
+    });
+  } else if constexpr (requires { whole[0]; } && !std::is_same_v<Whole, std::string>) {
+    for (std::size_t i = 0; i < std::size(whole); ++i) {
+      look_in(whole[i], "[" + std::to_string(i) + "]");
+    }
+  }
+  return path;
+}
+
+/// Whether `names` are those members of `Message` that have no partner in `Other`. For a
 /// `static_assert` beside `common`, which passes over them.
 template <Described Message, class Other>
 constexpr bool lacks_only(std::initializer_list<std::string_view> names) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace camway::collision {
 namespace {
@@ -60,6 +61,20 @@ TEST(StepControl, GrowsByTheLowerBoundOfAGapThatWasNotMeasured) {
   seen.gap_m = 5.0;
   EXPECT_GT(next_reach_m(seen), 1.0);
   EXPECT_LT(next_reach_m(seen), 5.0);
+}
+
+TEST(StepControl, FitsTheWidthToTheReach) {
+  EXPECT_EQ(width_factor(2.0, 1.0, kDetectionGrowth), 0.5);
+  EXPECT_EQ(width_factor(1.0, 100.0, kDetectionGrowth), kDetectionGrowth);
+  // A step that is mostly rounding must not shrink to nothing.
+  EXPECT_GT(width_factor(1.0, 0.0, kDetectionGrowth), 0.0);
+}
+
+TEST(StepControl, ChecksAStepOfUnknownReach) {
+  EXPECT_TRUE(is_too_long(2.0, 1.0));
+  EXPECT_FALSE(is_too_long(1.2, 1.0));
+  EXPECT_FALSE(is_too_long(std::numeric_limits<double>::infinity(), 1.0));
+  EXPECT_FALSE(is_too_long(std::numeric_limits<double>::quiet_NaN(), 1.0));
 }
 
 }  // namespace

@@ -24,7 +24,6 @@
 
 #include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
-#include "client/messages/plan_members.h"
 #include "client/messages/status.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/pages.h"

@@ -30,7 +30,7 @@ using testing_plan::planned;
 
 constexpr int kSamples = 5000;
 
-std::shared_ptr<const scene::Snapshot> snapshot_of(scene::Mesh mesh, const Bounds& bounds = {}) {
+std::shared_ptr<const scene::Snapshot> house_of(scene::Mesh mesh, const Bounds& bounds = {}) {
   scene::SnapshotOptions options;
   options.bounds = bounds;
   return scene::make_snapshot("house", std::move(mesh), options).snapshot;
@@ -70,7 +70,7 @@ double least_depth_m(const PlanResult& result, const motion::Camera& camera, con
 }
 
 TEST(PlanWithinBounds, GoesRoundTheWallInsteadOfUnderTheFloor) {
-  const auto snapshot = snapshot_of(house());
+  const auto snapshot = house_of(house());
   PlanRequest request = across_the_wall();
   const PlanResult under = planned(*snapshot, request);
   ASSERT_EQ(under.status, Status::kOk) << under.message;
@@ -92,9 +92,9 @@ TEST(PlanWithinBounds, OfTheSceneOrOfTheRequestAreTheSame) {
   Bounds floor;
   floor.min_W.y() = -0.05;
   PlanRequest request = across_the_wall();
-  const PlanResult by_scene = planned(*snapshot_of(house(), floor), request);
+  const PlanResult by_scene = planned(*house_of(house(), floor), request);
   request.options.bounds = floor;
-  const PlanResult by_request = planned(*snapshot_of(house()), request);
+  const PlanResult by_request = planned(*house_of(house()), request);
   ASSERT_EQ(by_scene.status, Status::kOk) << by_scene.message;
   EXPECT_GT(least_depth_m(by_scene, request.camera, floor), 0.0);
   ASSERT_EQ(by_scene.path.segments().size(), by_request.path.segments().size());
@@ -112,7 +112,7 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   shut.max_W.z() = 1.9;  // the wall ends beyond
   request.options.bounds = shut;
   request.options.orientation.rule = correction::OrientationRule::kKeep;  // fails sooner
-  const PlanResult result = planned(*snapshot_of(house()), request);
+  const PlanResult result = planned(*house_of(house()), request);
   EXPECT_EQ(result.status, Status::kPartial);
   EXPECT_FALSE(result.certificate.certified);
   EXPECT_THAT(result.message, HasSubstr("a way was found only beyond the bounds, by up to"));
@@ -124,7 +124,7 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   EXPECT_TRUE(may_have_way_beyond(request, late));
   // Without corrections there was no search for a way within the bounds.
   request.options.max_inserted_keyframes = 0;
-  EXPECT_THAT(planned(*snapshot_of(house()), request).message, Not(HasSubstr("beyond the bounds")));
+  EXPECT_THAT(planned(*house_of(house()), request).message, Not(HasSubstr("beyond the bounds")));
 }
 
 // A room without a door: bounds do not change the proof.
@@ -132,10 +132,10 @@ TEST(PlanWithinBounds, LeavesProofsOfInfeasibilityAsTheyAre) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, -1, -1}, {2.5, 1.5, 1});
   PlanRequest request = across_the_wall();
-  const PlanResult without = planned(*snapshot_of(mesh), request);
+  const PlanResult without = planned(*house_of(mesh), request);
   ASSERT_EQ(without.status, Status::kInfeasible) << without.message;
   request.options.bounds = {Vec3(-4, -4, -4), Vec3(4, 4, 4)};
-  const PlanResult with = planned(*snapshot_of(mesh), request);
+  const PlanResult with = planned(*house_of(mesh), request);
   EXPECT_EQ(with.status, Status::kInfeasible);
   EXPECT_EQ(with.infeasibility->triangles, without.infeasibility->triangles);
 }
@@ -149,7 +149,7 @@ TEST(PlanWithinBounds, BringsBackWhatInterpolationTakesBeyondThem) {
                        {2.0, {{0.2, 0.9, 0}, ahead}},
                        {3.0, {{2, 0, 0}, ahead}}};
   request.options.bounds.max_W.y() = 1.0;
-  const auto nothing = snapshot_of({});
+  const auto nothing = house_of({});
   PlanResult result = planned(*nothing, request);
   ASSERT_EQ(result.status, Status::kOk) << result.message;
   ASSERT_FALSE(result.collisions.empty()) << "it does not overshoot";
@@ -162,7 +162,7 @@ TEST(PlanWithinBounds, BringsBackWhatInterpolationTakesBeyondThem) {
 TEST(PlanWithinBounds, KeyframesBeyondThemAreNamedWithTheNearestPoseInside) {
   PlanRequest request = across_the_wall();
   request.options.bounds.max_W.x() = 1.0;
-  const PlanResult refused = planned(*snapshot_of({}), request);
+  const PlanResult refused = planned(*house_of({}), request);
   EXPECT_EQ(refused.status, Status::kInvalid);
   EXPECT_EQ(refused.keyframe, 1u);
   EXPECT_THAT(refused.message, HasSubstr("keyframes[1]: the near quadrilateral leaves the bounds"));
@@ -175,7 +175,7 @@ TEST(PlanWithinBounds, KeyframesBeyondThemAreNamedWithTheNearestPoseInside) {
   EXPECT_EQ(fault.free_pose->position.y(), 0.5);
 
   request.options.repair_keyframes = true;
-  const PlanResult repaired = planned(*snapshot_of({}), request);
+  const PlanResult repaired = planned(*house_of({}), request);
   EXPECT_EQ(repaired.status, Status::kOk) << repaired.message;
   EXPECT_GT(least_depth_m(repaired, request.camera, request.options.bounds), 0.0);
 }
@@ -184,11 +184,11 @@ TEST(PlanWithinBounds, RefusesThoseThatLeaveNoRoom) {
   PlanRequest request = across_the_wall();
   request.options.bounds.min_W.x() = 1.0;
   request.options.bounds.max_W.x() = 1.0;
-  EXPECT_THAT(planned(*snapshot_of({}), request).message, HasSubstr("options.bounds.min[0]"));
+  EXPECT_THAT(planned(*house_of({}), request).message, HasSubstr("options.bounds.min[0]"));
   request.options.bounds.max_W.x() = 2.0;
   Bounds elsewhere;
   elsewhere.max_W.x() = 0.5;
-  const PlanResult result = planned(*snapshot_of({}, elsewhere), request);
+  const PlanResult result = planned(*house_of({}, elsewhere), request);
   EXPECT_EQ(result.status, Status::kInvalid);
   EXPECT_THAT(result.message, HasSubstr("no room within the bounds of the scene"));
 }
@@ -196,7 +196,7 @@ TEST(PlanWithinBounds, RefusesThoseThatLeaveNoRoom) {
 // Bounds that nothing comes near change no number.
 TEST(PlanWithinBounds, ThatAreFarAwayLeaveFreePathsAsTheyAre) {
   PlanRequest request = across_the_wall();
-  const auto nothing = snapshot_of({});
+  const auto nothing = house_of({});
   const PlanResult without = planned(*nothing, request);
   request.options.bounds = {Vec3(-50, -50, -50), Vec3(50, 50, 50)};
   const PlanResult with = planned(*nothing, request);
@@ -213,7 +213,7 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
   int proved = 0;
   int corrected = 0;
   for (int run = 0; run < 36; ++run) {
-    const auto snapshot = snapshot_of(testing::scattered_triangles(random, 25, 0.2));
+    const auto snapshot = house_of(testing::scattered_triangles(random, 25, 0.2));
     PlanRequest request;
     request.camera = testing::small_camera();
     request.has_times = true;
@@ -246,20 +246,20 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
 TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   PlanRequest request = across_the_wall();
   request.options.bounds.max_W.y() = 2.0;
-  const auto before = snapshot_of({});
+  const auto before = house_of({});
   const PlanResult result = planned(*before, request);
   const auto watched = WatchedPath::of(request, result);
   ASSERT_TRUE(watched);
   EXPECT_TRUE(watched->collisions(collision::Obstacles(*before), base::Deadline::never()).empty());
   Bounds low;
   low.max_W.y() = 0.4;
-  const auto after = snapshot_of({}, low);
+  const auto after = house_of({}, low);
   const scene::SceneDifference change = scene::difference(*before, *after);
   EXPECT_FALSE(change.empty());
   EXPECT_TRUE(watched->may_meet(change));
   EXPECT_FALSE(watched->stays_free(change, base::Deadline::never()));
   EXPECT_EQ(watched->collisions(collision::Obstacles(*after), base::Deadline::never()).size(), 1u);
-  EXPECT_TRUE(scene::difference(*before, *snapshot_of({})).empty());
+  EXPECT_TRUE(scene::difference(*before, *house_of({})).empty());
 }
 
 }  // namespace

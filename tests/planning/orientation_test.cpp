@@ -5,6 +5,7 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/plan.h"
+#include "tests/planning/plan_fixture.h"
 #include "tests/support/orientation_oracle.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -17,14 +18,11 @@ using correction::OrientationRule;
 using geometry::Quat;
 using geometry::Vec3;
 using scene::Mesh;
+using testing_plan::snapshot_of;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFar = 4.0;
 constexpr double kEnough_s = 300.0;  // far from what it takes: no outcome depends on it
-
-std::shared_ptr<const scene::Snapshot> snapshot_of(Mesh mesh) {
-  return scene::make_snapshot("test", std::move(mesh)).snapshot;
-}
 
 // Returns a closed room with a wall across z, whose slit from end to end is 0.14 wide, at 30° from
 // the x axis: the only way is through the slit.

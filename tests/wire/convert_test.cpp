@@ -64,6 +64,89 @@ TEST(WireTypes, AnEmptyOptionalIsNotWritten) {
   EXPECT_TRUE(segment);
 }
 
+/// Structs that have optional members where messages have flags, and a struct where they have
+/// several members.
+struct Limits {
+  std::array<std::optional<double>, 3> min_m{};
+  std::array<std::optional<double>, 3> max_m{};
+};
+struct Witness {
+  double time_s = 0.0;
+  std::string object;
+  std::int32_t triangle = 0;
+  std::string feature;
+  double depth_m = 0.0;
+  std::array<double, 3> point_m{};
+};
+struct Interval {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  std::optional<Witness> witness;
+};
+
+TEST(WireTypes, AFlagSaysWhetherAnOptionalMemberIsSet) {
+  bounds_t wire{};
+  Io{}(Limits{{std::nullopt, 0.0, 2.0}, {}}, wire);
+  EXPECT_EQ(wire.has_min[0] + wire.has_max[0], 0);
+  EXPECT_EQ(wire.has_min[1] + wire.has_min[2], 2);
+  EXPECT_EQ(wire.min_m[2], 2.0);
+  wire.max_m[0] = 5.0;
+  Limits back;
+  Io{}(wire, back);
+  EXPECT_EQ(back.min_m[1], 0.0);
+  EXPECT_FALSE(back.min_m[0] || back.max_m[0]);
+}
+
+TEST(WireTypes, MembersOfOnePrefixAreAStruct) {
+  collision_interval_t wire{};
+  Io{}(Interval{1.0, 2.0, std::nullopt}, wire);
+  EXPECT_EQ(wire.has_witness, 0);
+  Io{}(Interval{1.0, 2.0, Witness{1.5, "chair", 7, "edge 2", 0.25, {3, 4, 5}}}, wire);
+  EXPECT_EQ(wire.has_witness, 1);
+  EXPECT_EQ(wire.witness_point_m[2], 5.0);
+  Interval back;
+  Io{}(wire, back);
+  ASSERT_TRUE(back.witness);
+  EXPECT_EQ(back.witness->object, "chair");
+  wire.has_witness = 0;
+  Interval without;
+  Io{}(wire, without);
+  EXPECT_FALSE(without.witness);
+}
+
+TEST(WireTypes, AMemberThatCountsNotIsFound) {
+  plan_request_t request{};
+  std::vector<std::optional<std::string>> found;
+  const auto note = [&](const auto& member, const auto& flag) {
+    found.push_back(path_of(&member, sizeof member, request));
+    found.push_back(path_of(&flag, sizeof flag, request));
+  };
+  request.bounds.has_max[1] = 1;
+  request.bounds.max_m[1] = 4.0;
+  visit_unmarked(request, note);
+  EXPECT_TRUE(found.empty());
+  request.bounds.max_m[2] = 4.0;
+  request.frame.begin.velocity_m_per_s[0] = 1.0;
+  visit_unmarked(request, note);
+  EXPECT_EQ(found, (std::vector<std::optional<std::string>>{"frame", "has_frame", "bounds.max_m[2]",
+                                                            "bounds.has_max[2]"}));
+}
+
+TEST(WireTypes, EveryPartOfAMessageHasAPath) {
+  plan_request_t request{};
+  request.keyframes.resize(3);
+  request.body.points_m = {{1, 2, 3}, {4, 5, 6}};
+  const auto path = [&](const auto& part) { return path_of(&part, sizeof part, request); };
+  EXPECT_EQ(path(request.seed), "seed");
+  EXPECT_EQ(path(request.orientation), "orientation");
+  EXPECT_EQ(path(request.orientation.policy), "orientation.policy");
+  EXPECT_EQ(path(request.keyframes[2].position_m[1]), "keyframes[2].position_m[1]");
+  EXPECT_EQ(path(request.body.points_m[1]), "body.points_m[1]");
+  EXPECT_EQ(path(request.body.points_m[1][2]), "body.points_m[1][2]");
+  EXPECT_EQ(path(request), "");
+  EXPECT_EQ(path(double{}), std::nullopt);
+}
+
 TEST(WireTypes, AMessageIsBlankAsLongAsNothingIsSet) {
   plan_request_t request{};
   EXPECT_TRUE(is_blank(request));

@@ -63,6 +63,15 @@ class GenerateLayout(unittest.TestCase):
             self.assertIn(expected, members)
         self.assertNotIn('"n"', members)
 
+    def test_flags_mark_members(self):
+        members = generate(a_t="  boolean has_x;\n  double x;\n  boolean has_y;\n  double y_m;\n  double y_s;\n  boolean has_z;"
+                               "\n  double z_m;\n  double x_too;")[4]
+        for expected in ("Mark{&a_t::has_x, &a_t::x}", "Mark{&a_t::has_y, &a_t::y_m}", "Mark{&a_t::has_y, &a_t::y_s}",
+                         "mark(message.has_x, other.x);", "mark(message.has_y, other.y);", "mark(message.has_z, other.z_m);",
+                         "visit(message.y_m, part->m);"):
+            self.assertIn(expected, members)
+        self.assertNotIn("&a_t::x_too}", members.replace('"x_too", &a_t::x_too}', ""))
+
     def test_refuses_with_file_and_line(self):
         for members, reason in (("  string s;", "the string s needs a limit"),
                                 ("  double p[n];\n  int32_t n;", "the count of p"),

@@ -83,47 +83,61 @@ OrderedJson answers_json(const std::array<std::int64_t, 16>& answers) {
   return json;
 }
 
+/// Returns what became of the requests.
+OrderedJson request_counts_json(const DaemonStatus& status) {
+  return {{"queued_requests", status.queued_requests},
+          {"running_requests", status.running_requests},
+          {"answered_requests", status.answered_requests},
+          {"repeated_requests", status.repeated_requests},
+          {"overloaded_requests", status.overloaded_requests},
+          {"malformed_messages", status.malformed_messages},
+          {"cache_hits", status.cache_hits},
+          {"dropped_answers", status.dropped_answers},
+          {"unsent_messages", status.unsent_messages},
+          {"request_pages_asked_again", status.request_pages_asked_again},
+          {"answer_pages_asked_again", status.answer_pages_asked_again},
+          {"scene_changes", status.scene_changes}};
+}
+
+/// Returns how many messages came and went, and how many were not trusted.
+OrderedJson message_counts_json(const DaemonStatus& status) {
+  return {{"unsigned_messages", status.unsigned_messages},
+          {"broken_envelopes", status.broken_envelopes},
+          {"unknown_key_messages", status.unknown_key_messages},
+          {"altered_messages", status.altered_messages},
+          {"stale_messages", status.stale_messages},
+          {"replayed_messages", status.replayed_messages},
+          {"crowded_messages", status.crowded_messages},
+          {"received_messages", status.received_messages},
+          {"received_bytes", status.received_bytes},
+          {"sent_messages", status.sent_messages},
+          {"sent_bytes", status.sent_bytes}};
+}
+
+/// Returns the answers by status, and how long they took.
+OrderedJson all_answers_json(const DaemonStatus& status) {
+  return {{"plan_answers", answers_json(status.plan_answers)},
+          {"occupancy_answers", answers_json(status.occupancy_answers)},
+          {"scene_answers", answers_json(status.scene_answers)},
+          {"receipt_to_answer", latency_json(status.receipt_to_answer)},
+          {"waiting", latency_json(status.waiting)},
+          {"planning", latency_json(status.planning)}};
+}
+
 OrderedJson status_json(const DaemonStatus& status) {
-  OrderedJson json{{"version", status.version},
-                   {"uptime_s", status.uptime_s},
-                   {"workers", status.num_workers},
-                   {"queued_requests", status.queued_requests},
-                   {"running_requests", status.running_requests},
-                   {"answered_requests", status.answered_requests},
-                   {"repeated_requests", status.repeated_requests},
-                   {"overloaded_requests", status.overloaded_requests},
-                   {"malformed_messages", status.malformed_messages},
-                   {"cache_hits", status.cache_hits},
-                   {"dropped_answers", status.dropped_answers},
-                   {"unsent_messages", status.unsent_messages},
-                   {"request_pages_asked_again", status.request_pages_asked_again},
-                   {"answer_pages_asked_again", status.answer_pages_asked_again},
-                   {"scene_changes", status.scene_changes},
-                   {"unsigned_messages", status.unsigned_messages},
-                   {"broken_envelopes", status.broken_envelopes},
-                   {"unknown_key_messages", status.unknown_key_messages},
-                   {"altered_messages", status.altered_messages},
-                   {"stale_messages", status.stale_messages},
-                   {"replayed_messages", status.replayed_messages},
-                   {"crowded_messages", status.crowded_messages},
-                   {"received_messages", status.received_messages},
-                   {"received_bytes", status.received_bytes},
-                   {"sent_messages", status.sent_messages},
-                   {"sent_bytes", status.sent_bytes},
-                   {"plan_answers", answers_json(status.plan_answers)},
-                   {"occupancy_answers", answers_json(status.occupancy_answers)},
-                   {"scene_answers", answers_json(status.scene_answers)},
-                   {"receipt_to_answer", latency_json(status.receipt_to_answer)},
-                   {"waiting", latency_json(status.waiting)},
-                   {"planning", latency_json(status.planning)},
-                   {"watched_paths", status.watched_paths},
-                   {"broken_paths", status.broken_paths},
-                   {"signed_only", status.signed_only},
-                   {"failed_reloads", status.failed_reloads},
-                   {"failed_reload_utime", status.failed_reload_utime},
-                   {"failed_reload", status.failed_reload},
-                   {"reload_failed", status.reload_failed},
-                   {"total_scenes", status.total_scenes}};
+  OrderedJson json{
+      {"version", status.version}, {"uptime_s", status.uptime_s}, {"workers", status.num_workers}};
+  json.update(request_counts_json(status));
+  json.update(message_counts_json(status));
+  json.update(all_answers_json(status));
+  json.update({{"watched_paths", status.watched_paths},
+               {"broken_paths", status.broken_paths},
+               {"signed_only", status.signed_only},
+               {"failed_reloads", status.failed_reloads},
+               {"failed_reload_utime", status.failed_reload_utime},
+               {"failed_reload", status.failed_reload},
+               {"reload_failed", status.reload_failed},
+               {"total_scenes", status.total_scenes}});
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
   return json;

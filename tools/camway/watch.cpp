@@ -251,6 +251,15 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
   return {is_watched ? ExitCode::kSuccess : ExitCode::kNegative};
 }
 
+constexpr char kEvents[] =
+    "Events: answer (the first path, a corrected one, or one that was taken), broken (the path "
+    "collides since a\nchange, and a corrected one is being planned), free (it is proved free "
+    "again), better (what was in the way\nis gone, and a better path is on offer; --take-better "
+    "takes it), withdrawn (it is not on offer any more),\nlost (the daemon does not watch for "
+    "now: it fell silent more than 3 s ago, or a limit of its [watch] is\nreached; we go on "
+    "trying, and say so once), watched (it does again, and what was said before holds).\nAt the "
+    "end, and when interrupted, the daemon is told to watch no more.\n";
+
 ExitCode invalid_input(std::string_view message) {
   print_error(message);
   return ExitCode::kInvalidInput;
@@ -319,13 +328,7 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
                     "Take each better path that the daemon offers");
   command->add_flag("--json", flags->json, "Print JSON, for machines: a line for each event");
   command->footer(
-      "Events: answer (the first path, a corrected one, or one that was taken), broken (the path "
-      "collides since a\nchange, and a corrected one is being planned), free (it is proved free "
-      "again), better (what was in the way\nis gone, and a better path is on offer; --take-better "
-      "takes it), withdrawn (it is not on offer any more),\nlost (the daemon does not watch for "
-      "now: it fell silent more than 3 s ago, or a limit of its [watch] is\nreached; we go on "
-      "trying, and say so once), watched (it does again, and what was said before holds).\nAt the "
-      "end, and when interrupted, the daemon is told to watch no more.\n" +
+      kEvents +
       exit_code_help("no path was proved, so there is nothing to watch; or nobody watched it at "
                      "the end",
                      /*asks_daemon=*/true) +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/support/client_request.h"
 
-#include "client/messages/bounds.h"
-#include "client/messages/plan_members.h"
+#include "client/messages/members.h"
+#include "client/messages/plan.h"
 #include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 

@@ -37,17 +37,20 @@ struct Weights {
   double bend;
 };
 
+/// Requires an objective other than `kClosest`.
 Weights weights_of(Objective objective, int count) {
   switch (objective) {
-    case Objective::kClosest:
     case Objective::kSafest:
       return {1.0, 0.0, std::pow(kSwerve * count, 4.0)};
     case Objective::kShortest:
       return {0.0, 1.0, std::pow(kRounding * count, 2.0)};
     case Objective::kSmoothest:
       return {0.0, 0.0, 1.0};
+    case Objective::kClosest:
+      break;  // has another form
   }
-  return {1.0, 0.0, 1.0};
+  assert(false);
+  return {};
 }
 
 /// The path, extended beyond its ends along its tangents: natural end conditions.
@@ -211,6 +214,8 @@ void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& 
 
 void SmoothingForm::bound_about(const StackedPoints& about) {
   assert(bend_weight_ > 0.0);
+  if (bound_at_ && *bound_at_ == about) return;  // the form would be the same
+  bound_at_ = about;
   std::vector<double> sizes_m;
   for (const OffsetPlace& place : places_) {
     sizes_m.push_back((place.offset + combined(place.value, about)).norm());

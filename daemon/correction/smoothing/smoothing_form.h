@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -118,7 +119,8 @@ class SmoothingForm {
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, const Closeness& closeness, const StackedPoints& about);
 
-  /// Makes the form the bound about other coefficients. Requires the objective `kClosest`.
+  /// Makes the form the bound about other coefficients, unless they are the same. Requires the
+  /// objective `kClosest`.
   void bound_about(const StackedPoints& about);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
@@ -144,8 +146,9 @@ class SmoothingForm {
     StackedPoint bending;  ///< its second derivative
   };
 
-  std::vector<OffsetPlace> places_;  ///< for `kClosest`
-  double bend_weight_ = 0.0;         ///< of squared second derivatives, for `kClosest`
+  std::vector<OffsetPlace> places_;        ///< for `kClosest`
+  double bend_weight_ = 0.0;               ///< of squared second derivatives, for `kClosest`
+  std::optional<StackedPoints> bound_at_;  ///< coefficients about which the form is, for `kClosest`
   Eigen::MatrixXd hessian_;
   StackedPoints slope_;  ///< gradient at zero
   double at_zero_ = 0.0;

@@ -84,13 +84,6 @@ void add(CubicPiece& piece, const BumpRow& row) {
 
 }  // namespace
 
-double bump_value(double knots) {
-  const double a = std::abs(knots);
-  if (a >= 2.0) return 0.0;
-  if (a >= 1.0) return (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0;
-  return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
-}
-
 CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows) {
   double begin_s = std::numeric_limits<double>::infinity();
   double end_s = -begin_s;

@@ -27,12 +27,6 @@ struct BumpRow {
 
 /// Peak of a bump with coefficient 1 on equidistant knots.
 inline constexpr double kBumpPeak = 2.0 / 3.0;
-/// Value of that bump one knot from its peak.
-inline constexpr double kBumpShoulder = 1.0 / 6.0;
-
-/// Value of a bump with coefficient 1 on equidistant knots, at a distance of `knots` steps from its
-/// peak.
-double bump_value(double knots);
 
 /// Returns `path` with all `rows` added, split at their knots. Pieces outside the supports are the
 /// same bit for bit; the parts of a split piece outside the supports are the same up to rounding.

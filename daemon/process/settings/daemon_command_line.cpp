@@ -75,9 +75,8 @@ void declare_setting(CLI::App& app, const std::string& flag, std::string_view ke
       ->type_name(setting().is_text() ? "WORD" : "NUMBER");
 }
 
-void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
-  app.set_version_flag("--version", "camwayd " + service::version_text());
-  app.footer(kFooter);
+/// Adds the flags for files: the configuration, and scenes, which are no settings.
+void declare_files(CLI::App& app, Raw& raw) {
   app.add_option("--config", raw.config_file,
                  "Configuration file (TOML); what is given on the command line goes before it")
       ->type_name("FILE");
@@ -92,6 +91,9 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "limit")
       ->type_name(kSceneArgumentForm)
       ->take_all();
+}
+
+void declare_settings(CLI::App& app, DaemonOptions& options) {
   declare_setting(app, "--scene-roots", "scenes.roots",
                   "Folders, with ':' between them, below which clients may have scene files read; "
                   "without them they can upload only; relative to the folder that this is started "
@@ -118,6 +120,13 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   declare_setting(app, "--log-level", "log.level", "What is logged on standard error", options);
   declare_setting(app, "--log-format", "log.format",
                   "How: text for people, or an object of JSON on each line", options);
+}
+
+void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
+  app.set_version_flag("--version", "camwayd " + service::version_text());
+  app.footer(kFooter);
+  declare_files(app, raw);
+  declare_settings(app, options);
 }
 
 ParsedOptions failed(std::vector<std::string> faults) {

@@ -114,6 +114,25 @@ struct Steps {
   greatest += (weight > 0.0F ? end : begin) * weight;
 }
 
+/// Adds the squared gaps along one axis of the body, which has these weights along the axes of the
+/// boxes. `above_from` and `below_from` are the distances of the frame's origin from the body's two
+/// sides, rounded down.
+[[gnu::always_inline]] inline void add_oblique_gaps(const ByteBoxes& boxes,
+                                                    const std::array<float, 3>& weights,
+                                                    float above_from, float below_from,
+                                                    Floats& sum) {
+  Floats least = {};
+  Floats greatest = {};
+  add_extremes(boxes, 0, weights[0], least, greatest);
+  add_extremes(boxes, 1, weights[1], least, greatest);
+  add_extremes(boxes, 2, weights[2], least, greatest);
+  const Floats above = least + above_from;
+  const Floats below = below_from - greatest;
+  Floats gap = above > below ? above : below;
+  gap = gap > 0.0F ? gap : Floats{};
+  sum += gap * gap;
+}
+
 [[gnu::always_inline]] inline void keep_near(const Floats& squared, int largest,
                                              double squared_reach_m2, BoxGaps& out) {
   std::memcpy(out.squared.data(), &squared, sizeof squared);
@@ -184,16 +203,7 @@ void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueS
   const HalfFloats z = __builtin_convertvector(axis_z, HalfFloats) * steps.share_of_largest[2];
   Floats sum = {};
   for (std::size_t k = 0; k < 3; ++k) {
-    Floats least = {};
-    Floats greatest = {};
-    add_extremes(boxes, 0, x[k], least, greatest);
-    add_extremes(boxes, 1, y[k], least, greatest);
-    add_extremes(boxes, 2, z[k], least, greatest);
-    const Floats above = least + above_from[k];
-    const Floats below = below_from[k] - greatest;
-    Floats gap = above > below ? above : below;
-    gap = gap > 0.0F ? gap : Floats{};
-    sum += gap * gap;
+    add_oblique_gaps(boxes, {x[k], y[k], z[k]}, above_from[k], below_from[k], sum);
   }
   Floats known;
   std::memcpy(&known, gaps.squared.data(), sizeof known);

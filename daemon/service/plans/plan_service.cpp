@@ -199,12 +199,7 @@ void PlanService::take(plan_request_t request) {
         take(std::move(request));
         return;
       }
-      ++core_.counters.repeated;
-      ++core_.counters.cache_hits;
-      core_.limited_log.answers.write(
-          "repeated answer",
-          {{"client", key.client_id}, {"request", key.request_id}, {"pages", found.pages->size()}});
-      send(key, found.pages);
+      repeat_answer(key, found.pages);
       return;
     case AnswerCache::Known::kConflict:
       answer_uncached(
@@ -215,6 +210,15 @@ void PlanService::take(plan_request_t request) {
       begin(std::make_shared<const plan_request_t>(std::move(request)), key);
       return;
   }
+}
+
+void PlanService::repeat_answer(const RequestKey& key, const Pages& pages) {
+  ++core_.counters.repeated;
+  ++core_.counters.cache_hits;
+  core_.limited_log.answers.write(
+      "repeated answer",
+      {{"client", key.client_id}, {"request", key.request_id}, {"pages", pages->size()}});
+  send(key, pages);
 }
 
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {

@@ -63,6 +63,8 @@ class PlanService {
     };
   }
   void take(plan_request_t request);
+  /// Sends an answer from the cache.
+  void repeat_answer(const RequestKey& key, const Pages& pages);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);
   void finish(const Pending& pending, const plan_response_t& answer, Pages pages);

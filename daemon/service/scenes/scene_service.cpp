@@ -13,6 +13,7 @@
 #include <camway/cancel_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
+#include "daemon/service/scenes/scene_answers.h"
 #include "daemon/service/scenes/scene_idle.h"
 #include "lcmtypes/wire/check.h"
 

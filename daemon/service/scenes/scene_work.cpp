@@ -16,6 +16,7 @@
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/voxels/map_scan.h"
+#include "daemon/service/scenes/scene_answers.h"
 #include "daemon/service/scenes/scene_content.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/checksum.h"
@@ -28,20 +29,6 @@ using geometry::Vec3;
 using scene::SceneChange;
 using Request = scene_request_t;
 using Answer = scene_response_t;
-
-/// Appends the elements from index `first` on that fit into a message.
-template <class Elements, class List, class Convert>
-std::int32_t put_list(const Elements& elements, std::int32_t first, const Convert& convert,
-                      const Answer& answer, List& list) {
-  auto size = static_cast<std::size_t>(answer.getEncodedSize());
-  for (std::size_t i = static_cast<std::size_t>(std::max(first, 0)); i < elements.size(); ++i) {
-    auto element = convert(elements[i]);
-    size += static_cast<std::size_t>(element._getEncodedSizeNoHash());
-    if (size > wire::kMaxMessageBytes) break;
-    list.push_back(std::move(element));
-  }
-  return static_cast<std::int32_t>(list.size());
-}
 
 std::int32_t status_of(scene::StoreFault fault) {
   switch (fault) {
@@ -85,9 +72,9 @@ class SceneOperation {
       case Request::UNLOAD:
         return unload();
       case Request::LIST:
-        return list();
+        return scene_list(request_, scenes_);
       case Request::DESCRIBE:
-        return describe();
+        return scene_description(request_, scenes_);
       case Request::PUT:
         return put();
       case Request::MOVE:
@@ -99,7 +86,7 @@ class SceneOperation {
       case Request::EXPORT:
         return export_map();
       case Request::HISTORY:
-        return history();
+        return scene_history(request_, scenes_);
       case Request::RESTORE:
         return restore();
       default:
@@ -119,12 +106,6 @@ class SceneOperation {
   [[nodiscard]] Answer refused(std::string_view reason, scene::Limit limit) const {
     if (limit == scene::Limit::kNone) return invalid(reason);
     return plain_scene_answer(request_, Answer::STATUS_LIMIT, with_setting(reason, limit));
-  }
-
-  [[nodiscard]] Answer unknown() const {
-    return plain_scene_answer(
-        request_, Answer::STATUS_UNKNOWN_SCENE,
-        fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
   }
 
   /// Returns the entry about this change in the history of the scene.
@@ -181,45 +162,9 @@ class SceneOperation {
   }
 
   Answer unload() {
-    if (!scenes_.remove(request_.scene, context_.ticket)) return unknown();
+    if (!scenes_.remove(request_.scene, context_.ticket))
+      return unknown_scene_answer(request_, scenes_);
     return plain_scene_answer(request_, Answer::STATUS_OK, "");
-  }
-
-  Answer list() {
-    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    const auto scenes = scenes_.list();
-    answer.first = request_.first;
-    answer.total = static_cast<std::int32_t>(scenes.size());
-    answer.num_scenes = put_list(
-        scenes, request_.first, [](const auto& scene) { return messages::scene_info_of(*scene); },
-        answer, answer.scenes);
-    return answer;
-  }
-
-  Answer describe() {
-    const auto snapshot = scenes_.find(request_.scene);
-    if (!snapshot) return unknown();
-    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    answer.scene = messages::scene_info_of(*snapshot);
-    answer.first = request_.first;
-    answer.total = static_cast<std::int32_t>(snapshot->objects.size());
-    answer.num_objects = put_list(
-        snapshot->objects, request_.first,
-        [](const auto& object) { return messages::object_on_wire(*object); }, answer,
-        answer.objects);
-    return answer;
-  }
-
-  Answer history() {
-    const scene::SceneStore::Kept kept = scenes_.kept(request_.scene);
-    if (!kept.newest) return unknown();
-    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    answer.scene = messages::scene_info_of(*kept.newest);
-    answer.first = request_.first;
-    answer.total = static_cast<std::int32_t>(kept.revisions.size());
-    answer.num_changes =
-        put_list(kept.revisions, request_.first, messages::change_on_wire, answer, answer.changes);
-    return answer;
   }
 
   Answer restore() {
@@ -237,7 +182,7 @@ class SceneOperation {
 
   Answer put() {
     const auto snapshot = scenes_.find(request_.scene);
-    if (!snapshot) return unknown();
+    if (!snapshot) return unknown_scene_answer(request_, scenes_);
     if (!messages::is_scene_name(request_.object) ||
         request_.object.size() > wire::kMaxPutNameBytes) {
       return invalid("object: must be of [A-Za-z0-9_.-]{1,64}");
@@ -261,7 +206,7 @@ class SceneOperation {
 
   Answer scan() {
     const auto snapshot = scenes_.find(request_.scene);
-    if (!snapshot) return unknown();
+    if (!snapshot) return unknown_scene_answer(request_, scenes_);
     const scene::SceneObject* const object = snapshot->find(request_.object);
     if (object == nullptr || !object->source->map_O) {
       return invalid(fmt::format("object: '{}' is no occupancy map of scene '{}'", request_.object,
@@ -283,7 +228,7 @@ class SceneOperation {
 
   Answer export_map() {
     const auto snapshot = scenes_.find(request_.scene);
-    if (!snapshot) return unknown();
+    if (!snapshot) return unknown_scene_answer(request_, scenes_);
     if (!snapshot->occupancy) {
       return plain_scene_answer(request_, Answer::STATUS_NO_MAP,
                                 "scene: it was loaded without an occupancy resolution");
@@ -326,16 +271,6 @@ class SceneOperation {
 };
 
 }  // namespace
-
-scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,
-                                    std::string_view message) {
-  scene_response_t answer{};
-  answer.client_id = request.client_id;
-  answer.request_id = request.request_id;
-  answer.status = status;
-  answer.message = messages::clipped(message, wire::kMaxTextBytes);
-  return answer;
-}
 
 bool only_looks(const scene_request_t& request) {
   return request.operation == scene_request_t::LIST ||

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <camway/scene_request_t.hpp>
@@ -13,10 +12,6 @@
 #include "daemon/service/scenes/uploads.h"
 
 namespace camway::service {
-
-/// Returns an answer that holds only ids, status and message.
-scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,
-                                    std::string_view message);
 
 /// Returns whether the operation is a query, which may be repeated at any time.
 bool only_looks(const scene_request_t& request);

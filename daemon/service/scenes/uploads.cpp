@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
@@ -42,49 +43,63 @@ Uploads::Taken Uploads::take(const upload_page_t& page, Clock::time_point now) {
   taken.status.request_id = page.request_id;
   taken.status.total_bytes = page.total_bytes;
   taken.status.checksum = page.checksum;
-  const auto refuse = [&](std::int32_t status, std::string message) {
-    taken.status.status = status;
-    taken.status.message = std::move(message);
-    return taken;
-  };
+  if (std::optional<Refusal> refusal = put(page, now, taken)) {
+    taken.status.status = refusal->status;
+    taken.status.message = std::move(refusal->message);
+  }
+  return taken;
+}
+
+/// Puts a page into its upload, and into `taken` whether to answer it, and with what. Returns why
+/// it was refused; nothing if it was not.
+std::optional<Uploads::Refusal> Uploads::put(const upload_page_t& page, Clock::time_point now,
+                                             Taken& taken) {
+  if (std::optional<Refusal> refusal = refusal_of(page)) return refusal;
+  const UploadKey key{page.client_id, page.total_bytes, page.checksum};
+  Upload* const upload = find_or_begin(key, now);
+  if (upload == nullptr) {
+    return Refusal{upload_status_t::STATUS_LIMIT,
+                   fmt::format("total_bytes: changes that wait read {} bytes of uploads, and {} "
+                               "are all that there may be (scenes.all_uploads_bytes); send it "
+                               "again later",
+                               read_bytes(), limits_.total_bytes)};
+  }
+  const bool is_last = add(page, *upload) && upload->missing == 0;
+  if (is_last && checksum_of(*upload) != page.checksum) {
+    forget(uploads_.find(key));
+    return Refusal{upload_status_t::STATUS_INVALID,
+                   "checksum: is not that of the pages together; send all of them again"};
+  }
+  taken.answer = page.num_bytes == 0 || is_last;
+  report(*upload, taken.status);
+  return std::nullopt;
+}
+
+/// Returns why a page is refused, whatever was uploaded before; nothing if it is not.
+std::optional<Uploads::Refusal> Uploads::refusal_of(const upload_page_t& page) const {
   if (page.total_bytes < 1) {
-    return refuse(upload_status_t::STATUS_INVALID, "total_bytes: must be at least 1");
+    return Refusal{upload_status_t::STATUS_INVALID, "total_bytes: must be at least 1"};
   }
   if (static_cast<std::size_t>(page.total_bytes) > limits_.bytes) {
-    return refuse(upload_status_t::STATUS_LIMIT,
-                  fmt::format("total_bytes: {} are more than the {} that an upload may have "
-                              "(scenes.upload_bytes)",
-                              page.total_bytes, limits_.bytes));
+    return Refusal{upload_status_t::STATUS_LIMIT,
+                   fmt::format("total_bytes: {} are more than the {} that an upload may have "
+                               "(scenes.upload_bytes)",
+                               page.total_bytes, limits_.bytes)};
   }
-  if (std::string fault = fault_of(page); !fault.empty()) {
-    return refuse(upload_status_t::STATUS_INVALID, std::move(fault));
-  }
-  const UploadKey key{page.client_id, page.total_bytes, page.checksum};
-  Upload* const found = find_or_begin(key, now);
-  if (found == nullptr) {
-    return refuse(
-        upload_status_t::STATUS_LIMIT,
-        fmt::format("total_bytes: changes that wait read {} bytes of uploads, and {} are "
-                    "all that there may be (scenes.all_uploads_bytes); send it again later",
-                    read_bytes(), limits_.total_bytes));
-  }
-  Upload& upload = *found;
+  std::string fault = fault_of(page);
+  if (fault.empty()) return std::nullopt;
+  return Refusal{upload_status_t::STATUS_INVALID, std::move(fault)};
+}
+
+/// Copies a page into its upload. Returns false if the page has no bytes, or is there already.
+bool Uploads::add(const upload_page_t& page, Upload& upload) {
   const auto number = static_cast<std::size_t>(page.page);
-  const bool is_new = page.num_bytes > 0 && !upload.has_page[number];
-  if (is_new) {
-    std::ranges::copy(page.bytes, upload.bytes->data() + page.page * kPage);
-    upload.has_page[number] = true;
-    upload.checksums[number] = page.page_checksum;
-    --upload.missing;
-    if (upload.missing == 0 && checksum_of(upload) != page.checksum) {
-      forget(uploads_.find(key));
-      return refuse(upload_status_t::STATUS_INVALID,
-                    "checksum: is not that of the pages together; send all of them again");
-    }
-  }
-  taken.answer = page.num_bytes == 0 || (is_new && upload.missing == 0);
-  report(upload, taken.status);
-  return taken;
+  if (page.num_bytes == 0 || upload.has_page[number]) return false;
+  std::ranges::copy(page.bytes, upload.bytes->data() + page.page * kPage);
+  upload.has_page[number] = true;
+  upload.checksums[number] = page.page_checksum;
+  --upload.missing;
+  return true;
 }
 
 /// Combines the checksums of the pages, which were checked: reading all bytes again could take a

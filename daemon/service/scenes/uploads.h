@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,14 @@ class Uploads {
     Clock::time_point touched;
   };
   using Map = std::map<UploadKey, Upload>;
+  struct Refusal {
+    std::int32_t status = 0;
+    std::string message;
+  };
 
+  std::optional<Refusal> put(const upload_page_t& page, Clock::time_point now, Taken& taken);
+  static bool add(const upload_page_t& page, Upload& upload);
+  [[nodiscard]] std::optional<Refusal> refusal_of(const upload_page_t& page) const;
   [[nodiscard]] std::string fault_of(const upload_page_t& page) const;
   Upload* find_or_begin(const UploadKey& key, Clock::time_point now);
   void forget(Map::iterator upload);

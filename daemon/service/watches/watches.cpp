@@ -80,13 +80,7 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
       bytes_ += position->second.bytes;
       end(position);
     }
-    core_.limited_log.refused.write(
-        "path is not watched",
-        {{"client", key.client_id}, {"request", key.request_id}, {"reason", limit}});
-    WatchReports report(core_, key.client_id, 0);
-    report.add(unwatched(key.request_id, path_state_t::REFUSED));
-    report.explain(limit);
-    report.finish();
+    refuse(key, limit);
     return false;
   }
   if (is_new) {
@@ -97,20 +91,35 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
   } else {
     keep_former(position->second, bytes);
   }
-  Watch& watch = position->second;
+  set_answer(position->second, answer, bytes);
+  make_news(position->second, now);
+  core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
+  return true;
+}
+
+/// Says that a path is not watched because of a limit.
+void Watches::refuse(const RequestKey& key, const std::string& limit) {
+  core_.limited_log.refused.write(
+      "path is not watched",
+      {{"client", key.client_id}, {"request", key.request_id}, {"reason", limit}});
+  WatchReports report(core_, key.client_id, 0);
+  report.add(unwatched(key.request_id, path_state_t::REFUSED));
+  report.explain(limit);
+  report.finish();
+}
+
+/// Makes the path of `answer` the one that is watched, and has it checked.
+void Watches::set_answer(Watch& watch, const WatchableAnswer& answer, std::size_t bytes) {
   watch.answer = answer;
   watch.bytes = bytes;
   bytes_ += bytes;
   watch.id = next_id_++;
-  keys_.emplace(watch.id, key);
+  keys_.emplace(watch.id, answer.key);
   watch.is_checked = false;
   watch.collisions.clear();
   watch.revision = answer.proved_in->revision;
   watch.answer_revision = static_cast<std::int64_t>(answer.proved_in->revision);
   checker_.watch(watch.id, answer.request->scene, answer.path, answer.proved_in);
-  make_news(watch, now);
-  core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
-  return true;
 }
 
 std::string Watches::limit_hit(const RequestKey& key, bool is_new, std::size_t bytes) const {

@@ -155,6 +155,8 @@ class Watches {
   void note_of_former(Watch& watch, const WatchChecker::Verdict& verdict, Clock::time_point now);
   void note_of_offer(Watch& watch, const WatchChecker::Verdict& verdict, Clock::time_point now);
   void apply_offers(Watch& watch, const watched_path_t& path);
+  void refuse(const RequestKey& key, const std::string& limit);
+  void set_answer(Watch& watch, const WatchableAnswer& answer, std::size_t bytes);
   void make_room(Watch& watch, std::size_t bytes);
   void keep_former(Watch& watch, std::size_t next_bytes);
   void forget_former(Watch& watch, std::size_t which);

@@ -295,6 +295,16 @@ TEST(PlanCollector, ReadsWitnesses) {
   EXPECT_EQ(witness.point_m, (std::array<double, 3>{0, 0, 3}));
 }
 
+/// Returns the answer that the client reads from the pages, the last of which comes first.
+PlanResponse response_of(const std::vector<plan_response_t>& pages) {
+  PlanCollector collector("me", 7);
+  for (auto page = pages.rbegin(); page != pages.rend(); ++page) {
+    collector.take(wire::encode(*page));
+  }
+  EXPECT_TRUE(collector.complete());
+  return collector.response();
+}
+
 TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   std::vector<plan_response_t> pages = answer_pages(wire_request(), 2, 1);
   for (plan_response_t& page : pages) {
@@ -305,15 +315,6 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
     page.measures.length_m = 7.0;
     page.measures.largest_turn_acceleration_rad_per_s2 = 8.0;
     page.measures.clearance_lower_bound_m = 9.0;
-    page.has_infeasibility = 1;
-    page.keyframe_inside = 3;
-    page.keyframe_outside = 1;
-    page.has_cage = 1;
-    page.proof_cage.orientation_wxyz[3] = 1.0;
-    page.proof_cage.min_m[1] = 2.0;
-    page.proof_cage.max_m[2] = 3.0;
-    page.proof_cage.widest_hole_m = 0.0625;
-    page.proof_cage.shortest_chord_m = 0.25;
   }
   correction_t correction{};
   correction.t_end_s = 0.5;
@@ -327,29 +328,13 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   correction.tried_tree_samples = 4;
   pages[0].corrections = {correction};
   pages[0].num_corrections = 1;
-  pages[0].proof_triangles = {2, 4};
-  pages[0].num_proof_triangles = 2;
-  keyframe_fault_t fault{};
-  fault.keyframe = 4;
-  fault.depth_m = 0.5;
-  fault.has_free_pose = 1;
-  fault.free_position_m[2] = 3.0;
-  fault.free_orientation_wxyz[0] = 1.0;
-  pages[1].keyframe_faults = {fault, keyframe_fault_t{}};
-  pages[1].num_keyframe_faults = 2;
-  pages[1].proof_triangles = {6};
-  pages[1].num_proof_triangles = 1;
   for (const std::size_t page : {0U, 1U}) {
     slowed_stretch_t slowed{};
     slowed.given_t_end_s = 2.5 + static_cast<double>(page);
     pages[page].slowed = {slowed};
     pages[page].num_slowed = 1;
   }
-  PlanCollector collector("me", 7);
-  collector.take(wire::encode(pages[1]));
-  collector.take(wire::encode(pages[0]));
-  ASSERT_TRUE(collector.complete());
-  const PlanResponse response = collector.response();
+  const PlanResponse response = response_of(pages);
   ASSERT_TRUE(response.ok()) << response.error;
   ASSERT_EQ(response.slowed.size(), 2u);
   EXPECT_EQ(response.slowed[0].given_t_end_s, 2.5);
@@ -372,12 +357,45 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.near_scale, 0.75);
   EXPECT_EQ(response.time_scale, 1.25);
   EXPECT_TRUE(response.deadline_reached);
+}
+
+TEST(PlanCollector, ReadsFaultsOfKeyframes) {
+  std::vector<plan_response_t> pages = answer_pages(wire_request(), 2, 1);
+  keyframe_fault_t fault{};
+  fault.keyframe = 4;
+  fault.depth_m = 0.5;
+  fault.has_free_pose = 1;
+  fault.free_position_m[2] = 3.0;
+  fault.free_orientation_wxyz[0] = 1.0;
+  pages[1].keyframe_faults = {fault, keyframe_fault_t{}};
+  pages[1].num_keyframe_faults = 2;
+  const PlanResponse response = response_of(pages);
   ASSERT_EQ(response.keyframe_faults.size(), 2u);
   EXPECT_EQ(response.keyframe_faults[0].keyframe, 4);
   EXPECT_EQ(response.keyframe_faults[0].depth_m, 0.5);
   ASSERT_TRUE(response.keyframe_faults[0].free_pose);
   EXPECT_EQ(response.keyframe_faults[0].free_pose->position_m[2], 3.0);
   EXPECT_FALSE(response.keyframe_faults[1].free_pose);
+}
+
+TEST(PlanCollector, ReadsTheProofThatThereIsNoPathOverAllPages) {
+  std::vector<plan_response_t> pages = answer_pages(wire_request(), 2, 1);
+  for (plan_response_t& page : pages) {
+    page.has_infeasibility = 1;
+    page.keyframe_inside = 3;
+    page.keyframe_outside = 1;
+    page.has_cage = 1;
+    page.proof_cage.orientation_wxyz[3] = 1.0;
+    page.proof_cage.min_m[1] = 2.0;
+    page.proof_cage.max_m[2] = 3.0;
+    page.proof_cage.widest_hole_m = 0.0625;
+    page.proof_cage.shortest_chord_m = 0.25;
+  }
+  pages[0].proof_triangles = {2, 4};
+  pages[0].num_proof_triangles = 2;
+  pages[1].proof_triangles = {6};
+  pages[1].num_proof_triangles = 1;
+  const PlanResponse response = response_of(pages);
   ASSERT_TRUE(response.infeasibility);
   EXPECT_EQ(response.infeasibility->keyframe_inside, 3);
   EXPECT_EQ(response.infeasibility->keyframe_outside, 1);

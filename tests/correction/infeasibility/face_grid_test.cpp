@@ -275,33 +275,38 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
   EXPECT_GT(cut, 200);
 }
 
-// Triangles in the plane of the face that share edges, overlap, or occur twice: each point of a
-// blocked cell is on one of them.
+// Returns triangles in the plane of the face that share edges, overlap, or occur twice.
+GridCase flat_case(RandomCases& random) {
+  GridCase c;
+  c.axis = random.axis();
+  c.at = random.uniform(-1, 1);
+  const int count = static_cast<int>(random.uniform(1, 6));
+  for (int i = 0; i < count; ++i) {
+    std::array<Vec3, 3> corners;
+    for (Vec3& p : corners) {
+      p = random.vector();
+      const bool is_shared = !c.mesh.vertices.empty() && random.one_of(2);
+      if (is_shared) p = c.mesh.vertices[c.mesh.vertices.size() / 2];
+      p[c.axis] = c.at;
+    }
+    testing::add_triangle(c.mesh, corners[0], corners[1], corners[2]);
+    if (random.one_of(5)) testing::add_triangle(c.mesh, corners[1], corners[0], corners[2]);
+  }
+  for (std::uint32_t t = 0; t < c.mesh.triangles.size(); ++t) c.triangles.push_back(t);
+  if (random.one_of(2)) {
+    c.margin_m = Vec3::Constant(random.uniform(0.001, 0.02));
+    c.margin_m[c.axis] = 0.0;
+  }
+  random.add_lines(c);
+  return c;
+}
+
+// Each point of a blocked cell is on one of the triangles.
 TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
   RandomCases random(32);
   int blocked = 0;
   for (int trial = 0; trial < 120; ++trial) {
-    GridCase c;
-    c.axis = random.axis();
-    c.at = random.uniform(-1, 1);
-    const int count = static_cast<int>(random.uniform(1, 6));
-    for (int i = 0; i < count; ++i) {
-      std::array<Vec3, 3> corners;
-      for (Vec3& p : corners) {
-        p = random.vector();
-        const bool is_shared = !c.mesh.vertices.empty() && random.one_of(2);
-        if (is_shared) p = c.mesh.vertices[c.mesh.vertices.size() / 2];
-        p[c.axis] = c.at;
-      }
-      testing::add_triangle(c.mesh, corners[0], corners[1], corners[2]);
-      if (random.one_of(5)) testing::add_triangle(c.mesh, corners[1], corners[0], corners[2]);
-    }
-    for (std::uint32_t t = 0; t < c.mesh.triangles.size(); ++t) c.triangles.push_back(t);
-    if (random.one_of(2)) {
-      c.margin_m = Vec3::Constant(random.uniform(0.001, 0.02));
-      c.margin_m[c.axis] = 0.0;
-    }
-    random.add_lines(c);
+    const GridCase c = flat_case(random);
     FaceGrid grid(c.axis, c.at, c.lines, c.margin_m);
     grid.block_flat(c.mesh, c.mesh, c.triangles);
     const auto u_axis = (c.axis + 1) % 3;

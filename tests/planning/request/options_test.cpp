@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "daemon/motion/spline/derive_times.h"
+
 namespace camway::planning {
 namespace {
 
@@ -64,6 +66,10 @@ TEST(OptionTable, IsThatOfTheDocuments) {
   }
   EXPECT_EQ(rows.size(), expected_rows().size())
       << "docs/requests.md has an option that does not exist";
+}
+
+TEST(OptionTable, NamesTheSpeedThatDerivedTimesHave) {
+  EXPECT_EQ(option::kDefaultSpeed.unset, fmt::format("{}", motion::kNominalSpeed_m_per_s));
 }
 
 TEST(OptionTable, KindsOfCorrectionHaveTheNamesOfTheirRoom) {

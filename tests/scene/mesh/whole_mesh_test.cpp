@@ -13,7 +13,7 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-Triangle at(double x) { return {Vec3(x, 0, 0), Vec3(x, 1, 0), Vec3(x, 0, 1)}; }
+Triangle triangle_at(double x) { return {Vec3(x, 0, 0), Vec3(x, 1, 0), Vec3(x, 0, 1)}; }
 
 std::shared_ptr<const Mesh> mesh_with(const std::vector<Triangle>& triangles,
                                       std::vector<MeshObject> objects) {
@@ -24,13 +24,13 @@ std::shared_ptr<const Mesh> mesh_with(const std::vector<Triangle>& triangles,
 
 WholeMesh of_three() {
   return WholeMesh(
-      {{"house", {mesh_with({at(0), at(1), at(2)}, {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})}},
+      {{"house", {mesh_with({triangle_at(0), triangle_at(1), triangle_at(2)}, {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})}},
        {"nothing", {mesh_with({}, {})}},
-       {"table", {mesh_with({at(3)}, {{"top", 0, 1}})}}});
+       {"table", {mesh_with({triangle_at(3)}, {{"top", 0, 1}})}}});
 }
 
 TEST(WholeMesh, IsItsOnlyMeshItself) {
-  const auto mesh = mesh_with({at(0)}, {{"sofa", 0, 1}});
+  const auto mesh = mesh_with({triangle_at(0)}, {{"sofa", 0, 1}});
   const WholeMesh whole(mesh);
   EXPECT_EQ(whole.share(), mesh);
   EXPECT_EQ(whole.object_name(0), "sofa");
@@ -42,7 +42,7 @@ TEST(WholeMesh, NumbersTrianglesThrough) {
   const WholeMesh whole = of_three();
   ASSERT_EQ(whole->triangles.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(whole->triangle(i), at(static_cast<double>(i))) << i;
+    EXPECT_EQ(whole->triangle(i), triangle_at(static_cast<double>(i))) << i;
   }
   EXPECT_EQ(whole.share(), WholeMesh(whole).share()) << "copies share the mesh";
 }

@@ -19,7 +19,7 @@ using geometry::Quat;
 using geometry::Vec3;
 using ChangeKind = SceneChange::Kind;
 
-Placement at(const Vec3& position) {
+Placement placed_at(const Vec3& position) {
   std::string fault;
   return Placement::make(position, Quat::Identity(), fault);
 }
@@ -58,7 +58,7 @@ TEST(SceneDifference, IsWhatComparingAllObjectsSays) {
       const std::string name(1, static_cast<char>('a' + random() % 6));
       const ChangeKind kind = static_cast<ChangeKind>(random() % 3);
       store.change("room", {kind, name, kind == ChangeKind::kPut ? box(0.5) : nullptr,
-                            at({place(random), place(random), place(random)})});
+                            placed_at({place(random), place(random), place(random)})});
     }
     const auto after = store.find("room");
     const SceneDifference found = difference(*before, *after);
@@ -85,7 +85,7 @@ TEST(SceneDifference, IsWhatComparingAllObjectsSays) {
 TEST(SceneDifference, OfARevisionToItselfIsNone) {
   SceneStore store;
   store.put(assemble("room", 1, {}, {}));
-  store.change("room", {ChangeKind::kPut, "a", box(1.0), at({0, 0, 0})});
+  store.change("room", {ChangeKind::kPut, "a", box(1.0), placed_at({0, 0, 0})});
   const auto snapshot = store.find("room");
   EXPECT_TRUE(difference(*snapshot, *snapshot).empty());
 }
@@ -94,7 +94,7 @@ TEST(SceneDifference, AnotherSceneOfThatNameIsAllNew) {
   const auto make = [] {
     SceneStore store;
     store.put(assemble("room", 1, {}, {}));
-    return store.change("room", {ChangeKind::kPut, "a", box(1.0), at({0, 0, 0})}).snapshot;
+    return store.change("room", {ChangeKind::kPut, "a", box(1.0), placed_at({0, 0, 0})}).snapshot;
   };
   const SceneDifference found = difference(*make(), *make());
   EXPECT_EQ(found.added.size(), 1U);

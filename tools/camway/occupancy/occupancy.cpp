@@ -115,37 +115,46 @@ void add_queries(CLI::App& command, OccupancyTexts& queries) {
             "Beginning, end, radius: how far does a ball get before it touches an occupied voxel?");
 }
 
+/// Adds the flags that say which map is asked. Returns the one that names a daemon's scene.
+CLI::Option* add_map_flags(CLI::App& command, OccupancyFlags& flags) {
+  CLI::Option* file = add_scene_flags(command, flags.scene);
+  CLI::Option* resolution =
+      command.add_option("--resolution", flags.resolution_m, "Edge of a voxel, with --scene")
+          ->check(cli_support::above_0())
+          ->type_name("METRES");
+  return command
+      .add_option("--daemon", flags.daemon_scene,
+                  "Ask a running daemon about its scene of this name, over LCM")
+      ->type_name("NAME")
+      ->excludes(file)
+      ->excludes(resolution);
+}
+
+/// Adds the flags that say how a daemon is asked.
+void add_daemon_flags(CLI::App& command, OccupancyFlags& flags, CLI::Option* daemon) {
+  command.add_option("--url", flags.url, "LCM network, with --daemon [LCM_DEFAULT_URL]")
+      ->needs(daemon);
+  command.add_option("--prefix", flags.prefix, "Of the daemon's channels")
+      ->needs(daemon)
+      ->capture_default_str();
+  add_key_file(command, flags.key_file)->needs(daemon);
+  add_timeout(command, flags.timeout_s)->needs(daemon);
+  command
+      .add_option("--deadline-s", flags.deadline_s,
+                  "How long the daemon may take for each message of queries, seconds; 0: its own")
+      ->check(cli_support::at_least_0())
+      ->needs(daemon)
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<OccupancyFlags>();
   CLI::App* command = app.add_subcommand(
       "occupancy", "Ask the occupancy map of a scene, in this process or of a running daemon");
-  CLI::Option* file = add_scene_flags(*command, flags->scene);
-  CLI::Option* resolution =
-      command->add_option("--resolution", flags->resolution_m, "Edge of a voxel, with --scene")
-          ->check(cli_support::above_0())
-          ->type_name("METRES");
-  CLI::Option* daemon =
-      command
-          ->add_option("--daemon", flags->daemon_scene,
-                       "Ask a running daemon about its scene of this name, over LCM")
-          ->type_name("NAME")
-          ->excludes(file)
-          ->excludes(resolution);
-  command->add_option("--url", flags->url, "LCM network, with --daemon [LCM_DEFAULT_URL]")
-      ->needs(daemon);
-  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")
-      ->needs(daemon)
-      ->capture_default_str();
-  add_key_file(*command, flags->key_file)->needs(daemon);
-  add_timeout(*command, flags->timeout_s)->needs(daemon);
-  command
-      ->add_option("--deadline-s", flags->deadline_s,
-                   "How long the daemon may take for each message of queries, seconds; 0: its own")
-      ->check(cli_support::at_least_0())
-      ->needs(daemon)
-      ->capture_default_str();
+  CLI::Option* daemon = add_map_flags(*command, *flags);
+  add_daemon_flags(*command, *flags, daemon);
   add_queries(*command, flags->queries);
   command
       ->add_option("--write", flags->map_file,

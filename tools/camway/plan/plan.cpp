@@ -203,6 +203,20 @@ base::Result<std::vector<std::string>> response_files(const PlanFlags& flags) {
   return files;
 }
 
+/// Prints the head of the table of `--response-dir`.
+void print_head() {
+  fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
+             "remaining", "request");
+}
+
+/// Prints the row of a request, as soon as it is answered.
+void print_row(const std::string& request, const PlanResult& result) {
+  fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
+             result.timing.total_ms, result.collisions.size(), inserted_count(result),
+             result.remaining_collisions.size(), request);
+  std::fflush(stdout);
+}
+
 ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
   std::error_code error;
   std::filesystem::create_directories(flags.response_dir, error);
@@ -218,8 +232,7 @@ ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
   ExitCode outcome = ExitCode::kSuccess;
   std::size_t ok_count = 0;
   std::set<std::string> warned_of;  // once a scene; every response has its own
-  fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
-             "remaining", "request");
+  print_head();
   for (std::size_t i = 0; i < flags.requests.size(); ++i) {
     const std::string source = source_of(flags.requests[i]);
     const Answer answer = answer_request(flags, flags.requests[i], scenes);
@@ -227,13 +240,9 @@ ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
       print_warnings(answer.scene_file, answer.scene_warnings);
     }
     print_warnings(source, answer.request_warnings);
-    const PlanResult& result = answer.result;
-    ok_count += result.status == Status::kOk ? 1 : 0;
-    fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
-               result.timing.total_ms, result.collisions.size(), inserted_count(result),
-               result.remaining_collisions.size(), source);
-    std::fflush(stdout);
-    const ExitCode code = exit_code_of(result.status);
+    ok_count += answer.result.status == Status::kOk ? 1 : 0;
+    print_row(source, answer.result);
+    const ExitCode code = exit_code_of(answer.result.status);
     // The table has everything about the others.
     if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
       print_summary(source, answer);

@@ -109,11 +109,75 @@ Clock::duration due_after(const LogEvent& first, const LogEvent& event, double s
   return seconds(std::clamp(recorded_us * 1e-6 / speed, 0.0, kLongest_s));
 }
 
+/// The requests of a log, and what is wrong with it.
+struct LoggedRequests {
+  std::vector<LogEvent> events;
+  std::uint64_t distrusted = 0;  ///< messages left out: their signature is missing or not good
+  std::string damage;            ///< why the log could not be read to its end; else empty
+};
+
+/// Reads the requests out of their envelopes; `keys` may be null (`open_event`).
+LoggedRequests read_requests(const std::filesystem::path& log, const Publisher& publisher,
+                             const wire::MessageKeys* keys) {
+  LoggedRequests requests;
+  LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
+    if (!publisher.is_request(event)) return;
+    if (open_event(keys, event)) {
+      ++requests.distrusted;
+    } else {
+      requests.events.push_back(std::move(event));
+    }
+  });
+  requests.damage = std::move(summary.damage);
+  return requests;
+}
+
+void print_faults(const std::filesystem::path& log, const LoggedRequests& requests) {
+  if (!requests.damage.empty()) print_error(requests.damage);
+  if (requests.distrusted > 0) {
+    print_error(fmt::format("{}: {} messages left out: their signature is missing or not good",
+                            log.string(), requests.distrusted));
+  }
+}
+
+/// Sends the events with the pauses between them, divided by the speed; waits for answers.
+/// Returns false if LCM refused one.
+bool send_all(const std::vector<LogEvent>& events, const PublishOptions& options,
+              Publisher& publisher) {
+  const Clock::time_point start = Clock::now();
+  for (const LogEvent& event : events) {
+    if (options.speed > 0.0) {
+      publisher.listen_until(start + due_after(events.front(), event, options.speed), false);
+    }
+    if (!publisher.send(event)) {
+      print_error("LCM refused a message of " + std::to_string(event.data.size()) + " bytes");
+      return false;
+    }
+  }
+  publisher.listen_until(Clock::now() + seconds(options.wait_s), true);
+  return true;
+}
+
+/// Reports what came of the requests that were sent. Returns the exit code.
+ExitCode outcome_of(const std::filesystem::path& log, const LoggedRequests& requests,
+                    const Publisher& publisher) {
+  fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.events.size(),
+             publisher.answered_count(), publisher.asked_count());
+  if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
+  if (publisher.other_version_count() > 0) {
+    print_error(
+        fmt::format("{}: {} of its messages are of another version of the wire types, which "
+                    "only a daemon of that version reads",
+                    log.string(), publisher.other_version_count()));
+    return ExitCode::kInvalidInput;
+  }
+  return requests.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
+}
+
 }  // namespace
 
 ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
                      std::shared_ptr<const wire::MessageKeys> keys) {
-  std::vector<LogEvent> requests;
   const wire::Channels channels{options.prefix};
   const wire::OpenedLcm opened = wire::open_lcm(options.url);
   if (!opened.lcm) {
@@ -130,46 +194,14 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
   if (!opened.unguarded.empty()) {
     print_error("other hosts of the network can be heard: " + opened.unguarded);
   }
-  std::uint64_t distrusted = 0;
-  const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
-    if (!publisher.is_request(event)) return;
-    if (open_event(keys.get(), event)) {
-      ++distrusted;
-    } else {
-      requests.push_back(std::move(event));
-    }
-  });
-  if (!summary.damage.empty()) print_error(summary.damage);
-  if (distrusted > 0) {
-    print_error(fmt::format("{}: {} messages left out: their signature is missing or not good",
-                            log.string(), distrusted));
-  }
-  if (requests.empty()) {
+  const LoggedRequests requests = read_requests(log, publisher, keys.get());
+  print_faults(log, requests);
+  if (requests.events.empty()) {
     print_error(fmt::format("{}: holds no requests on {}_*", log.string(), options.prefix));
     return ExitCode::kInvalidInput;
   }
-  const Clock::time_point start = Clock::now();
-  for (const LogEvent& event : requests) {
-    if (options.speed > 0.0) {
-      publisher.listen_until(start + due_after(requests.front(), event, options.speed), false);
-    }
-    if (!publisher.send(event)) {
-      print_error("LCM refused a message of " + std::to_string(event.data.size()) + " bytes");
-      return ExitCode::kOurFault;
-    }
-  }
-  publisher.listen_until(Clock::now() + seconds(options.wait_s), true);
-  fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.size(),
-             publisher.answered_count(), publisher.asked_count());
-  if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
-  if (publisher.other_version_count() > 0) {
-    print_error(
-        fmt::format("{}: {} of its messages are of another version of the wire types, which "
-                    "only a daemon of that version reads",
-                    log.string(), publisher.other_version_count()));
-    return ExitCode::kInvalidInput;
-  }
-  return summary.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
+  if (!send_all(requests.events, options, publisher)) return ExitCode::kOurFault;
+  return outcome_of(log, requests, publisher);
 }
 
 }  // namespace camway::tools

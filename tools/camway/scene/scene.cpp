@@ -165,7 +165,7 @@ void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   });
 }
 
-void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
+void add_list(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* list = add_command(parent, flags, "list", "List the daemon's scenes");
   list->callback([flags, &exit_code] {
     bool is_empty = false;
@@ -176,14 +176,18 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
     });
     if (is_empty) fmt::print("the daemon holds no scenes\n");
   });
+}
 
+void add_describe(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* describe = add_command(parent, flags, "describe", "List the objects of a scene");
   add_scene_name(*describe, flags);
   describe->callback([flags, &exit_code] {
     exit_code =
         ask_daemon(*flags, [&](Client& client) { return client.describe_scene(flags->scene); });
   });
+}
 
+void add_scan(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* scan =
       add_change(parent, flags, "scan", "Tell an object that is an OctoMap what a sensor saw");
   add_scene_name(*scan, flags);
@@ -195,7 +199,9 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
                            "Where the sensor was, metres in the world")
       ->required();
   scan->callback([flags, &exit_code] { exit_code = insert_scan(*flags); });
+}
 
+void add_export(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* out = add_change(parent, flags, "export",
                              "Write a scene's occupancy map as OctoMap's .bt, which octovis opens");
   add_scene_name(*out, flags);
@@ -205,7 +211,9 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
       ->type_name("FILE")
       ->excludes(to);
   out->callback([flags, &exit_code] { exit_code = export_map(*flags); });
+}
 
+void add_history(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* history = add_command(parent, flags, "history",
                                   "List the revisions of a scene that the daemon can restore");
   add_scene_name(*history, flags);
@@ -213,7 +221,9 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
     exit_code =
         ask_daemon(*flags, [&](Client& client) { return client.scene_history(flags->scene); });
   });
+}
 
+void add_unload(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* unload = add_change(parent, flags, "unload", "Let the daemon forget a scene");
   add_scene_name(*unload, flags);
   unload->callback([flags, &exit_code] {
@@ -259,7 +269,12 @@ void add_scene_command(CLI::App& app, ExitCode& exit_code) {
   add_load(*scene, flags, exit_code);
   add_changes(*scene, flags, exit_code);
   add_restore(*scene, flags, exit_code);
-  add_looks(*scene, flags, exit_code);
+  add_list(*scene, flags, exit_code);
+  add_describe(*scene, flags, exit_code);
+  add_scan(*scene, flags, exit_code);
+  add_export(*scene, flags, exit_code);
+  add_history(*scene, flags, exit_code);
+  add_unload(*scene, flags, exit_code);
 }
 
 }  // namespace camway::tools

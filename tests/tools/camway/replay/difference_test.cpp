@@ -128,14 +128,21 @@ TEST(Difference, SeesAnotherWitness) {
   EXPECT_EQ(difference_of(a, b, body()).what, "collisions[0].witness");
 }
 
+/// Returns an answer with a value in each member that corrections and proofs have.
+planning::PlanResult result_with_all() {
+  planning::PlanResult result = result_through(three_keyframes());
+  result.corrections.resize(1);
+  result.corrections[0].interval = {0.25, 0.5, collision::Witness{}};
+  result.measures = motion::PathMeasures{};
+  result.measures_before = motion::PathMeasures{};
+  result.keyframe_faults.resize(1);
+  result.infeasibility = planning::Infeasibility{0, 1, {2, 3}, correction::CageBox{}};
+  result.infeasibility->cage->box = geometry::Box(geometry::Vec3::Zero(), geometry::Vec3::Ones());
+  return result;
+}
+
 TEST(Difference, SeesWhatCorrectionDid) {
-  planning::PlanResult a = result_through(three_keyframes());
-  a.corrections.resize(1);
-  a.corrections[0].interval = {0.25, 0.5, collision::Witness{}};
-  a.measures = motion::PathMeasures{};
-  a.measures_before = motion::PathMeasures{};
-  a.keyframe_faults.resize(1);
-  a.infeasibility = planning::Infeasibility{0, 1, {2, 3}};
+  const planning::PlanResult a = result_with_all();
   const auto difference_after = [&](const auto& edit) {
     planning::PlanResult b = a;
     edit(b);
@@ -172,10 +179,14 @@ TEST(Difference, SeesWhatCorrectionDid) {
   EXPECT_EQ(difference_after([](Result& b) { b.infeasibility->triangles[1] = 4; }),
             "infeasibility.triangles[1]");
   EXPECT_EQ(difference_after([](Result& b) { b.infeasibility.reset(); }), "infeasibility");
-  a.infeasibility->cage = correction::CageBox{};
-  a.infeasibility->cage->box = geometry::Box(geometry::Vec3::Zero(), geometry::Vec3::Ones());
+}
+
+TEST(Difference, SeesAnotherCage) {
+  const planning::PlanResult a = result_with_all();
   const auto cage_difference_after = [&](const auto& edit) {
-    return difference_after([&](Result& b) { edit(b.infeasibility->cage); });
+    planning::PlanResult b = a;
+    edit(b.infeasibility->cage);
+    return difference_of(a, b, body()).what;
   };
   using Cage = std::optional<correction::CageBox>;
   const std::string cage = "infeasibility.cage";
