@@ -18,7 +18,7 @@ endif()
 # so in CI, and nowhere else: another compiler, or another level of optimisation, may warn of what is right.
 add_library(camway_warnings INTERFACE)
 target_compile_options(camway_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:$<TARGET_PROPERTY:CAMWAY_MAY_SHADOW>>>:-Wshadow> -Wconversion -Wsign-conversion -Wold-style-cast
   # Clang's -Wdouble-promotion also warns of double -> long double, in which the oracles of tests compute.
   -Wnon-virtual-dtor -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wimplicit-fallthrough
   # At -O3, GCC 12 warns of what it inlines: of std::string's operator+ (GCC bug 105651), and of buffers
@@ -114,10 +114,6 @@ function(compile_test name depends light)
                         GTest::gtest_main Eigen3::Eigen)
   # GCC 12 warns of std::regex, which tests use, with a sanitizer, and of structs of strings at -O3.
   target_compile_options(${name} PRIVATE ${CAMWAY_NO_MAYBE_UNINITIALIZED})
-  if(CAMWAY_UNITY)
-    # A local name may shadow one of another file.
-    target_compile_options(${name} PRIVATE -Wno-shadow)
-  endif()
   set(precompiled camway_precompiled_test)
   if(light)
     target_compile_options(${name} PRIVATE -O0)
@@ -126,7 +122,9 @@ function(compile_test name depends light)
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM ${precompiled})
   endif()
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${CAMWAY_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  # In one unit with other files, a local name may be one of theirs.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${CAMWAY_UNITY} UNITY_BUILD_BATCH_SIZE 8
+                                           CAMWAY_MAY_SHADOW ${CAMWAY_UNITY})
 endfunction()
 
 # camway_test(NAME [NETWORK] [QUICK] SOURCES ... [COMPUTING ...] DEPENDS ... [SLOW TEST ...]): one GoogleTest

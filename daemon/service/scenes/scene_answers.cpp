@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/scene.h"
 #include "lcmtypes/wire/layout.h"
