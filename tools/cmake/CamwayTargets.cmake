@@ -18,7 +18,8 @@ endif()
 # so in CI, and nowhere else: another compiler, or another level of optimisation, may warn of what is right.
 add_library(camway_warnings INTERFACE)
 target_compile_options(camway_warnings INTERFACE
-  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:$<TARGET_PROPERTY:CAMWAY_MAY_SHADOW>>>:-Wshadow> -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:$<TARGET_PROPERTY:CAMWAY_MAY_SHADOW>>>:-Wshadow>
+  -Wconversion -Wsign-conversion -Wold-style-cast
   # Clang's -Wdouble-promotion also warns of double -> long double, in which the oracles of tests compute.
   -Wnon-virtual-dtor -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wimplicit-fallthrough
   # At -O3, GCC 12 warns of what it inlines: of std::string's operator+ (GCC bug 105651), and of buffers
