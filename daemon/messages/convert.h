@@ -44,6 +44,9 @@ struct RequestIds {
 /// Returns the whole request as one page, which may be too large for a message: see `encode_pages`.
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
 
+/// Returns the message for a body. A near quadrilateral has its size in the request's camera.
+body_t wire_body(const motion::BodyShape& shape);
+
 /// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
 /// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a
 /// correction's collision) stay 0 or empty. Returns an error for a status that planning does not

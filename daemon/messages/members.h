@@ -2,11 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/messages/bounds.h"
@@ -18,6 +22,33 @@
 /// follow the lists of `planning/result/members.h`. Structs whose members have the same names need
 /// no list, and other values follow from their types (`wire::convert`).
 namespace camway::messages {
+
+/// The first fault of a message that is read. It names the member as the message does.
+class Refusal {
+ public:
+  /// Keeps a reference to the message.
+  template <wire::Described Message>
+  explicit Refusal(const Message& message)
+      : path_of_([&message](const void* part, std::size_t size) {
+          return *wire::path_of(part, size, message);
+        }) {}
+
+  /// Refuses a part of the message, e.g. "bounds.min_m[1]: " and the reason.
+  template <class Part>
+  void add(const Part& part, const std::string& reason) {
+    if (error_.empty()) error_ = path_of(part) + ": " + reason;
+  }
+  /// Returns the path of a part of the message.
+  template <class Part>
+  [[nodiscard]] std::string path_of(const Part& part) const {
+    return path_of_(&part, sizeof part);
+  }
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  std::function<std::string(const void*, std::size_t)> path_of_;
+  std::string error_;
+};
 
 inline void translate(const geometry::Quat& mine, double (&wire)[4]) {
   std::copy_n(geometry::wxyz(mine).data(), 4, wire);
@@ -33,10 +64,39 @@ inline void translate(const std::same_as<std::optional<std::size_t>> auto& mine,
 inline void translate(std::int32_t wire, std::optional<std::size_t>& mine) {
   if (wire >= 0) mine = static_cast<std::size_t>(wire);
 }
-/// A number that is no value leaves `mine` as it is.
 template <base::NamedEnum Enum>
-void translate(std::integral auto wire, Enum& mine) {
-  mine = base::value_of<Enum>(wire).value_or(mine);
+void translate(Enum mine, std::string& wire) {
+  wire = base::name_of(mine);
+}
+template <base::NamedEnum Enum>
+void translate(const std::integral auto& wire, Enum& mine, Refusal& refusal) {
+  const std::optional<Enum> value = base::value_of<Enum>(wire);
+  if (!value) refusal.add(wire, std::to_string(wire) + " is unknown");
+  mine = value.value_or(mine);
+}
+/// An empty name leaves `mine` as it is.
+template <base::NamedEnum Enum>
+void translate(const std::string& wire, Enum& mine, Refusal& refusal) {
+  const std::optional<Enum> value = base::value_of<Enum>(wire);
+  if (!value && !wire.empty()) refusal.add(wire, "'" + wire + "' is unknown");
+  mine = value.value_or(mine);
+}
+template <std::unsigned_integral Index>
+void read_index(const std::int32_t& wire, Index& mine, Refusal& refusal) {
+  if (wire < 0) refusal.add(wire, "is " + std::to_string(wire) + "; it must be at least 0");
+  mine = static_cast<Index>(std::max(wire, 0));
+}
+/// Reads the index of a keyframe.
+template <std::same_as<std::int32_t> Wire>
+void translate(const Wire& wire, std::size_t& mine, Refusal& refusal) {
+  read_index(wire, mine, refusal);
+}
+/// Reads indices of triangles, or of the vertices of one.
+template <class Indices>
+requires std::same_as<typename Indices::value_type, std::uint32_t>
+void translate(const std::vector<std::int32_t>& wire, Indices& mine, Refusal& refusal) {
+  if constexpr (requires { mine.resize(0); }) mine.resize(wire.size());
+  for (std::size_t i = 0; i < wire.size(); ++i) read_index(wire[i], mine[i], refusal);
 }
 
 /// Cuts the texts of a message to its limits.
@@ -50,20 +110,14 @@ void clip_texts(Wire& wire) {
   });
 }
 
-/// Converts a value by `translate` where there is one for its types.
-template <class Io, class From, class To>
-void convert(const Io& io, const From& from, To& to) {
-  if constexpr (requires { translate(from, to); }) {
-    translate(from, to);
-  } else {
-    wire::convert(io, from, to);
-  }
-}
-
 /// Writes messages or reads them. In messages, members have no names or lines, none is left out,
 /// and a group is a part of the struct around it.
 template <bool kWrites>
-struct Converter {
+class Converter {
+ public:
+  Converter() requires kWrites = default;
+  explicit Converter(Refusal& refusal) requires(!kWrites) : refusal_(&refusal) {}
+
   template <class Mine, class Wire>
   void operator()(Mine&& mine, Wire&& wire) const {
     if constexpr (requires { planning::members(*this, mine, wire); }) {
@@ -98,6 +152,21 @@ struct Converter {
     if (mine) list(*this, *mine);
   }
   void line(int) const {}
+
+ private:
+  /// Converts a value by `translate` where there is one for its types.
+  template <class Io, class From, class To>
+  void convert(const Io& io, const From& from, To& to) const {
+    if constexpr (requires { translate(from, to); }) {
+      translate(from, to);
+    } else if constexpr (requires(Refusal & refusal) { translate(from, to, refusal); }) {
+      translate(from, to, *refusal_);
+    } else {
+      wire::convert(io, from, to);
+    }
+  }
+
+  Refusal* refusal_ = nullptr;
 };
 
 using ToWire = Converter<true>;

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "daemon/messages/body.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/members.h"
+#include "daemon/planning/request/body_members.h"
+#include "lcmtypes/wire/layout.h"
 
 namespace camway::messages {
 namespace {
 
 using correction::OrientationPolicy;
-using correction::OrientationRule;
 using geometry::Vec3;
+using motion::BodyShape;
 using planning::FieldSpec;
+using Points = std::vector<std::vector<double>>;
+
+static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
+static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
+static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
 
 /// Returns the name on the wire of the member at `path`. There options are members of the request,
 /// and the points of all pieces of a body are one list.
@@ -35,118 +46,120 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
   };
 }
 
-/// Reads options. Only an exact 0 asks for the default: NaN and negative values go on to
-/// `planning::validate`. Keeps the first error.
-struct OptionReader {
-  std::string& error;
+/// Refuses the members of `wire` that have a value although they do not count: their sender meant
+/// them. `visit_used(note)` visits those that count with this `kind`, besides `flags`.
+template <class Wire, class Kind, class VisitUsed>
+void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
+                   std::vector<const void*> used, const VisitUsed& visit_used) {
+  used.push_back(&kind);
+  visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
+    (used.push_back(&members), ...);
+  });
+  wire::for_each_member<Wire>([&](const auto& described) {
+    const auto& member = wire.*described.member;
+    const bool counts = std::ranges::count(used, static_cast<const void*>(&member)) > 0;
+    if (counts || wire::is_blank(member)) return;
+    refusal.add(member, "does not count with this " + refusal.path_of(kind) +
+                            "; leave it zero or empty, or set the one that it belongs to");
+  });
+}
 
-  void refuse(std::string_view name, const std::string& reason) const {
-    if (error.empty()) error = std::string(name) + ": " + reason;
-  }
-  /// Refuses a member that has a value but no effect: its sender meant it.
-  template <class Member>
-  void refuse_idle(bool counts, const Member& member, std::string_view name,
-                   const std::string& reason) const {
-    if (!counts && !wire::is_blank(member)) refuse(name, reason);
-  }
+/// Reads members of tables. One that is zero or empty leaves the default; NaN and negative values
+/// go on to `planning::validate`.
+struct TableReader {
+  Refusal& refusal;
 
-  template <class Number, class Wire>
-  requires std::is_arithmetic_v<Number> && std::is_arithmetic_v<Wire>
-  void operator()(const FieldSpec& spec, Number& mine, Wire wire) const {
-    constexpr bool kIsUnsigned = std::is_unsigned_v<Number> && !std::is_same_v<Number, bool>;
-    if (kIsUnsigned && wire < Wire{}) {
-      refuse(spec.wire_name(), "is " + std::to_string(wire) + "; it must be " + spec.range_text());
-    } else if (wire != 0 || mine == 0) {
-      mine = static_cast<Number>(wire);
+  template <class Mine, class Wire>
+  void operator()(const FieldSpec& spec, Mine& mine, const Wire& wire) const {
+    if (wire::is_blank(wire)) return;
+    if constexpr (std::same_as<Mine, std::uint64_t>) {
+      if (wire < 0) {
+        refusal.add(wire, "is " + std::to_string(wire) + "; it must be " + spec.range_text());
+      }
     }
-  }
-  void operator()(const FieldSpec&, std::optional<double>& mine, double wire) const {
-    if (wire != 0.0) mine = wire;
-  }
-  template <base::NamedEnum Enum>
-  void operator()(const FieldSpec& spec, Enum& mine, std::int8_t wire) const {
-    if (!base::value_of<Enum>(wire)) refuse(spec.wire_name(), std::to_string(wire) + " is unknown");
-    translate(wire, mine);
-  }
-  template <base::NamedEnum Enum>
-  void operator()(const FieldSpec& spec, Enum& mine, const std::string& wire) const {
-    const std::optional<Enum> named = base::value_of<Enum>(wire);
-    if (!named && !wire.empty()) refuse(spec.wire_name(), "'" + wire + "' is unknown");
-    mine = named.value_or(mine);
-  }
-  void operator()(const FieldSpec&, geometry::Bounds& mine, const bounds_t& wire) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string at = "[" + std::to_string(axis) + "]";
-      refuse_idle(wire.has_min[axis] != 0, wire.min_m[axis], "bounds.min_m" + at,
-                  "counts only with has_min" + at + "; set that, or leave it 0");
-      refuse_idle(wire.has_max[axis] != 0, wire.max_m[axis], "bounds.max_m" + at,
-                  "counts only with has_max" + at + "; set that, or leave it 0");
-    }
-    translate(wire, mine);
+    FromWire{refusal}(mine, wire);
   }
   void operator()(const FieldSpec&, correction::MotionLimits& mine,
                   const motion_limits_t& wire) const {
     planning::visit_limits(*this, mine, wire);
   }
-  void operator()(const FieldSpec& spec, OrientationPolicy& mine, const orientation_t& wire) const {
-    (*this)(FieldSpec{.name = "orientation.policy"}, mine.rule, wire.policy);
-    const bool is_target = mine.rule == OrientationRule::kTarget;
-    refuse_idle(mine.rule == OrientationRule::kLevel, wire.up, "orientation.up",
-                "counts only with the policy LEVEL; leave it zero");
-    refuse_idle(is_target, wire.target_m, "orientation.target_m",
-                "counts only with the policy TARGET; leave it zero");
-    refuse_idle(is_target, wire.cone_rad, "orientation.cone_rad",
-                "counts only with the policy TARGET; leave it 0");
-    refuse_idle(wire.has_max_turn != 0, wire.max_turn_rad, "orientation.max_turn_rad",
-                "counts only with has_max_turn; set that, or leave it 0");
-    if (!wire::is_blank(wire.up)) {
-      FromWire{}(mine.up_W, wire.up);
-      mine.up_W = planning::direction_of(mine.up_W);
-    }
-    FromWire{}(mine.target_W, wire.target_m);
-    (*this)(spec, mine.cone_rad, wire.cone_rad);
+  void operator()(const FieldSpec&, OrientationPolicy& mine, const orientation_t& wire) const {
+    (*this)(planning::option::kPolicy, mine.rule, wire.policy);
+    refuse_unused(refusal, wire, wire.policy, {&wire.has_max_turn},
+                  [&](const auto& note) { planning::visit_used(note, mine, wire); });
+    planning::visit_used(*this, mine, wire);
+    mine.up_W = planning::direction_of(mine.up_W);
     if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
+  }
+  void operator()(const FieldSpec&, std::vector<std::vector<Vec3>>& pieces,
+                  const std::vector<std::int32_t>& sizes, const Points& points) const {
+    std::span left(points);
+    for (const std::int32_t& size : sizes) {
+      if (size < 0 || static_cast<std::size_t>(size) > left.size()) {
+        return refusal.add(size, "is " + std::to_string(size) + ", and " +
+                                     std::to_string(left.size()) + " points are left");
+      }
+      FromWire{refusal}(pieces.emplace_back(), left.first(static_cast<std::size_t>(size)));
+      left = left.subspan(static_cast<std::size_t>(size));
+    }
+    if (left.empty()) return;
+    refusal.add(sizes, std::to_string(left.size()) + " points belong to no piece");
   }
 };
 
-/// Refuses members beside the options that have a value but no effect.
-void refuse_idle_members(const OptionReader& reader, const plan_request_t& wire) {
-  reader.refuse_idle(wire.correct_nothing == 0, wire.max_inserted_keyframes,
-                     "max_inserted_keyframes",
-                     "is " + std::to_string(wire.max_inserted_keyframes) +
-                         ", which does not count beside correct_nothing; leave it 0");
-  for (std::size_t i = 0; wire.has_times == 0 && i < wire.keyframes.size(); ++i) {
-    if (wire::is_blank(wire.keyframes[i].time_s)) continue;
-    return reader.refuse(
-        "keyframes[" + std::to_string(i) + "].time_s",
-        "is not 0, and does not count without has_times; set that, or leave all times 0");
+/// Reads the shape of a body. The shape is nothing if it is the near quadrilateral of the request's
+/// camera. Sizes and counts are checked by `planning::validate`.
+std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
+  std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
+  if (!shape) {
+    refusal.add(wire.type, std::to_string(wire.type) + " is unknown");
+    return shape;
   }
-  reader.refuse_idle(
-      wire.has_frame != 0, wire.frame, "frame",
-      "is not zero, and does not count without has_frame; set that, or leave it zero");
+  const auto read = [&](auto& part) {
+    refuse_unused(refusal, wire, wire.type, {},
+                  [&](const auto& note) { planning::visit_shape(note, part, wire); });
+    planning::visit_shape(TableReader{refusal}, part, wire);
+  };
+  std::visit(read, *shape);
+  if (wire.type == body_t::CAMERA) shape.reset();
+  return shape;
 }
 
-/// Writes options. Infinity means no limit on the wire, too, and an option that is not set is 0.
-struct OptionWriter {
+/// Refuses members beside body and orientation that have a value but no effect.
+void refuse_idle(Refusal& refusal, const plan_request_t& wire) {
+  wire::visit_unmarked(wire, [&](const auto& member, const auto& flag) {
+    refusal.add(member,
+                "counts only with " + refusal.path_of(flag) + "; set that, or leave it zero");
+  });
+  if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
+    refusal.add(wire.max_inserted_keyframes,
+                "is " + std::to_string(wire.max_inserted_keyframes) +
+                    ", which does not count beside correct_nothing; leave it 0");
+  }
+  for (const keyframe_t& keyframe : wire.keyframes) {
+    if (wire.has_times != 0 || wire::is_blank(keyframe.time_s)) continue;
+    return refusal.add(keyframe.time_s,
+                       "counts only with has_times; set that, or leave all times 0");
+  }
+}
+
+/// Writes members of tables. Infinity means no limit on the wire, too, and an option that is not
+/// set is 0.
+struct TableWriter {
   template <class Mine, class Wire>
   void operator()(const FieldSpec&, const Mine& mine, Wire& wire) const {
     ToWire{}(mine, wire);
   }
-  template <base::NamedEnum Enum>
-  void operator()(const FieldSpec&, Enum mine, std::string& wire) const {
-    wire = base::name_of(mine);
-  }
-  /// Writes the members that the rule uses.
   void operator()(const FieldSpec&, const OrientationPolicy& mine, orientation_t& wire) const {
-    const ToWire io;
-    io(mine.rule, wire.policy);
-    if (mine.rule == OrientationRule::kLevel) io(mine.up_W, wire.up);
-    if (mine.rule == OrientationRule::kTarget) {
-      io(mine.target_W, wire.target_m);
-      wire.cone_rad = mine.cone_rad;
-    }
+    planning::visit_used(*this, mine, wire);
     wire.has_max_turn = 1;
-    wire.max_turn_rad = mine.max_turn_rad;
+  }
+  void operator()(const FieldSpec&, const std::vector<std::vector<Vec3>>& pieces,
+                  std::vector<std::int32_t>& sizes, Points& points) const {
+    for (const std::vector<Vec3>& piece : pieces) {
+      sizes.push_back(static_cast<std::int32_t>(piece.size()));
+      ToWire{}(piece, points);
+    }
   }
 };
 
@@ -159,31 +172,35 @@ double deadline_of(double wire_s, const DeadlineLimits& limits) {
 
 base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
                                               const DeadlineLimits& limits) {
-  const FromWire io;
+  Refusal refusal(wire);
+  const FromWire io(refusal);
   planning::PlanRequest request;
   request.scene = wire.scene;
   io(request.camera, wire.camera);
-  base::Result<std::optional<motion::BodyShape>> body = body_of(wire.body);
-  if (!body) return base::Failure{std::move(body.error)};
-  request.body = *std::move(body);
-
-  std::string error;
-  const OptionReader reader{error};
-  refuse_idle_members(reader, wire);
-  visit_options(reader, request.options, wire);
-  if (!error.empty()) return base::Failure{std::move(error)};
+  request.body = read_body(wire.body, refusal);
+  refuse_idle(refusal, wire);
+  visit_options(TableReader{refusal}, request.options, wire);
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);
   if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
 
   request.has_times = wire.has_times != 0;
   if (wire.has_frame != 0) io(request.frame.emplace(), wire.frame);
   request.spelling = wire_spelling(wire);
-  io(request.keyframes, wire.keyframes);
+  if (!refusal.error().empty()) return base::Failure{refusal.error()};
+  io(request.keyframes, wire.keyframes);  // whatever their origins say
   for (motion::Keyframe& keyframe : request.keyframes) {
     keyframe.origin = motion::KeyframeOrigin::kGiven;
     keyframe.is_repaired = false;
   }
   return request;
+}
+
+body_t wire_body(const BodyShape& shape) {
+  body_t wire{};
+  wire.type = static_cast<std::int8_t>(shape.index());
+  std::visit([&](const auto& part) { planning::visit_shape(TableWriter{}, part, wire); }, shape);
+  wire::set_counts(wire);
+  return wire;
 }
 
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids) {
@@ -199,7 +216,7 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   const auto* camera = request.body ? std::get_if<motion::Camera>(&*request.body) : nullptr;
   io(camera == nullptr ? request.camera : *camera, wire.camera);
   if (request.body) wire.body = wire_body(*request.body);
-  visit_options(OptionWriter{}, request.options, wire);
+  visit_options(TableWriter{}, request.options, wire);
   wire.correct_nothing = request.options.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = request.has_times ? 1 : 0;
   wire.has_frame = request.frame ? 1 : 0;

@@ -335,7 +335,7 @@ TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
     b.piece_sizes = {};
     b.triangles = {{0, 1, 2}, {0, -2, 1}};
   };
-  EXPECT_EQ(error_of(mesh), "body.triangles[1][1]: is -2, which is below 0");
+  EXPECT_EQ(error_of(mesh), "body.triangles[1][1]: is -2; it must be at least 0");
 }
 
 TEST(WireConvert, NamesOfWitnessesAreCutToTheirLimits) {
@@ -459,12 +459,14 @@ TEST(WireConvert, ReportsThatMakeNoSenseAreErrors) {
   EXPECT_EQ(error_of([](plan_response_t&) {}), "");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.corrections[2].method = 5; }),
             "corrections[2].method: 5 is unknown");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframes[1].origin = 2; }),
+            "keyframes[1].origin: 2 is unknown");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_faults[1].keyframe = -1; }),
-            "keyframe_faults[1].keyframe: is below 0");
+            "keyframe_faults[1].keyframe: is -1; it must be at least 0");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_outside = -1; }),
-            "keyframe_outside: is below 0");
+            "keyframe_outside: is -1; it must be at least 0");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.proof_triangles[7] = -2; }),
-            "proof_triangles[7]: is below 0");
+            "proof_triangles[7]: is -2; it must be at least 0");
 }
 
 TEST(WireConvert, QuaternionsAreOrderedWxyzOnTheWire) {
@@ -535,6 +537,8 @@ TEST(WireConvert, ValuesAreLeftToValidation) {
   wire.keyframes.resize(1);
   wire.keyframes[0].position_m[1] = std::numeric_limits<double>::quiet_NaN();
   wire.keyframes[0].origin = keyframe_t::ORIGIN_INSERTED;
+  EXPECT_TRUE(from_wire(wire));
+  wire.keyframes[0].origin = 9;
   const auto converted = from_wire(wire);
   ASSERT_TRUE(converted);
   EXPECT_EQ(converted->options.chord_error_m, -1.0);
@@ -557,10 +561,10 @@ TEST(WireConvert, SegmentsThatAreNoPathAreRefused) {
   EXPECT_EQ(from_wire(gap).error, "segments[2]: does not begin where the one before ends");
   plan_response_t backward = good;
   backward.segments[0].t1_s = backward.segments[0].t0_s;
-  EXPECT_EQ(from_wire(backward).error, "segments[0]: its times do not increase");
+  EXPECT_EQ(from_wire(backward).error, "segments[0]: does not end after it begins");
   plan_response_t nan = good;
   nan.segments[3].t1_s = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(from_wire(nan).error, "segments[3]: its times do not increase");
+  EXPECT_EQ(from_wire(nan).error, "segments[3]: holds numbers that are not finite");
 }
 
 TEST(WireConvert, LongTextsAreCutBetweenCharacters) {

@@ -10,7 +10,6 @@
 namespace camway::tools {
 namespace {
 
-using planning::NamedCollision;
 using planning::PlanResult;
 
 PlanResult read_result(const Field& root) {
@@ -22,12 +21,6 @@ PlanResult read_result(const Field& root) {
   // A path requires valid segments.
   if (!root.failed()) result.path = motion::Path(std::move(segments));
   io.may("keyframes", true, result.keyframes);
-  std::vector<NamedCollision> collisions;
-  io.may("collisions", true, collisions);
-  append(std::move(collisions), result.collisions, result.collision_names);
-  std::vector<NamedCollision> remaining;
-  io.may("remaining_collisions", true, remaining);
-  append(std::move(remaining), result.remaining_collisions, result.remaining_names);
   planning::report_members(io, result);
   io.may("timing_ms", true, result.timing);
   return result;
@@ -46,9 +39,6 @@ base::Result<std::string> write_plan_response(const PlanResult& result,
     io.may("warnings", !format.warnings.empty(), format.warnings);
     io.need("segments", result.path.segments());
     io.need("keyframes", result.keyframes);
-    io.need("collisions", with_names(result.collisions, result.collision_names));
-    io.need("remaining_collisions",
-            with_names(result.remaining_collisions, result.remaining_names));
     planning::report_members(io, result);
     io.may("timing_ms", format.timing == TimingField::kWritten, result.timing);
   });

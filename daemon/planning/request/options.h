@@ -156,6 +156,9 @@ inline constexpr FieldSpec kViewingDistance{
         "distance of what the picture shows: a correction that moves the camera by a metre shifts "
         "the picture as much as a turn by 1 / viewing_distance_m radians"};
 
+inline constexpr FieldSpec kPolicy{.name = "policy"};
+inline constexpr FieldSpec kUp{.name = "up"};
+inline constexpr FieldSpec kTarget{.name = "target", .wire = "target_m"};
 inline constexpr FieldSpec kCone{
     .name = "cone",
     .wire = "cone_rad",
@@ -195,11 +198,25 @@ void visit_options(const Visit& visit, Options&... options) {
 /// Visits the members of an orientation policy as `visit_options` visits options.
 template <class Visit, class... Policy>
 void visit_orientation(const Visit& visit, Policy&... policy) {
-  visit(FieldSpec{.name = "policy"}, policy.rule...);
-  visit(FieldSpec{.name = "up"}, policy.up_W...);
-  visit(FieldSpec{.name = "target", .wire = "target_m"}, policy.target_W...);
+  visit(option::kPolicy, policy.rule...);
+  visit(option::kUp, policy.up_W...);
+  visit(option::kTarget, policy.target_W...);
   visit(option::kCone, policy.cone_rad...);
   visit(option::kMaxTurn, policy.max_turn_rad...);
+}
+
+/// Calls `visit(spec, member, wire...)` for those members of an orientation policy that its rule
+/// uses. `wire` is the message.
+template <class Visit, class Policy, class... Wire>
+void visit_used(const Visit& visit, Policy& policy, Wire&... wire) {
+  using correction::OrientationRule;
+  visit(option::kPolicy, policy.rule, wire.policy...);
+  if (policy.rule == OrientationRule::kLevel) visit(option::kUp, policy.up_W, wire.up...);
+  if (policy.rule == OrientationRule::kTarget) {
+    visit(option::kTarget, policy.target_W, wire.target_m...);
+    visit(option::kCone, policy.cone_rad, wire.cone_rad...);
+  }
+  visit(option::kMaxTurn, policy.max_turn_rad, wire.max_turn_rad...);
 }
 
 /// Visits the limits of the motion. Infinity means no limit.

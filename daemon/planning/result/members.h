@@ -5,6 +5,8 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "daemon/planning/result/result.h"
 #include "daemon/planning/result/witness_names.h"
@@ -29,6 +31,8 @@ namespace camway::planning {
 /// Name of a member in files, and its old name, which is still read.
 struct FileName {
   constexpr FileName(const char* name_now, std::string_view old_name = {})  // NOLINT: implicit
+      : name(name_now), old(old_name) {}
+  constexpr FileName(std::string_view name_now, std::string_view old_name)
       : name(name_now), old(old_name) {}
   std::string_view name;
   std::string_view old;
@@ -180,8 +184,20 @@ void members(Io& io, Is<Timing> auto& timing, Wire&... wire) {
   io.may("total", true, timing.total_ms, wire.total_ms...);
 }
 
-/// The members of a result in the order of files: those before the path, then, after path,
-/// keyframes and collisions, the report. The path is no plain list: its reader checks it.
+/// Collisions with the names of their witnesses, which a result has in a list of its own.
+template <class Io, class Collisions, class Names, class... Wire>
+void named_collisions(Io& io, FileName name, Collisions& collisions, Names& names, Wire&... wire) {
+  if constexpr (std::is_const_v<Collisions>) {
+    io.need(name, with_names(collisions, names), wire...);
+  } else {
+    std::vector<NamedCollision> list;
+    io.may(name, true, list, wire...);
+    append(std::move(list), collisions, names);
+  }
+}
+
+/// The members of a result in the order of files: those before the path, and those after it. The
+/// path is no plain list: its reader checks it.
 template <class Io, class... Wire>
 void head_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   io.need("status", result.status, wire.status...);
@@ -203,6 +219,9 @@ void measures_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
 
 template <class Io, class... Wire>
 void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
+  named_collisions(io, "collisions", result.collisions, result.collision_names, wire.collisions...);
+  named_collisions(io, "remaining_collisions", result.remaining_collisions, result.remaining_names,
+                   wire.remaining...);
   const auto frame = [&](auto& object, auto& mine) { members(object, mine, wire.frame...); };
   io.optional("frame", result.frame, frame, wire.has_frame...);
   io.group("certificate", true, -1, [&](auto& object) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/messages/body.h"
 #include "daemon/messages/convert.h"
 #include "tests/messages/plan_samples.h"
 

@@ -15,7 +15,6 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
-#include "daemon/messages/body.h"
 #include "daemon/messages/convert.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/service/running_service.h"

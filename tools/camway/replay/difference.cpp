@@ -73,8 +73,6 @@ void walk(Sink& sink, const planning::PlanResult& result) {
   planning::head_members(io, result);
   io.need("keyframes", result.keyframes);
   io.need("segments", result.path.segments());
-  io.need("collisions", with_names(result.collisions, result.collision_names));
-  io.need("remaining_collisions", with_names(result.remaining_collisions, result.remaining_names));
   planning::report_members(io, result);
 }
 
