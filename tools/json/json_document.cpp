@@ -239,8 +239,10 @@ std::optional<Field> Field::optional_member(std::string_view key, std::string_vi
     return std::nullopt;
   }
   if (found != value_->end()) return Field(&*found, this, key, 0);
-  if (found_old != value_->end()) return Field(&*found_old, this, old, 0);
-  return std::nullopt;
+  if (found_old == value_->end()) return std::nullopt;
+  const Field by_old_name(&*found_old, this, old, 0);
+  notes_->old_names.emplace(Field(nullptr, this, key, 0).path(), by_old_name.path());
+  return by_old_name;
 }
 
 Field Field::element(std::size_t index) const { return {&(*value_)[index], this, {}, index}; }
@@ -332,7 +334,7 @@ void Field::allow_only(const std::vector<std::string_view>& known,
 void Field::fail(std::string_view message) const {
   if (failed()) return;
   const std::string place = path();
-  *error_ = place.empty() ? std::string(message) : place + ": " + std::string(message);
+  notes_->error = place.empty() ? std::string(message) : place + ": " + std::string(message);
 }
 
 void Field::fail_number(std::string_view rule) const {

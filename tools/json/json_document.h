@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,14 +37,21 @@ std::string source_of(const std::string& file);
 /// names the file.
 base::Result<std::string> read_text(const std::string& file);
 
+/// Findings in a document that is read.
+struct DocumentNotes {
+  std::string error;  ///< the first error; empty if there is none
+  /// Members that the document has by their old names: the path with the old name, by the path.
+  std::map<std::string, std::string, std::less<>> old_names;
+};
+
 /// A value of a document together with its path, for errors such as
 /// `keyframes[3].orientation: must be an array of 4 numbers`. Only the first error is kept; after
 /// it every read returns a default, so callers check once at the end. Holds pointers to its parent
-/// and to the error text, which must outlive it.
+/// and to the notes, which must outlive it.
 class Field {
  public:
   /// The document itself.
-  Field(const nlohmann::json& root, std::string& error) : value_(&root), error_(&error) {}
+  Field(const nlohmann::json& root, DocumentNotes& notes) : value_(&root), notes_(&notes) {}
 
   /// Returns a required member. If the object does not have `key`, returns the member `old`, the
   /// old name of that member. Records an error if the object has both.
@@ -76,19 +85,21 @@ class Field {
   void fail(std::string_view message) const;
   /// Records "is 7; it must ..." about this value, as `fail` does. Requires a number.
   void fail_number(std::string_view rule) const;
-  [[nodiscard]] bool failed() const { return !error_->empty(); }
+  [[nodiscard]] bool failed() const { return !notes_->error.empty(); }
+  /// Returns the findings so far.
+  [[nodiscard]] const DocumentNotes& notes() const { return *notes_; }
   /// Returns the path, such as `keyframes[3].orientation`; empty for the document.
   [[nodiscard]] std::string path() const;
 
  private:
   Field(const nlohmann::json* value, const Field* parent, std::string_view key, std::size_t index)
-      : value_(value), parent_(parent), key_(key), index_(index), error_(parent->error_) {}
+      : value_(value), parent_(parent), key_(key), index_(index), notes_(parent->notes_) {}
 
   const nlohmann::json* value_ = nullptr;  ///< null if the document has no such value
   const Field* parent_ = nullptr;
   std::string_view key_;  ///< empty for an element of an array
   std::size_t index_ = 0;
-  std::string* error_;
+  DocumentNotes* notes_;
 };
 
 /// Returns the value that the field's text names. For an unknown name, records an error that lists
@@ -112,9 +123,9 @@ template <typename T>
 base::Result<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
   const base::Result<nlohmann::json> document = parse_document(text, source);
   if (!document) return base::Failure{document.error};
-  std::string error;
-  T value = read(Field(*document, error));
-  if (!error.empty()) return base::Failure{std::string(source) + ": " + error};
+  DocumentNotes notes;
+  T value = read(Field(*document, notes));
+  if (!notes.error.empty()) return base::Failure{std::string(source) + ": " + notes.error};
   return value;
 }
 

@@ -1,22 +1,87 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_io.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "daemon/planning/request/body_members.h"
 #include "daemon/scene/import/record/import_words.h"
-#include "tools/json/json_body.h"
 #include "tools/json/json_options.h"
 #include "tools/json/json_reader.h"
 
 namespace camway::tools {
 namespace {
 
+using geometry::Vec3;
 using motion::Keyframe;
+using planning::FieldSpec;
 
-geometry::Vec4 read_numbers(const Field& field) {
-  geometry::Vec4 numbers = geometry::Vec4::Zero();
-  read_value(field, numbers);
-  return numbers;
+/// Reads the camera. Requires all members.
+motion::Camera read_camera(const Field& field) {
+  allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
+  motion::Camera camera;
+  const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
+    io.need({spec.file_name(), spec.old_file}, member);
+  };
+  planning::visit_camera(need, camera);
+  return camera;
+}
+
+/// Reads the members of a body.
+struct ShapeReader {
+  const Field& body;
+
+  template <class Value>
+  void operator()(const FieldSpec& spec, Value& member) const {
+    const JsonReader io(body);
+    if (spec.name == planning::body::kCenter.name) return io(spec, member);
+    io.need({spec.file_name(), spec.old_file}, member);
+  }
+  /// Reads a list of points for each piece, or `points` for a single piece.
+  void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
+    const auto points = body.optional_member(planning::body::kPoints.name);
+    const auto lists = body.optional_member(spec.name);
+    if (points.has_value() == lists.has_value()) {
+      body.fail("must have either points or pieces");
+    } else if (points) {
+      read_value(*points, pieces.emplace_back());
+    } else {
+      read_value(*lists, pieces);
+    }
+  }
+};
+
+/// Reads the body: an object with a `type` and the members of that type
+/// (`planning/request/body_members.h`), in metres and in the camera frame.
+///
+///     {"type": "camera"}
+///     {"type": "box", "size": [x, y, z], "center": [x, y, z]}
+///     {"type": "sphere", "radius_m": r, "center": [x, y, z]}
+///     {"type": "convex", "points": [[x, y, z], ...]}
+///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
+///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}
+///
+/// Returns nothing for a camera, and after an error.
+std::optional<motion::BodyShape> read_body(const Field& field) {
+  const Field type = field.member("type");
+  const std::string name = type.text();
+  const auto* const named = std::ranges::find(planning::kShapeNames, name);
+  std::optional<motion::BodyShape> shape =
+      planning::blank_shape(static_cast<std::size_t>(named - planning::kShapeNames.begin()));
+  if (!shape) {
+    type.fail("'" + name + "' is unknown; a body is a camera, box, sphere, convex or mesh");
+    return std::nullopt;
+  }
+  const auto read = [&](auto& part) {
+    std::vector<std::string_view> names = {"type"};
+    if constexpr (requires { part.pieces_C; }) names.push_back(planning::body::kPoints.name);
+    allow_only(field, names, [&](const auto& visit) { planning::visit_shape(visit, part); });
+    planning::visit_shape(ShapeReader{field}, part);
+  };
+  std::visit(read, *shape);
+  if (std::holds_alternative<motion::Camera>(*shape)) shape.reset();
+  return shape;
 }
 
 /// Returns the unit quaternion in the direction of `wxyz`. Divides by the largest coefficient
@@ -45,17 +110,18 @@ void read_time(const Field& item, std::size_t index, RequestFile& request, Keyfr
 
 /// Reads the quaternion, in either order of its numbers.
 geometry::Quat read_orientation(const Field& item, RequestFile& request) {
-  const std::optional<Field> xyzw_field = item.optional_member("orientation_xyzw");
-  if (!xyzw_field) {
-    const Field orientation = item.member("orientation");
-    return unit_quaternion(orientation, read_numbers(orientation));
+  geometry::Vec4 numbers = geometry::Vec4::Zero();
+  if (const auto xyzw = item.optional_member("orientation_xyzw")) {
+    if (item.optional_member("orientation")) {
+      item.fail("has both orientation and orientation_xyzw; leave one out");
+    }
+    request.says_xyzw = true;
+    read_value(*xyzw, numbers);
+    return unit_quaternion(*xyzw, {numbers[3], numbers[0], numbers[1], numbers[2]});
   }
-  if (item.optional_member("orientation")) {
-    item.fail("has both orientation and orientation_xyzw; leave one out");
-  }
-  request.says_xyzw = true;
-  const geometry::Vec4 xyzw = read_numbers(*xyzw_field);
-  return unit_quaternion(*xyzw_field, {xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+  const Field wxyz = item.member("orientation");
+  read_value(wxyz, numbers);
+  return unit_quaternion(wxyz, numbers);
 }
 
 void read_keyframes(const Field& list, RequestFile& request) {
@@ -73,9 +139,10 @@ void read_keyframes(const Field& list, RequestFile& request) {
         {"time", "position", "orientation", "orientation_xyzw", "origin", "repaired", "image"});
     Keyframe keyframe;
     read_time(item, i, request, keyframe);
-    read_value(item.member("position"), keyframe.pose.position);
+    const JsonReader io(item);
+    io.need("position", keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
-    if (const auto image = item.optional_member("image")) read_value(*image, keyframe.image);
+    io.may("image", true, keyframe.image);
     request.keyframes.push_back(keyframe);
   }
 }
@@ -107,7 +174,7 @@ RequestFile read_request(const Field& root) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
   RequestFile request;
-  if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
+  JsonReader(root).may("scene", true, request.scene);
   request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
   if (!request.body || root.optional_member("camera")) {
@@ -118,7 +185,7 @@ RequestFile read_request(const Field& root) {
   if (const auto options = root.optional_member("options")) {
     request.options = read_options(*options);
   }
-  request.spelling = json_spelling(root);
+  request.spelling = json_spelling(root.notes());
   return request;
 }
 

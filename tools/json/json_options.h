@@ -17,15 +17,9 @@ namespace camway::tools {
 /// checks the ranges.
 planning::PlanOptions read_options(const Field& field);
 
-/// Reads the `camera` of a request. Requires all members.
-motion::Camera read_camera(const Field& field);
-
 /// Returns the spelling of a request's members in files, for messages about it. For example
-/// "camera.fov_x" becomes "camera.fov_x_deg", because files have degrees.
-planning::FieldSpelling json_spelling();
-
-/// Returns the spelling of the members of `request`, a document that was read without an error. A
-/// member that it has by an old name has that name in messages. Keeps no reference.
-planning::FieldSpelling json_spelling(const Field& request);
+/// "camera.fov_x" becomes "camera.fov_x_deg", because files have degrees. A member that the file
+/// has by an old name has that name in messages.
+planning::FieldSpelling json_spelling(const DocumentNotes& notes = {});
 
 }  // namespace camway::tools

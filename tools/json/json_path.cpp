@@ -8,25 +8,21 @@
 namespace camway::tools {
 namespace {
 
-void refuse_unknown_fields(const Field& segments) {
-  const std::size_t count = segments.size();
-  for (std::size_t i = 0; i < count && !segments.failed(); ++i) {
-    segments.element(i).allow_only({"t0", "t1", "position", "orientation"});
-  }
-}
-
+/// Returns the times of given keyframes; none if one has no time.
 std::vector<double> read_keyframe_times(const Field& list) {
   std::vector<double> times_s;
   bool all_timed = true;
   const std::size_t count = list.size();
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
+    const JsonReader io(item);
     auto origin = motion::KeyframeOrigin::kGiven;
-    if (const auto field = item.optional_member("origin")) read_value(*field, origin);
+    std::optional<double> time_s;
+    io.may("origin", true, origin);
     if (origin == motion::KeyframeOrigin::kInserted) continue;
-    const auto time = item.optional_member("time");
-    if (time) times_s.push_back(time->number());
-    all_timed = all_timed && time;
+    io.may("time", true, time_s);
+    if (time_s) times_s.push_back(*time_s);
+    all_timed = all_timed && time_s;
   }
   if (!all_timed) times_s.clear();
   return times_s;
@@ -35,27 +31,28 @@ std::vector<double> read_keyframe_times(const Field& list) {
 PathFile read_path(const Field& root) {
   PathFile file;
   const Field list = root.member("segments");
-  refuse_unknown_fields(list);
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    list.element(i).allow_only({"t0", "t1", "position", "orientation"});
+  }
   std::vector<motion::Segment> segments = read_segments(list);
   // A path requires valid segments.
   if (!root.failed()) file.path = motion::Path(std::move(segments));
   if (const auto keyframes = root.optional_member("keyframes")) {
     file.keyframe_times_s = read_keyframe_times(*keyframes);
   }
-  if (const auto digest = root.optional_member("scene_digest")) file.scene_digest = digest->text();
-  if (const auto bounds = root.optional_member("bounds")) {
-    read_value(*bounds, file.bounds);
-    if (const auto fault = geometry::fault_in(file.bounds))
-      bounds->fail(fault->field + " " + fault->reason);
+  double time_scale = 1.0;
+  const JsonReader io(root);
+  io.may("scene_digest", true, file.scene_digest);
+  io.may("bounds", true, file.bounds);
+  io.may("time_scale", true, time_scale);
+  io.may("near_scale", true, file.near_scale);
+  file.is_slowed = time_scale != 1.0;
+  if (const auto fault = geometry::fault_in(file.bounds)) {
+    root.member("bounds").fail(fault->field + " " + fault->reason);
   }
-  if (const auto scale = root.optional_member("time_scale")) {
-    file.is_slowed = scale->number() != 1.0;
-  }
-  if (const auto scale = root.optional_member("near_scale")) {
-    file.near_scale = scale->number();
-    if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
-      scale->fail_number("be above 0 and at most 1");
-    }
+  if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
+    root.member("near_scale").fail_number("be above 0 and at most 1");
   }
   return file;
 }

@@ -7,15 +7,16 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/geometry/bounds.h"
 #include "daemon/planning/request/field_spec.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/planning/result/members.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
@@ -24,52 +25,94 @@
 /// requests and answers have. It records an error in the document for a value of another form.
 namespace camway::tools {
 
+inline constexpr std::int64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
+
+template <std::integral Number>
+void read_integer(const Field& field, std::int64_t least, std::int64_t most, Number& number) {
+  number = static_cast<Number>(field.integer(least, most));
+}
 inline void read_value(const Field& field, double& number) { number = field.number(); }
 inline void read_value(const Field& field, bool& flag) { flag = field.boolean(); }
 inline void read_value(const Field& field, std::string& text) { text = field.text(); }
 /// Reads a number that counts something.
-void read_value(const Field& field, std::int32_t& count);
+inline void read_value(const Field& field, std::int32_t& count) {
+  read_integer(field, 0, std::numeric_limits<std::int32_t>::max(), count);
+}
 /// Reads the index of a triangle, or a side of the bounds, which is a number below 0.
-void read_value(const Field& field, std::uint32_t& triangle_or_side);
+inline void read_value(const Field& field, std::uint32_t& triangle_or_side) {
+  read_integer(field, -std::int64_t{geometry::Bounds::kSides}, kMaxIndex, triangle_or_side);
+}
 /// Reads the index of a keyframe.
-void read_value(const Field& field, std::size_t& keyframe);
-/// Reads indices of triangles.
-void read_value(const Field& field, std::vector<std::uint32_t>& triangles);
-void read_value(const Field& field, std::tuple<double&, double&> both);
-/// Reads numbers in the order w, x, y, z, as they are.
-void read_value(const Field& field, geometry::Quat& orientation);
-/// Reads `{"min": [...], "max": [...]}`. Either corner may be left out, and null is no limit.
-void read_value(const Field& field, geometry::Bounds& bounds);
-
+inline void read_value(const Field& field, std::size_t& keyframe) {
+  read_integer(field, 0, planning::kMaxKeyframes, keyframe);
+}
 template <base::NamedEnum Enum>
 void read_value(const Field& field, Enum& value) {
   value = named(field, base::named_values<Enum>());
+}
+inline void read_value(const Field& field, std::tuple<double&, double&> both) {
+  double numbers[2] = {};
+  field.numbers(numbers, 2);
+  both = std::tuple(numbers[0], numbers[1]);
 }
 template <int kSize>
 void read_value(const Field& field, Eigen::Matrix<double, kSize, 1>& vector) {
   field.numbers(vector.data(), kSize);
 }
-template <class Vector, std::size_t kCount>
-void read_value(const Field& list, std::array<Vector, kCount>& control_points) {
-  const std::size_t count = list.size();
-  if (!list.failed() && count != kCount) {
-    list.fail("must hold " + std::to_string(kCount) + " control points, not " +
-              std::to_string(count));
-  }
-  for (std::size_t i = 0; i < kCount && !list.failed(); ++i) {
-    read_value(list.element(i), control_points[i]);
-  }
+/// Reads numbers in the order w, x, y, z, as they are.
+inline void read_value(const Field& field, geometry::Quat& orientation) {
+  geometry::Vec4 wxyz = geometry::Vec4::Zero();
+  read_value(field, wxyz);
+  orientation = geometry::from_wxyz(wxyz);
 }
 template <class Value>
 void read_value(const Field& field, std::optional<Value>& value) {
   read_value(field, value.emplace());
 }
-template <class Value>
-void read_value(const Field& field, std::vector<Value>& list) {
+
+/// Reads an array of any length, or of that of `elements`, each element by `read(field, element)`.
+template <class List, class Read>
+void read_list(const Field& field, List& elements, const Read& read) {
   const std::size_t count = field.size();
-  for (std::size_t i = 0; i < count && !field.failed(); ++i) {
-    read_value(field.element(i), list.emplace_back());
+  if constexpr (!requires { elements.emplace_back(); }) {
+    if (!field.failed() && count != elements.size()) {
+      field.fail("must be an array of " + std::to_string(elements.size()) + ", not of " +
+                 std::to_string(count));
+    }
   }
+  for (std::size_t i = 0; i < count && !field.failed(); ++i) {
+    if constexpr (requires { elements.emplace_back(); }) elements.emplace_back();
+    read(field.element(i), elements[i]);
+  }
+}
+template <class List>
+requires requires(List& list) {
+  list[0];
+  typename List::value_type;
+}
+void read_value(const Field& field, List& list) {
+  using Element = typename List::value_type;
+  read_list(field, list, [](const Field& item, Element& element) {
+    if constexpr (std::same_as<Element, std::uint32_t>) {
+      read_integer(item, 0, kMaxIndex, element);
+    } else {
+      read_value(item, element);
+    }
+  });
+}
+/// Reads `{"min": [...], "max": [...]}`. Either corner may be left out, and null is no limit.
+inline void read_value(const Field& field, geometry::Bounds& bounds) {
+  field.allow_only({"min", "max"});
+  bounds = {};
+  const auto read_corner = [&](std::string_view name, geometry::Vec3& corner_W) {
+    const auto read = [](const Field& item, double& limit_m) {
+      if (!item.is_null()) limit_m = item.number();
+    };
+    std::span<double, 3> limits_m(corner_W.data(), 3);
+    if (const auto corner = field.optional_member(name)) read_list(*corner, limits_m, read);
+  };
+  read_corner("min", bounds.min_W);
+  read_corner("max", bounds.max_W);
 }
 
 /// Records an error for the first member that is neither in `names` nor in a table of members
@@ -98,7 +141,8 @@ class JsonReader {
   }
   template <class Value>
   void may(planning::FileName name, bool, Value&& member) const {
-    if (const auto field = object_.optional_member(name.name)) read(*field, name.name, member);
+    const auto field = object_.optional_member(name.name, name.old);
+    if (field) read(*field, name.name, member);
   }
   template <class List>
   void group(planning::FileName name, bool, int, const List& list) const {
@@ -109,33 +153,27 @@ class JsonReader {
   }
   template <class Struct, class List>
   void optional(planning::FileName name, std::optional<Struct>& member, const List& list) const {
-    const auto field = object_.optional_member(name.name);
-    if (!field) return;
-    const JsonReader object(*field);
-    list(object, member.emplace());
+    group(name, true, 0, [&](const JsonReader& object) { list(object, member.emplace()); });
   }
 
   /// Reads a member of a table if the object has it.
   template <class Value>
   void operator()(const planning::FieldSpec& spec, Value& member) const {
-    const auto field = object_.optional_member(spec.file_name(), spec.old_file);
-    if (field) read(*field, spec.file_name(), member);
+    may({spec.file_name(), spec.old_file}, true, member);
   }
   /// Reads a whole number of any size, from the least of its range.
   void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    const auto field = object_.optional_member(spec.file_name(), spec.old_file);
+    const auto field = object_.optional_member(spec.file_name());
     const auto least = static_cast<std::int64_t>(spec.range.least);
-    if (field) number = static_cast<std::uint64_t>(field->integer(least, kMost));
+    if (field) read_integer(*field, least, std::numeric_limits<std::int64_t>::max(), number);
   }
 
  private:
   template <class Value>
   static void read(const Field& field, std::string_view name, Value& member) {
+    read_value(field, member);
     if constexpr (std::same_as<Value, double>) {
-      member = planning::is_angle(name) ? radians(field.number()) : field.number();
-    } else {
-      read_value(field, member);
+      if (planning::is_angle(name)) member = radians(member);
     }
   }
 

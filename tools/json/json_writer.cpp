@@ -20,7 +20,7 @@ void JsonWriter::begin(std::string_view name) {
 
 // Writes the shortest decimal that reads back as the same double, always with a point or an
 // exponent: otherwise readers take -0 for the integer 0 and lose the sign.
-void JsonWriter::number(double number) {
+void JsonWriter::value(double number) {
   if (!std::isfinite(number)) {
     if (!error_.empty()) return;
     for (const std::string_view name : path_) {
@@ -45,7 +45,7 @@ void JsonWriter::value(const geometry::Bounds& bounds) {
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
     out_ += side == 0 ? "{\"min\": [" : side == 3 ? "], \"max\": [" : ", ";
     const double limit_m = bounds.limit_m(side);
-    std::isinf(limit_m) ? void(out_ += "null") : number(limit_m);
+    std::isinf(limit_m) ? void(out_ += "null") : value(limit_m);
   }
   out_ += "]}";
 }

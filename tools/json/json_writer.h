@@ -5,10 +5,10 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,11 +20,6 @@
 namespace camway::tools {
 
 using planning::FileName;
-
-template <class Io, class Struct>
-concept HasMembers = requires(Io& io, Struct& value) {
-  planning::members(io, value);
-};
 
 /// Writes an object. Each small object (a keyframe, an interval) is on one line, so that a person
 /// can read a long path and `diff` can compare two.
@@ -54,7 +49,7 @@ class JsonWriter {
   void need(FileName name, const Value& member) {
     begin(name.name);
     if constexpr (std::same_as<Value, double>) {
-      number(planning::is_angle(name.name) ? degrees(member) : member);
+      value(planning::is_angle(name.name) ? degrees(member) : member);
     } else {
       value(member);
     }
@@ -85,66 +80,52 @@ class JsonWriter {
  private:
   void new_line(int indent) { out_.append("\n").append(static_cast<std::size_t>(indent), ' '); }
   void begin(std::string_view name);
-  void number(double number);
 
-  void value(double number) { this->number(number); }
-  void value(bool flag) { out_ += flag ? "true" : "false"; }
-  void value(std::integral auto number) { out_ += std::to_string(number); }
+  void value(double number);
   void value(std::string_view text);
-  void value(const std::string& text) { value(std::string_view(text)); }
-  template <base::NamedEnum Enum>
-  void value(Enum named) {
-    value(base::name_of(named));
-  }
-  /// Writes the index of a triangle, or a side of the bounds as a number below 0.
-  void value(std::uint32_t number) { value(collision::Obstacles::signed_number(number)); }
-  void value(std::optional<std::size_t> index) { value(*index); }
+  /// Writes null for a side without a limit.
+  void value(const geometry::Bounds& bounds);
+  void value(const geometry::Quat& orientation) { array(geometry::wxyz(orientation)); }
   void value(std::tuple<const double&, const double&> both) {
     array(std::array{std::get<0>(both), std::get<1>(both)});
   }
-  template <int kSize>
-  void value(const Eigen::Matrix<double, kSize, 1>& vector) {
-    array(vector);
-  }
-  void value(const geometry::Quat& orientation) { array(geometry::wxyz(orientation)); }
-  /// Writes null for a side without a limit.
-  void value(const geometry::Bounds& bounds);
-  template <class Vector, std::size_t kCount>
-  void value(const std::array<Vector, kCount>& points) {
-    array(points);
-  }
-  void value(const std::vector<std::uint32_t>& numbers) { array(numbers); }
-  /// Writes an array with one element on each line.
   template <class Value>
-  void value(const std::vector<Value>& list) {
-    value(std::span<const Value>(list));
-  }
-  template <class Value>
-  void value(std::span<const Value> list) {
-    path_.emplace_back("[]");
-    out_ += '[';
-    bool first = true;
-    for (const Value& element : list) {
-      out_ += std::exchange(first, false) ? "\n    " : ",\n    ";
-      value(element);
+  void value(const Value& value) {
+    if constexpr (std::same_as<Value, bool>) {
+      out_ += value ? "true" : "false";
+    } else if constexpr (std::same_as<Value, std::uint32_t>) {
+      // The index of a triangle, or a side of the bounds as a number below 0.
+      out_ += std::to_string(collision::Obstacles::signed_number(value));
+    } else if constexpr (std::integral<Value>) {
+      out_ += std::to_string(value);
+    } else if constexpr (base::NamedEnum<Value>) {
+      this->value(base::name_of(value));
+    } else if constexpr (std::convertible_to<Value, std::string_view>) {
+      this->value(std::string_view(value));
+    } else if constexpr (requires { value.has_value(); }) {
+      this->value(*value);
+    } else if constexpr (requires { planning::members(*this, value); }) {
+      object(-1, [&] { planning::members(*this, value); });
+    } else {
+      array(value);
     }
-    out_ += first ? "]" : "\n  ]";
-    path_.pop_back();
-  }
-  template <class Value>
-  requires HasMembers<JsonWriter, const Value>
-  void value(const Value& object) {
-    this->object(-1, [&] { planning::members(*this, object); });
   }
 
+  /// Writes numbers and points on one line, and each element of another list on a line.
   template <class List>
   void array(const List& list) {
-    const char* separator = "[";
+    using Element = std::remove_cvref_t<decltype(*list.begin())>;
+    constexpr bool kIsInLine = std::is_arithmetic_v<Element> || requires {
+      std::tuple_size<List>::value;
+    };
+    if (!kIsInLine) path_.emplace_back("[]");
+    const char* separator = kIsInLine ? "[" : "[\n    ";
     for (const auto& element : list) {
-      out_ += std::exchange(separator, ", ");
+      out_ += std::exchange(separator, kIsInLine ? ", " : ",\n    ");
       value(element);
     }
-    out_ += list.size() == 0 ? "[]" : "]";
+    out_ += list.size() == 0 ? "[]" : kIsInLine ? "]" : "\n  ]";
+    if (!kIsInLine) path_.pop_back();
   }
 
   std::string& out_;

@@ -216,7 +216,7 @@ TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
   EXPECT_THAT(error_of("\"t0\": -5.0", "\"t0\": 1e9"),
               HasSubstr("segments[0].t1: must be above t0"));
   EXPECT_THAT(error_of("\"orientation\": [[", "\"orientation\": [[], ["),
-              HasSubstr("segments[0].orientation: must hold 7 control points, not 8"));
+              HasSubstr("segments[0].orientation: must be an array of 7, not of 8"));
   EXPECT_THAT(error_of("\"origin\": \"", "\"origin\": \"re"),
               HasSubstr("keyframes[0].origin: 'regiven' is unknown; there are given, inserted"));
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_body.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -105,7 +103,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
        "body.points[0]: must be an array of 3 numbers, not an array of 2"},
       {R"({"type": "convex", "pieces": [[[0, 0, 0]], 5]})", "body.pieces[1]: must be an array"},
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0]]})",
-       "body.triangles[0]: must be an array of 3 indices"},
+       "body.triangles[0]: must be an array of 3, not of 2"},
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})",
        "body.triangles[0][2]: is -1; it must be a whole number from 0"},
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, 0.5]]})",

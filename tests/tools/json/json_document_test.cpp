@@ -74,8 +74,9 @@ TEST(JsonDocument, SaysWhyAFileCannotBeRead) {
 TEST(Field, ReportsTheFirstErrorWithItsPath) {
   const auto document = parse_document(R"({"list": [{"a": 1}, {"a": "x", "b": true}]})", "R.json");
   ASSERT_TRUE(document);
-  std::string error;
-  const Field root(*document, error);
+  DocumentNotes notes;
+  const std::string& error = notes.error;
+  const Field root(*document, notes);
   const Field list = root.member("list");
   ASSERT_EQ(list.size(), 2U);
   EXPECT_EQ(list.element(0).member("a").number(), 1.0);
@@ -88,13 +89,25 @@ TEST(Field, ReportsTheFirstErrorWithItsPath) {
   EXPECT_EQ(error, "list[1].a: must be a number, not a string");
 }
 
+TEST(Field, NotesOldNames) {
+  const auto document = parse_document(R"({"list": [{"a": 1}, {"old_a": 2}]})", "R.json");
+  ASSERT_TRUE(document);
+  DocumentNotes notes;
+  const Field root(*document, notes);
+  const Field list = root.member("list");
+  EXPECT_EQ(list.element(0).member("a", "old_a").number(), 1.0);
+  EXPECT_EQ(list.element(1).member("a", "old_a").number(), 2.0);
+  ASSERT_EQ(notes.old_names.size(), 1U);
+  EXPECT_EQ(notes.old_names["list[1].a"], "list[1].old_a");
+}
+
 TEST(Field, TakesWholeNumbersWithinTheirRangeOnly) {
   const auto document = parse_document("[7, 7.0, -1, 18446744073709551615, \"7\"]", "R.json");
   ASSERT_TRUE(document);
   const auto error_of = [&](std::size_t index) {
-    std::string error;
-    static_cast<void>(Field(*document, error).element(index).integer(0, 100));
-    return error;
+    DocumentNotes notes;
+    static_cast<void>(Field(*document, notes).element(index).integer(0, 100));
+    return notes.error;
   };
   EXPECT_EQ(error_of(0), "");
   for (std::size_t i = 1; i < 5; ++i) {
