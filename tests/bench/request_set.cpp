@@ -81,7 +81,7 @@ std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double sca
 std::vector<BenchScene> load_requests(const RequestSource& source) {
   std::map<std::string, BenchScene> scenes;
   for (const fs::path& file : request_files(source.requests, source.only)) {
-    base::Result<tools::RequestFile> parsed = tools::read_plan_request(file.string());
+    base::Result<tools::RequestFile> parsed = tools::read_as<tools::RequestFile>(file.string());
     if (!parsed) give_up(parsed.error);
     if (const auto invalid = planning::validate(*parsed)) {
       give_up(file.string() + ": " + invalid->message);

@@ -23,19 +23,19 @@ bool is_value_or_reason(const base::Result<Value>& parsed) {
 }
 
 bool exercise_request_json(std::span<const std::uint8_t> bytes) {
-  const auto parsed = tools::parse_plan_request(as_text(bytes), "fuzzed");
+  const auto parsed = tools::parse_as<tools::RequestFile>(as_text(bytes), "fuzzed");
   if (parsed) static_cast<void>(planning::validate(*parsed));
   return is_value_or_reason(parsed);
 }
 
 bool exercise_response_json(std::span<const std::uint8_t> bytes) {
-  const auto parsed = tools::parse_plan_response(as_text(bytes), "fuzzed");
+  const auto parsed = tools::parse_as<planning::PlanResult>(as_text(bytes), "fuzzed");
   if (parsed) static_cast<void>(tools::write_plan_response(*parsed));
   return is_value_or_reason(parsed);
 }
 
 bool exercise_path_json(std::span<const std::uint8_t> bytes) {
-  return is_value_or_reason(tools::parse_path_file(as_text(bytes), "fuzzed"));
+  return is_value_or_reason(tools::parse_as<tools::PathFile>(as_text(bytes), "fuzzed"));
 }
 
 constexpr char kRequest[] = R"({"scene": "a.obj", "comment": [1, {"x": null}],
@@ -72,7 +72,7 @@ planning::PlanResult planned(const planning::PlanRequest& request) {
 }
 
 std::vector<FuzzBytes> response_json_seeds() {
-  const auto request = tools::parse_plan_request(kRequest, "seed");
+  const auto request = tools::parse_as<tools::RequestFile>(kRequest, "seed");
   return {fuzz_bytes(*tools::write_plan_response(planned(*request))),
           fuzz_bytes(R"({"status": "invalid", "message": "scene: is missing"})")};
 }
@@ -107,7 +107,7 @@ std::vector<FuzzBytes> session_seeds() {
   Random random(kSeed);
   FuzzBytes log;
   for (std::int64_t id = 1; id <= 3; ++id) {
-    const planning::PlanRequest request = *tools::parse_plan_request(kRequest, "seed");
+    const planning::PlanRequest request = *tools::parse_as<tools::RequestFile>(kRequest, "seed");
     const messages::AnswerHeader header{{"tester", id, 0}, request.scene, 1, ""};
     for (const FuzzBytes& page : wire::encode_pages(messages::to_wire(request, header.ids))) {
       append_event("CAMWAY_PLAN_REQUEST", page, log);

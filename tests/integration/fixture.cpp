@@ -25,7 +25,7 @@ std::string request_file(const std::string& name) {
 }
 
 PlanRequest request_of(const std::string& name, const std::string& scene) {
-  const auto request = tools::read_plan_request(request_file(name));
+  const auto request = tools::read_as<tools::RequestFile>(request_file(name));
   EXPECT_TRUE(request) << request.error;
   return request.value ? tools::to_client_request(*request, scene) : PlanRequest{};
 }

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   camway::Client client(options);
   bool all_answered = true;
   for (int i = 3; i < argc; ++i) {
-    const auto request = camway::tools::read_plan_request(argv[i]);
+    const auto request = camway::tools::read_as<camway::tools::RequestFile>(argv[i]);
     if (!request) {
       std::cerr << request.error << '\n';
       return 2;

@@ -110,7 +110,7 @@ TEST_F(SceneRaceTest, AHundredAnswersHoldForTheRevisionsThatTheyNameWhileTheScen
     EXPECT_EQ(answer.scene_digest, snapshot->digest);
     auto result = results.find({name, answer.scene_revision});
     if (result == results.end()) {
-      const auto request = tools::read_plan_request(request_file(name));
+      const auto request = tools::read_as<tools::RequestFile>(request_file(name));
       ASSERT_TRUE(request) << request.error;
       result =
           results

@@ -43,7 +43,7 @@ json document(const fs::path& file) {
 }
 
 RequestFile parsed(const json& request) {
-  base::Result<RequestFile> read = parse_plan_request(request.dump(), "R.json");
+  base::Result<RequestFile> read = parse_as<RequestFile>(request.dump(), "R.json");
   EXPECT_TRUE(read) << read.error;
   return read ? *std::move(read) : RequestFile{};
 }

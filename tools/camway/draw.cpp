@@ -66,7 +66,7 @@ ExitCode invalid(const std::string& error) {
 
 /// Warns if the path was made for another scene than the one that is drawn.
 void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
-  const base::Result<PathFile> response = read_path_file(flags.response);
+  const base::Result<PathFile> response = read_as<PathFile>(flags.response);
   if (!response || response->scene_digest.empty()) return;
   if (response->scene_digest == snapshot.digest) return;
   print_error(fmt::format(
@@ -78,9 +78,9 @@ ExitCode run_draw(const DrawFlags& flags) {
   if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
     return invalid(fault);
   }
-  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
   if (!request) return invalid(request.error);
-  const base::Result<planning::PlanResult> result = read_plan_response(flags.response);
+  const base::Result<planning::PlanResult> result = read_as<planning::PlanResult>(flags.response);
   if (!result) return invalid(result.error);
   if (result->path.empty())
     return invalid(source_of(flags.response) + ": segments: has no path to draw");

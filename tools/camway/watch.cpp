@@ -257,7 +257,7 @@ ExitCode invalid_input(std::string_view message) {
 }
 
 ExitCode run_watch(WatchFlags flags) {
-  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
   if (!request) return invalid_input(request.error);
   // The daemon would refuse this, too, but with the names of the wire.
   if (const auto fault = planning::validate(*request)) {

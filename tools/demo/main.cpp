@@ -48,7 +48,7 @@ bool from_daemon(const PlanResponse& response) {
 }
 
 std::optional<Answered> ask(Client& client, const std::string& scene, const std::string& file) {
-  const auto read = tools::read_plan_request(file);
+  const auto read = tools::read_as<tools::RequestFile>(file);
   if (!read) {
     print_error(read.error);
     return std::nullopt;

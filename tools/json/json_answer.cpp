@@ -8,13 +8,11 @@
 #include "tools/json/json_writer.h"
 
 namespace camway::tools {
-namespace {
 
 using planning::PlanResult;
 
-PlanResult read_result(const Field& root) {
+void read_value(const Field& root, PlanResult& result) {
   const JsonReader io(root);
-  PlanResult result;
   planning::head_members(io, result);
   std::vector<motion::Segment> segments;
   if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
@@ -23,10 +21,7 @@ PlanResult read_result(const Field& root) {
   io.may("keyframes", true, result.keyframes);
   planning::report_members(io, result);
   io.may("timing_ms", true, result.timing);
-  return result;
 }
-
-}  // namespace
 
 base::Result<std::string> write_plan_response(const PlanResult& result,
                                               const ResponseFormat& format) {
@@ -45,14 +40,6 @@ base::Result<std::string> write_plan_response(const PlanResult& result,
   out += '\n';
   if (!io.error().empty()) return base::Failure{io.error()};
   return out;
-}
-
-base::Result<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
-  return parse_as(read_result, text, source);
-}
-
-base::Result<PlanResult> read_plan_response(const std::string& file) {
-  return read_as(read_result, file);
 }
 
 }  // namespace camway::tools

@@ -117,24 +117,26 @@ Value named(const Field& field,
   return names.front().second;
 }
 
-/// Parses `text` and converts the document by `read`. Returns the value, or the first error of
-/// either step.
+/// Parses `text` and reads a `T` from the document by `read_value(field, value)`. Returns the
+/// value, or the first error of either step. `source` begins the error, such as
+/// `R.json: keyframes[3].orientation: has length zero`.
 template <typename T>
-base::Result<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
+base::Result<T> parse_as(std::string_view text, std::string_view source) {
   const base::Result<nlohmann::json> document = parse_document(text, source);
   if (!document) return base::Failure{document.error};
   DocumentNotes notes;
-  T value = read(Field(*document, notes));
+  T value;
+  read_value(Field(*document, notes), value);
   if (!notes.error.empty()) return base::Failure{std::string(source) + ": " + notes.error};
   return value;
 }
 
-/// Reads a file ("-": standard input) and converts it like `parse_as`.
+/// Reads a file ("-": standard input) as `parse_as` does.
 template <typename T>
-base::Result<T> read_as(T (*read)(const Field&), const std::string& file) {
+base::Result<T> read_as(const std::string& file) {
   const base::Result<std::string> text = read_text(file);
   if (!text) return base::Failure{text.error};
-  return parse_as(read, *text, source_of(file));
+  return parse_as<T>(*text, source_of(file));
 }
 
 }  // namespace camway::tools

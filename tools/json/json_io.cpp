@@ -7,7 +7,6 @@
 
 #include "daemon/planning/request/body_members.h"
 #include "daemon/scene/import/record/import_words.h"
-#include "tools/json/json_options.h"
 #include "tools/json/json_reader.h"
 
 namespace camway::tools {
@@ -18,14 +17,12 @@ using motion::Keyframe;
 using planning::FieldSpec;
 
 /// Reads the camera. Requires all members.
-motion::Camera read_camera(const Field& field) {
+void read_camera(const Field& field, motion::Camera& camera) {
   allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
-  motion::Camera camera;
   const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
     io.need({spec.file_name(), spec.old_file}, member);
   };
   planning::visit_camera(need, camera);
-  return camera;
 }
 
 /// Reads the members of a body.
@@ -170,33 +167,22 @@ SceneReading read_reading(const Field& root) {
   return reading;
 }
 
-RequestFile read_request(const Field& root) {
+}  // namespace
+
+void read_value(const Field& root, RequestFile& request) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
-  RequestFile request;
-  JsonReader(root).may("scene", true, request.scene);
+  const JsonReader io(root);
+  io.may("scene", true, request.scene);
   request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
   if (!request.body || root.optional_member("camera")) {
-    request.camera = read_camera(root.member("camera"));
+    read_camera(root.member("camera"), request.camera);
   }
   read_keyframes(root.member("keyframes"), request);
   if (const auto frame = root.optional_member("frame")) request.frame = read_frame(*frame);
-  if (const auto options = root.optional_member("options")) {
-    request.options = read_options(*options);
-  }
+  io.may("options", true, request.options);
   request.spelling = json_spelling(root.notes());
-  return request;
-}
-
-}  // namespace
-
-base::Result<RequestFile> parse_plan_request(std::string_view text, std::string_view source) {
-  return parse_as(read_request, text, source);
-}
-
-base::Result<RequestFile> read_plan_request(const std::string& file) {
-  return read_as(read_request, file);
 }
 
 }  // namespace camway::tools

@@ -35,16 +35,28 @@ struct RequestFile : planning::PlanRequest {
   bool says_xyzw = false;
 };
 
-/// Reads a request. Checks the form (types, lengths, missing fields), that quaternions are not
-/// zero, that a keyframe has one of `orientation` and `orientation_xyzw`, that all keyframes have a
-/// time or none has, and that no field is unknown except for remarks (`Field::allow_only`):
-/// ignoring an unknown field could drop a required clearance. The camera may be left out if there
-/// is another body. `planning::validate` checks the ranges and the order of times. `source` begins
-/// the error, such as `R.json: keyframes[3].orientation: has length zero`. Keyframes count from 0.
-base::Result<RequestFile> parse_plan_request(std::string_view text, std::string_view source);
+/// Reads a request (`parse_as`, `read_as`). Checks the form (types, lengths, missing fields), that
+/// quaternions are not zero, that a keyframe has one of `orientation` and `orientation_xyzw`, that
+/// all keyframes have a time or none has, and that no field is unknown except for remarks
+/// (`Field::allow_only`): ignoring an unknown field could drop a required clearance. The camera may
+/// be left out if there is another body. `planning::validate` checks the ranges and the order of
+/// times. Keyframes count from 0 in errors.
+void read_value(const Field& root, RequestFile& request);
 
-/// Reads a request from a file ("-": standard input).
-base::Result<RequestFile> read_plan_request(const std::string& file);
+/// Reads the `options` of a request. A missing option has its default. `planning::visit_options`
+/// has the names of the options, and their old names, which are read as well. An example is
+///
+///     {"deadline_s": 5, "orientation": {"policy": "level", "up": [0, 0, 1], "max_turn_deg": 20},
+///      "limits": {"speed_m_per_s": 2, "retime": true}, "bounds": {"max": [10, null, 3]}}
+///
+/// Directions have any length. Members that another policy of orientation uses are refused, because
+/// ignoring them would drop a wish.
+void read_value(const Field& field, planning::PlanOptions& options);
+
+/// Returns the spelling of a request's members in files, for messages about it. For example
+/// "camera.fov_x" becomes "camera.fov_x_deg", because files have degrees. A member that the file
+/// has by an old name has that name in messages.
+planning::FieldSpelling json_spelling(const DocumentNotes& notes = {});
 
 enum class TimingField {
   kWritten,
@@ -65,15 +77,11 @@ struct ResponseFormat {
 base::Result<std::string> write_plan_response(const planning::PlanResult& result,
                                               const ResponseFormat& format = {});
 
-/// Reads a response back to the same bits, with three exceptions: of a witness's feature only the
-/// name is written, not the number; the witness of a correction's collision is only in
-/// `collisions`; angles of corrections and measures may be off by a rounding. Checks that the
-/// segments are a path: each ends after it begins, and begins where the one before ends. Ignores
-/// unknown fields, which later versions may have.
-base::Result<planning::PlanResult> parse_plan_response(std::string_view text,
-                                                       std::string_view source);
-
-/// Reads a response from a file ("-": standard input).
-base::Result<planning::PlanResult> read_plan_response(const std::string& file);
+/// Reads a response (`parse_as`, `read_as`) back to the same bits, with three exceptions: of a
+/// witness's feature only the name is written, not the number; the witness of a correction's
+/// collision is only in `collisions`; angles of corrections and measures may be off by a rounding.
+/// Checks that the segments are a path: each ends after it begins, and begins where the one before
+/// ends. Ignores unknown fields, which later versions may have.
+void read_value(const Field& root, planning::PlanResult& result);
 
 }  // namespace camway::tools

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_options.h"
-
 #include <string>
 #include <string_view>
 
+#include "tools/json/json_io.h"
 #include "tools/json/json_reader.h"
 
 namespace camway::tools {
@@ -36,10 +35,8 @@ void read_value(const Field& field, correction::OrientationPolicy& policy) {
   }
 }
 
-planning::PlanOptions read_options(const Field& field) {
-  planning::PlanOptions options;
+void read_value(const Field& field, planning::PlanOptions& options) {
   read_table(field, [&](const auto& visit) { planning::visit_options(visit, options); });
-  return options;
 }
 
 planning::FieldSpelling json_spelling(const DocumentNotes& notes) {

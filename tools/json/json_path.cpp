@@ -28,8 +28,25 @@ std::vector<double> read_keyframe_times(const Field& list) {
   return times_s;
 }
 
-PathFile read_path(const Field& root) {
-  PathFile file;
+}  // namespace
+
+std::vector<motion::Segment> read_segments(const Field& list) {
+  std::vector<motion::Segment> segments;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    motion::Segment segment;
+    read_value(item, segment);
+    if (!(segment.t1_s > segment.t0_s)) item.member("t1").fail("must be above t0");
+    if (i > 0 && segment.t0_s != segments.back().t1_s) {
+      item.member("t0").fail("must equal t1 of the segment before");
+    }
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+void read_value(const Field& root, PathFile& file) {
   const Field list = root.member("segments");
   const std::size_t count = list.size();
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
@@ -54,31 +71,6 @@ PathFile read_path(const Field& root) {
   if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
     root.member("near_scale").fail_number("be above 0 and at most 1");
   }
-  return file;
 }
-
-}  // namespace
-
-std::vector<motion::Segment> read_segments(const Field& list) {
-  std::vector<motion::Segment> segments;
-  const std::size_t count = list.size();
-  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
-    const Field item = list.element(i);
-    motion::Segment segment;
-    read_value(item, segment);
-    if (!(segment.t1_s > segment.t0_s)) item.member("t1").fail("must be above t0");
-    if (i > 0 && segment.t0_s != segments.back().t1_s) {
-      item.member("t0").fail("must equal t1 of the segment before");
-    }
-    segments.push_back(segment);
-  }
-  return segments;
-}
-
-base::Result<PathFile> parse_path_file(std::string_view text, std::string_view source) {
-  return parse_as(read_path, text, source);
-}
-
-base::Result<PathFile> read_path_file(const std::string& file) { return read_as(read_path, file); }
 
 }  // namespace camway::tools

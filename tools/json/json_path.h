@@ -25,17 +25,14 @@ struct PathFile {
   bool is_slowed = false;   ///< whether it has later times than those asked for
 };
 
-/// Reads a path. The member `segments` is required. A segment with an unknown field is an error,
-/// except for remarks (`Field::allow_only`): a field such as `weights` or `knots` would describe
-/// another curve than the one that is proved. Checks the form, that each segment ends after it
-/// begins, and that it begins when the one before ends; `planning::find_fault` checks the numbers.
-/// `keyframes` (with `time` and `origin`: "given" or "inserted"), `scene_digest`, `bounds`,
-/// `near_scale` and `time_scale` are optional. Unknown fields outside of the segments are ignored,
-/// because they cannot change what is proved.
-base::Result<PathFile> parse_path_file(std::string_view text, std::string_view source);
-
-/// Reads a path from a file ("-": standard input).
-base::Result<PathFile> read_path_file(const std::string& file);
+/// Reads a path (`parse_as`, `read_as`). The member `segments` is required. A segment with an
+/// unknown field is an error, except for remarks (`Field::allow_only`): a field such as `weights`
+/// or `knots` would describe another curve than the one that is proved. Checks the form, that each
+/// segment ends after it begins, and that it begins when the one before ends;
+/// `planning::find_fault` checks the numbers. `keyframes` (with `time` and `origin`: "given" or
+/// "inserted"), `scene_digest`, `bounds`, `near_scale` and `time_scale` are optional. Unknown
+/// fields outside of the segments are ignored, because they cannot change what is proved.
+void read_value(const Field& root, PathFile& file);
 
 /// Reads a list of segments. Each must end after it begins, and begin when the one before ends.
 /// Ignores unknown fields.

@@ -67,7 +67,7 @@ TEST_F(CliCheck, ListsWhereAndWithWhatAPathCollides) {
 // Bounds of the request, or of the response, which names those of its scene.
 TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
   const std::string file = planned("free", 1);
-  auto response = read_plan_response(file);
+  auto response = read_as<planning::PlanResult>(file);
   ASSERT_TRUE(response) << response.error;
   response->bounds.max_W.x() = 1.0;
   const std::string bounded = folder_.write("P.json", *write_plan_response(*response));
@@ -87,7 +87,7 @@ TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
 
 TEST_F(CliCheck, RefusesAPathThatJumps) {
   const std::string file = planned("free", 1);
-  auto response = read_plan_response(file);
+  auto response = read_as<planning::PlanResult>(file);
   ASSERT_TRUE(response) << response.error;
   motion::Segment first = response->path.segments()[0];
   motion::Segment second = first;

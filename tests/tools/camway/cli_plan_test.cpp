@@ -34,7 +34,7 @@ class CliPlan : public ::testing::Test {
 TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
   const CliRun run = run_camway({"plan", "--request", free_});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto response = parse_plan_response(run.out, "stdout");
+  const auto response = parse_as<planning::PlanResult>(run.out, "stdout");
   ASSERT_TRUE(response) << response.error;
   EXPECT_EQ(response->status, Status::kOk);
   EXPECT_EQ(response->keyframes.size(), 2U);
@@ -51,7 +51,7 @@ TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
                                  file, "--method", "keyframe_insertion", "--deadline-s", "20"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, "");
-  const auto response = read_plan_response(file);
+  const auto response = read_as<planning::PlanResult>(file);
   ASSERT_TRUE(response) << response.error;
   EXPECT_EQ(response->status, Status::kOk);
   EXPECT_FALSE(response->collisions.empty());
@@ -67,7 +67,7 @@ TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
       "wide.json", request_json({keyframe_json(0, 0, 1), keyframe_json(0, 0, -1)}, "wide.obj"));
   const CliRun run = run_camway({"plan", "--request", request, "--deadline-s", "5"});
   EXPECT_EQ(run.exit_code, 3) << run.err;
-  const auto response = parse_plan_response(run.out, "stdout");
+  const auto response = parse_as<planning::PlanResult>(run.out, "stdout");
   ASSERT_TRUE(response) << response.error;
   EXPECT_NE(response->status, Status::kOk);
   EXPECT_FALSE(response->remaining_collisions.empty());
@@ -112,7 +112,7 @@ TEST_F(CliPlan, NamesFieldKeyframeOrFileOfInvalidInput) {
     EXPECT_EQ(run.exit_code, 2) << run.err;
     EXPECT_THAT(run.err, StartsWith("camway: " + folder_.file("")));
     EXPECT_THAT(run.err, HasSubstr(c.expected));
-    const auto written = read_plan_response(response);
+    const auto written = read_as<planning::PlanResult>(response);
     ASSERT_TRUE(written) << written.error;
     EXPECT_EQ(written->status, Status::kInvalid);
     EXPECT_THAT(written->message, HasSubstr(c.expected));
@@ -127,7 +127,7 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
       folder_.write("R.json", request_json({keyframe_json(1, 0, 1), keyframe_json(0, 0, 0.1)}));
   const std::string file = folder_.file("P.json");
   EXPECT_EQ(run_camway({"plan", "--request", request, "--response", file}).exit_code, 2);
-  const auto response = read_plan_response(file);
+  const auto response = read_as<planning::PlanResult>(file);
   ASSERT_TRUE(response) << response.error;
   EXPECT_EQ(response->keyframe, std::optional<std::size_t>(1));
 }
@@ -143,8 +143,9 @@ TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
                      ", \"options\": {\"method\": \"keyframe_insertion\", \"clearance_m\": " +
                      std::to_string(clearance) + "},");
     const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
-    EXPECT_EQ(run.exit_code == 0, parse_plan_response(run.out, "stdout").value.has_value() &&
-                                      run.err.find(": ok: ") != std::string::npos)
+    EXPECT_EQ(run.exit_code == 0,
+              parse_as<planning::PlanResult>(run.out, "stdout").value.has_value() &&
+                  run.err.find(": ok: ") != std::string::npos)
         << run.err;
     return run.exit_code;
   };
@@ -168,7 +169,7 @@ TEST_F(CliPlan, WitnessesSayWhatCollides) {
   const std::string request = folder_.write(
       "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
   const CliRun run = run_camway({"plan", "--request", request});
-  const auto response = parse_plan_response(run.out, "stdout");
+  const auto response = parse_as<planning::PlanResult>(run.out, "stdout");
   ASSERT_TRUE(response) << response.error;
   ASSERT_EQ(response->collisions.size(), 1U);
   ASSERT_TRUE(response->collisions[0].witness);
@@ -184,7 +185,7 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
                                  "--max-turn-deg", "90", "--seed", "3", "--repair-keyframes",
                                  "--max-shrink", "0.5", "--method", "ladder"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto response = parse_plan_response(run.out, "stdout");
+  const auto response = parse_as<planning::PlanResult>(run.out, "stdout");
   ASSERT_TRUE(response) << response.error;
   ASSERT_EQ(response->corrections.size(), response->collisions.size());
   EXPECT_NE(response->corrections.at(0).kind, correction::CorrectionKind::kNone);
@@ -203,7 +204,7 @@ TEST_F(CliPlan, KeepsWithinBounds) {
   const std::string response = folder_.file("P.json");
   const CliRun run = run_camway({"plan", "--request", request, "--response", response});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto read = read_plan_response(response);
+  const auto read = read_as<planning::PlanResult>(response);
   ASSERT_TRUE(read) << read.error;
   EXPECT_EQ(read->bounds.min_W.y(), -1.5);
   EXPECT_EQ(read->bounds.max_W.head<2>(), Eigen::Vector2d(3.0, 1.5));
@@ -302,7 +303,7 @@ TEST_F(CliPlan, TimesAreDerivedAtTheSpeedThatIsAskedFor) {
   std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
   text.replace(text.find("\"camera\""), 0, R"("options": {"default_speed_m_per_s": 0.5}, )");
   const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
-  EXPECT_EQ(parse_plan_response(run.out, "stdout")->keyframes[1].time_s, 4.0) << run.err;
+  EXPECT_EQ(parse_as<planning::PlanResult>(run.out, "stdout")->keyframes[1].time_s, 4.0) << run.err;
 }
 
 TEST_F(CliPlan, HelpNamesBodyAndClearance) {
@@ -368,16 +369,16 @@ TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {
 TEST_F(CliPlan, ScalesAndTurnsTheScene) {
   // At 10 m per unit the wall ends at x = 2 m and is in the way; rotated to Y up it is horizontal.
   CliRun run = run_camway({"plan", "--request", free_, "--scale", "10", "--deadline-s", "5"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
-  EXPECT_FALSE(parse_plan_response(run.out, "stdout")->collisions.empty());
+  ASSERT_TRUE(parse_as<planning::PlanResult>(run.out, "stdout")) << run.err;
+  EXPECT_FALSE(parse_as<planning::PlanResult>(run.out, "stdout")->collisions.empty());
   const std::string through = folder_.write(
       "through.json", request_json({keyframe_json(0, 0.5, 1.5), keyframe_json(0, 0.5, -1.5)}));
   run = run_camway({"plan", "--request", through, "--deadline-s", "5"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
-  EXPECT_FALSE(parse_plan_response(run.out, "stdout")->collisions.empty());
+  ASSERT_TRUE(parse_as<planning::PlanResult>(run.out, "stdout")) << run.err;
+  EXPECT_FALSE(parse_as<planning::PlanResult>(run.out, "stdout")->collisions.empty());
   run = run_camway({"plan", "--request", through, "--up", "z-to-y"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
-  EXPECT_TRUE(parse_plan_response(run.out, "stdout")->collisions.empty());
+  ASSERT_TRUE(parse_as<planning::PlanResult>(run.out, "stdout")) << run.err;
+  EXPECT_TRUE(parse_as<planning::PlanResult>(run.out, "stdout")->collisions.empty());
 }
 
 TEST_F(CliPlan, TheRequestSaysHowToReadItsSceneAndFlagsGoBefore) {
@@ -388,7 +389,7 @@ TEST_F(CliPlan, TheRequestSaysHowToReadItsSceneAndFlagsGoBefore) {
                                        folder_.write("R.json", text)};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     const CliRun run = run_camway(arguments);
-    const auto path = parse_path_file(run.out, "stdout");
+    const auto path = parse_as<PathFile>(run.out, "stdout");
     EXPECT_TRUE(path) << run.err;
     return path.value ? path->scene_digest : "";
   };
@@ -409,8 +410,8 @@ TEST_F(CliPlan, PlansASetWithATable) {
   EXPECT_EQ(run.exit_code, 2) << run.err;
   EXPECT_THAT(run.out, HasSubstr("1 of 2 requests ok"));
   EXPECT_THAT(run.out, HasSubstr(free_));
-  EXPECT_EQ(read_plan_response(dir + "/free.json")->status, Status::kOk);
-  EXPECT_EQ(read_plan_response(dir + "/bad.json")->status, Status::kInvalid);
+  EXPECT_EQ(read_as<planning::PlanResult>(dir + "/free.json")->status, Status::kOk);
+  EXPECT_EQ(read_as<planning::PlanResult>(dir + "/bad.json")->status, Status::kInvalid);
   const std::string first = read_all(dir + "/free.json");
   EXPECT_EQ(
       run_camway({"plan", "--request", free_, "--response-dir", dir, "--no-timing"}).exit_code, 0);

@@ -151,7 +151,7 @@ TEST(JsonResponse, IsReadBackBitForBit) {
     const planning::PlanResult result = any_result(random);
     const auto text = write_plan_response(result);
     ASSERT_TRUE(text.value) << text.error;
-    const auto read = parse_plan_response(*text.value, "P.json");
+    const auto read = parse_as<planning::PlanResult>(*text.value, "P.json");
     ASSERT_TRUE(read.value) << read.error;
     EXPECT_EQ(read.value->message, result.message);
     EXPECT_EQ(difference_of(result, *read.value, motion::Body(motion::Camera{})).what, "");
@@ -167,7 +167,7 @@ TEST(JsonResponse, KeepsTheSignOfZeroAndTheEndsOfTheRange) {
       {-0.0, 0.0},
       {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()},
       {-std::numeric_limits<double>::max(), 9007199254740993.0}};
-  const auto read = parse_plan_response(*write_plan_response(result).value, "P.json");
+  const auto read = parse_as<planning::PlanResult>(*write_plan_response(result).value, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(difference_of(result, *read.value, motion::Body(motion::Camera{})).what, "");
   EXPECT_TRUE(std::signbit(read.value->collisions[0].t_begin_s));
@@ -210,7 +210,7 @@ TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
   const auto error_of = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return parse_plan_response(text, "P.json").error;
+    return parse_as<planning::PlanResult>(text, "P.json").error;
   };
   EXPECT_THAT(error_of("\"status\": \"", "\"status\": \"not_"), HasSubstr("P.json: status: 'not_"));
   EXPECT_THAT(error_of("\"t0\": -5.0", "\"t0\": 1e9"),
@@ -232,9 +232,9 @@ TEST(JsonResponse, RefusesSegmentsThatDoNotFollowEachOther) {
   }
   result.path = motion::Path(segments);
   std::string text = *write_plan_response(result).value;
-  ASSERT_TRUE(parse_plan_response(text, "P.json").value);
+  ASSERT_TRUE(parse_as<planning::PlanResult>(text, "P.json").value);
   text.replace(text.find("\"t0\": 1.0"), 9, "\"t0\": 1.1");
-  EXPECT_THAT(parse_plan_response(text, "P.json").error,
+  EXPECT_THAT(parse_as<planning::PlanResult>(text, "P.json").error,
               HasSubstr("segments[1].t0: must equal t1 of the segment before"));
 }
 
@@ -249,7 +249,7 @@ TEST(JsonResponse, WitnessesStandInTheirIntervals) {
      "witness": {"time": 1.25, "object": "table", "triangle": 12, "feature": "edge 2", "depth_m": 0.0625, "point": [1.0, -2.0, 0.5]}},
     {"t_begin": 2.5, "t_end": 3.0}
   ],)"));
-  const auto read = parse_plan_response(text, "P.json");
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->collision_names, result.collision_names);
   EXPECT_EQ(read.value->collisions[0].witness->triangle, 12U);
@@ -267,7 +267,7 @@ TEST(JsonResponse, SaysWhichBoundsThereWereAndWhereTheyWereLeft) {
   EXPECT_THAT(text,
               HasSubstr(R"("bounds": {"min": [null, -0.5, null], "max": [null, null, null]})"));
   EXPECT_THAT(text, HasSubstr(R"("object": "bounds.min.y", "triangle": -2, )"));
-  const auto read = parse_plan_response(text, "P.json");
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->bounds, result.bounds);
   EXPECT_EQ(read.value->collisions[0].witness->triangle, min_y);
@@ -307,7 +307,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   "slowed": [
     {"t_begin": 2.0, "t_end": 4.0, "given": [1.5, 2.5]}
   ])"));
-  const auto read = parse_plan_response(text, "P.json");
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
   EXPECT_EQ(read.value->measures, result.measures);
@@ -348,7 +348,7 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
     "cage": {"orientation": [0.6, 0.0, 0.0, 0.8], "min": [0.0, 1.0, 2.0], "max": [3.0, 4.0, 5.0],
       "widest_hole_m": 0.0625, "shortest_chord_m": 0.25},
     "triangles": [3, 5, 8]})"));
-  const auto read = parse_plan_response(text, "P.json");
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   ASSERT_TRUE(read.value->infeasibility && read.value->infeasibility->cage);
   const correction::CageBox& back = *read.value->infeasibility->cage;
@@ -359,7 +359,7 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
   EXPECT_EQ(back.shortest_chord_m, 0.25);
   std::string broken = text;
   broken.replace(broken.find("widest_hole_m"), 13, "widest");
-  EXPECT_EQ(parse_plan_response(broken, "P.json").error,
+  EXPECT_EQ(parse_as<planning::PlanResult>(broken, "P.json").error,
             "P.json: infeasibility.cage.widest_hole_m: is missing");
 }
 
@@ -391,13 +391,13 @@ TEST(JsonResponse, OfEarlierVersionsHasOldNames) {
     ASSERT_NE(at, std::string::npos) << member;
     old_text.replace(at, std::string(member).size(), old_member);
   }
-  const auto read = parse_plan_response(old_text, "P.json");
+  const auto read = parse_as<planning::PlanResult>(old_text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->collisions[0].witness->depth_m, 0.0625);
   EXPECT_EQ(read.value->corrections[0].kind, correction::CorrectionKind::kTurn);
   EXPECT_EQ(read.value->keyframe_faults[0].depth_m, 0.5);
   EXPECT_EQ(*write_plan_response(*read.value).value,
-            *write_plan_response(*parse_plan_response(text, "P.json").value).value);
+            *write_plan_response(*parse_as<planning::PlanResult>(text, "P.json").value).value);
 }
 
 TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
@@ -410,7 +410,7 @@ TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
   for (const auto& [member, old_member] : kOldNamesOfAnswers) {
     std::string text = answer_with_renamed_members();
     text.insert(text.find(member), std::string(old_member) + ", ");
-    EXPECT_EQ(parse_plan_response(text, "P.json").error, expected[i++]);
+    EXPECT_EQ(parse_as<planning::PlanResult>(text, "P.json").error, expected[i++]);
   }
 }
 
@@ -431,7 +431,7 @@ TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
   const auto error_of = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.rfind(from), from.size(), to);
-    return parse_plan_response(text, "P.json").error;
+    return parse_as<planning::PlanResult>(text, "P.json").error;
   };
   EXPECT_THAT(
       error_of("\"none\"", "\"fly\""),
@@ -464,7 +464,7 @@ TEST(JsonAngle, DegreesReadBack) {
 TEST(JsonResponse, OfLaterVersionsMaySayMore) {
   std::string text = *write_plan_response({}).value;
   text.replace(text.find("\"status\""), 0, "\"mood\": \"sunny\", ");
-  EXPECT_TRUE(parse_plan_response(text, "P.json").value);
+  EXPECT_TRUE(parse_as<planning::PlanResult>(text, "P.json").value);
 }
 
 }  // namespace

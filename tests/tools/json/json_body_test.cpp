@@ -20,7 +20,7 @@ std::string request_with(const std::string& body, bool with_camera = false) {
 }
 
 planning::PlanRequest read(const std::string& body, bool with_camera = false) {
-  const auto parsed = parse_plan_request(request_with(body, with_camera), "R.json");
+  const auto parsed = parse_as<RequestFile>(request_with(body, with_camera), "R.json");
   EXPECT_TRUE(parsed) << parsed.error;
   return parsed.value.value_or(RequestFile{});
 }
@@ -50,8 +50,8 @@ TEST(JsonBody, ReadsTheRadiusByItsOldName) {
   const auto fault = planning::validate(read(R"({"type": "sphere", "radius": -1})"));
   ASSERT_TRUE(fault);
   EXPECT_THAT(fault->message, StartsWith("body.radius: is -1 m"));
-  EXPECT_EQ(parse_plan_request(request_with(R"({"type": "sphere", "radius": 1, "radius_m": 1})"),
-                               "R.json")
+  EXPECT_EQ(parse_as<RequestFile>(request_with(R"({"type": "sphere", "radius": 1, "radius_m": 1})"),
+                                  "R.json")
                 .error,
             "R.json: body: has both radius_m and radius, its old name; leave one out");
 }
@@ -78,7 +78,7 @@ TEST(JsonBody, ReadsAMesh) {
 
 TEST(JsonBody, ACameraIsTheDefault) {
   EXPECT_FALSE(read(R"({"type": "camera"})", true).body);
-  EXPECT_THAT(parse_plan_request(request_with(R"({"type": "camera"})"), "R.json").error,
+  EXPECT_THAT(parse_as<RequestFile>(request_with(R"({"type": "camera"})"), "R.json").error,
               StartsWith("R.json: camera: is missing"));
 }
 
@@ -110,7 +110,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
        "body.triangles[0][2]: is 0.5; it must be a whole number"},
   };
   for (const auto& [body, expected] : cases) {
-    const auto parsed = parse_plan_request(request_with(body), "R.json");
+    const auto parsed = parse_as<RequestFile>(request_with(body), "R.json");
     EXPECT_FALSE(parsed) << body;
     EXPECT_THAT(parsed.error, StartsWith(std::string("R.json: ") + expected)) << body;
   }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_options.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +12,7 @@
 
 #include "tests/messages/plan_samples.h"
 #include "tools/json/json_angle.h"
+#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {
@@ -26,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 base::Result<PlanOptions> options_of(const std::string& text) {
-  return parse_as(read_options, text, "R.json");
+  return parse_as<PlanOptions>(text, "R.json");
 }
 
 TEST(JsonOptions, ReadsEveryField) {

@@ -23,15 +23,15 @@ std::string path_with(const std::string& more) {
 }
 
 std::vector<double> times_of(const std::string& keyframes) {
-  const auto read = parse_path_file(path_with(R"(, "keyframes": )" + keyframes), "P.json");
+  const auto read = parse_as<PathFile>(path_with(R"(, "keyframes": )" + keyframes), "P.json");
   EXPECT_TRUE(read) << read.error;
   return read.value ? read->keyframe_times_s : std::vector<double>{-1.0};
 }
 
-std::string error_of(const std::string& text) { return parse_path_file(text, "P.json").error; }
+std::string error_of(const std::string& text) { return parse_as<PathFile>(text, "P.json").error; }
 
 TEST(PathFile, NeedsSegmentsAlone) {
-  const auto read = parse_path_file(path_with(""), "P.json");
+  const auto read = parse_as<PathFile>(path_with(""), "P.json");
   ASSERT_TRUE(read) << read.error;
   ASSERT_EQ(read->path.segments().size(), 1U);
   EXPECT_EQ(read->path.segments()[0].position[3], geometry::Vec3(0, 0, 3));
@@ -41,7 +41,7 @@ TEST(PathFile, NeedsSegmentsAlone) {
 }
 
 TEST(PathFile, IgnoresWhatCannotChangeWhatIsProved) {
-  const auto read = parse_path_file(
+  const auto read = parse_as<PathFile>(
       path_with(R"(, "status": 200, "certificate": "mine", "author": {"name": "x"})"), "P.json");
   EXPECT_TRUE(read) << read.error;
 }
@@ -69,13 +69,13 @@ TEST(PathFile, TakesTheTimesOfGivenKeyframes) {
 TEST(PathFile, IsEveryResponseOfOurs) {
   planning::PlanResult result;
   result.status = planning::Status::kPartial;
-  result.path = parse_path_file(path_with(""), "P.json")->path;
+  result.path = parse_as<PathFile>(path_with(""), "P.json")->path;
   result.keyframes.resize(3);
   result.keyframes[1].origin = motion::KeyframeOrigin::kInserted;
   result.keyframes[2].time_s = 1.0;
   ResponseFormat format;
   format.scene_digest = "00ff";
-  const auto read = parse_path_file(*write_plan_response(result, format), "P.json");
+  const auto read = parse_as<PathFile>(*write_plan_response(result, format), "P.json");
   ASSERT_TRUE(read) << read.error;
   EXPECT_EQ(read->path.segments().size(), 1U);
   EXPECT_THAT(read->keyframe_times_s, ElementsAre(0.0, 1.0));

@@ -40,7 +40,7 @@ std::string edited(const std::string& from, const std::string& to) {
 }
 
 TEST(JsonRequest, ReadsEveryField) {
-  const auto parsed = parse_plan_request(kGoodRequest, "R.json");
+  const auto parsed = parse_as<RequestFile>(kGoodRequest, "R.json");
   ASSERT_TRUE(parsed.value) << parsed.error;
   const planning::PlanRequest& request = *parsed.value;
   EXPECT_EQ(request.scene, "office.obj");
@@ -65,7 +65,7 @@ TEST(JsonRequest, ReadsEveryField) {
 }
 
 TEST(JsonRequest, HasDefaultsForAllThatMayBeMissing) {
-  const auto parsed = parse_plan_request(
+  const auto parsed = parse_as<RequestFile>(
       R"({"camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
           "keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
                         {"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}]})",
@@ -146,11 +146,11 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("options": {)", R"("options": [{}], "_more": {)", "options: must be an object"},
   };
   for (const auto& c : cases) {
-    const auto parsed = parse_plan_request(edited(c.from, c.to), "dir/R.json");
+    const auto parsed = parse_as<RequestFile>(edited(c.from, c.to), "dir/R.json");
     EXPECT_FALSE(parsed.value) << c.to;
     EXPECT_THAT(parsed.error, StartsWith(std::string("dir/R.json: ") + c.expected));
   }
-  EXPECT_THAT(parse_plan_request("[]", "R.json").error,
+  EXPECT_THAT(parse_as<RequestFile>("[]", "R.json").error,
               HasSubstr("R.json: must be an object, not an array"));
 }
 
@@ -164,7 +164,7 @@ TEST(JsonRequest, ReadsKeyframesAndFrameOfAnAnswer) {
   std::string text = edited(R"("scene": "office.obj")", kFrame);
   const std::string copied = R"("origin": "inserted", "repaired": true, "image": [0, 1, 0, 2])";
   text.replace(text.find(R"("_name": "door")"), 15, copied);
-  const auto parsed = parse_plan_request(text, "R.json");
+  const auto parsed = parse_as<RequestFile>(text, "R.json");
   ASSERT_TRUE(parsed.value) << parsed.error;
   EXPECT_EQ(parsed.value->keyframes[0].image, geometry::Vec4::Zero());
   EXPECT_EQ(parsed.value->keyframes[1].image, geometry::Vec4(0, 1, 0, 2));
@@ -185,19 +185,19 @@ TEST(JsonRequest, NamesTheFieldOfAFrameAtFault) {
   for (const auto& [gone, message] : kFaults) {
     std::string frame = kFrame;
     frame.erase(frame.find(gone), std::string(gone).size());
-    const auto parsed = parse_plan_request(edited(R"("scene": "office.obj")", frame), "R.json");
+    const auto parsed = parse_as<RequestFile>(edited(R"("scene": "office.obj")", frame), "R.json");
     EXPECT_THAT(parsed.error, HasSubstr(message));
     EXPECT_FALSE(parsed.value) << gone;
   }
   std::string more = kFrame;
   more.replace(more.find("reference"), 0, R"(far": 1, ")");
-  EXPECT_THAT(parse_plan_request(edited(R"("scene": "office.obj")", more), "R.json").error,
+  EXPECT_THAT(parse_as<RequestFile>(edited(R"("scene": "office.obj")", more), "R.json").error,
               HasSubstr("frame.far: is unknown; frame has reference, begin, end"));
 }
 
 TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {
   const auto fault_of = [](const std::string& text) {
-    const auto parsed = parse_plan_request(text, "R.json");
+    const auto parsed = parse_as<RequestFile>(text, "R.json");
     EXPECT_TRUE(parsed.value) << parsed.error;
     if (!parsed.value) return std::string();
     const auto fault = planning::validate(*parsed.value);
@@ -240,7 +240,7 @@ TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
   };
   for (const auto& [from, to] : kFaults) {
     const std::string text = edited(from, to);
-    const auto parsed = parse_plan_request(text, "R.json");
+    const auto parsed = parse_as<RequestFile>(text, "R.json");
     ASSERT_TRUE(parsed.value) << parsed.error;
     const auto fault = planning::validate(*parsed.value);
     ASSERT_TRUE(fault) << to;
@@ -254,8 +254,8 @@ TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
 }
 
 TEST(JsonRequest, QuaternionsMayBeWrittenXyzw) {
-  const auto wxyz = parse_plan_request(kGoodRequest, "R.json");
-  const auto xyzw = parse_plan_request(
+  const auto wxyz = parse_as<RequestFile>(kGoodRequest, "R.json");
+  const auto xyzw = parse_as<RequestFile>(
       edited(R"("orientation": [0, 3, 0, 4])", R"("orientation_xyzw": [3, 0, 4, 0])"), "R.json");
   ASSERT_TRUE(xyzw.value) << xyzw.error;
   EXPECT_EQ(xyzw.value->keyframes[1].pose.orientation.coeffs(),
@@ -265,7 +265,7 @@ TEST(JsonRequest, QuaternionsMayBeWrittenXyzw) {
 }
 
 TEST(JsonRequest, SaysHowToReadTheScene) {
-  const auto said = parse_plan_request(
+  const auto said = parse_as<RequestFile>(
       edited(R"("scene": "office.obj")",
              R"("scene": "office.obj", "scale": 0.0254, "up": "z-to-y", "unknown": "occupied")"),
       "R.json");
@@ -273,7 +273,7 @@ TEST(JsonRequest, SaysHowToReadTheScene) {
   EXPECT_EQ(said.value->reading.scale, 0.0254);
   EXPECT_EQ(said.value->reading.up, scene::UpAxis::kZToY);
   EXPECT_EQ(said.value->reading.unknown, scene::UnknownSpace::kOccupied);
-  const auto silent = parse_plan_request(kGoodRequest, "R.json");
+  const auto silent = parse_as<RequestFile>(kGoodRequest, "R.json");
   EXPECT_FALSE(silent.value->reading.scale || silent.value->reading.up ||
                silent.value->reading.unknown);
 }
@@ -287,7 +287,7 @@ TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
         geometry::Vec4(normal(random), normal(random), normal(random), normal(random)).normalized();
     const double length = i % 2 == 0 ? 1.0 : std::pow(10.0, exponent(random));
     const geometry::Vec4 q = unit * length;
-    const auto parsed = parse_plan_request(
+    const auto parsed = parse_as<RequestFile>(
         edited("[0, 3, 0, 4]", fmt::format("[{}, {}, {}, {}]", q[0], q[1], q[2], q[3])), "R.json");
     ASSERT_TRUE(parsed.value) << parsed.error;
     const geometry::Vec4 read = geometry::wxyz(parsed.value->keyframes[1].pose.orientation);

@@ -50,7 +50,7 @@ base::Result<CheckInput> read_files(const CheckFlags& flags,
   if (const auto fault = planning::validate(*request)) {
     return failed(source_of(flags.request) + ": " + fault->message);
   }
-  const base::Result<PathFile> response = read_path_file(flags.response);
+  const base::Result<PathFile> response = read_as<PathFile>(flags.response);
   if (!response) return failed(response.error);
   auto body = motion::Body::make(planning::body_shape(*request, response->near_scale));
   if (!body) return failed(source_of(flags.request) + ": body: " + body.error);
@@ -68,7 +68,7 @@ base::Result<CheckInput> read_files(const CheckFlags& flags,
 }
 
 base::Result<CheckInput> read_input(const CheckFlags& flags) {
-  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
   base::Result<CheckInput> input = read_files(flags, request);
   if (!input) return input;
   std::optional<std::string> fault = planning::find_fault(input->path.segments());

@@ -68,7 +68,7 @@ LoadPlan make_questions(const LoadFlags& flags) {
   }
   LoadPlan plan{{parsed->name, scene.result.snapshot->digest}, {}};
   for (const std::string& file : flags.requests) {
-    const base::Result<RequestFile> request = read_plan_request(file);
+    const base::Result<RequestFile> request = read_as<RequestFile>(file);
     if (!request) {
       print_error(request.error);
       return {};

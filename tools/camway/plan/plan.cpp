@@ -82,7 +82,7 @@ std::vector<std::string> warnings_of(const RequestFile& request) {
 
 Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {
   Answer answer;
-  base::Result<RequestFile> request = read_plan_request(file);
+  base::Result<RequestFile> request = read_as<RequestFile>(file);
   if (!request) {
     answer.result = invalid(request.error);
     return answer;

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tools/json/json_options.h"
+#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {
