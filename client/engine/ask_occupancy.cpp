@@ -12,8 +12,8 @@
 #include <camway/cancel_t.hpp>
 
 #include "client/messages/occupancy.h"
-#include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -55,7 +55,7 @@ class PartCall final : public Call {
     cancel_t question{};
     question.client_id = context_.options().client_id;
     question.request_id = request_id();
-    question.utime = microseconds_since_1970();
+    question.utime = wire::utime_now();
     replace_question({{context_.channels().cancel_occupancy(), wire::encode(question)}});
     retry().restart();
   }

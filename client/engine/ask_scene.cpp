@@ -17,6 +17,7 @@
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -72,7 +73,7 @@ class OneAnswer final : public Call {
     cancel_t question{};
     question.client_id = context_.options().client_id;
     question.request_id = request_id();
-    question.utime = microseconds_since_1970();
+    question.utime = wire::utime_now();
     replace_question({{context_.channels().cancel_scene(), wire::encode(question)}});
     retry().restart();
   }
@@ -188,7 +189,7 @@ Uploaded upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
 Asked<scene_response_t> ask_once(const Asker& asker, scene_request_t request) {
   request.client_id = asker.context.options().client_id;
   request.request_id = asker.context.new_request_id();
-  request.utime = microseconds_since_1970();
+  request.utime = wire::utime_now();
   request.deadline_s = asker.context.options().change_deadline_s;
   return asker.ask<scene_response_t>(
       Call::Kind::kScene, request.request_id,
@@ -303,7 +304,7 @@ class MapPages final : public Call {
     missing_pages_t message{};
     message.client_id = context_.options().client_id;
     message.request_id = request_id();
-    message.utime = microseconds_since_1970();
+    message.utime = wire::utime_now();
     message.num_pages = num_pages_;
     message.missing.assign(wanted_.begin(), wanted_.end());
     message.num_missing = static_cast<std::int32_t>(message.missing.size());

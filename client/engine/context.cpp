@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "client/messages/text.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -68,7 +68,7 @@ std::int64_t Context::new_request_id() {
   std::int64_t last = last_request_id_;
   std::int64_t next = 0;
   do {
-    next = std::max(last + 1, microseconds_since_1970());
+    next = std::max(last + 1, wire::utime_now());
   } while (!last_request_id_.compare_exchange_weak(last, next));
   return next;
 }

@@ -11,8 +11,8 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "client/engine/handler.h"
-#include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -86,7 +86,7 @@ std::vector<Outgoing> PlanCall::missing() const {
   missing_pages_t question{};
   question.client_id = context_.options().client_id;
   question.request_id = request_id();
-  question.utime = microseconds_since_1970();
+  question.utime = wire::utime_now();
   question.num_pages = static_cast<std::int32_t>(collector_.pages().expected());
   question.missing = collector_.pages().missing();
   question.num_missing = static_cast<std::int32_t>(question.missing.size());
@@ -97,7 +97,7 @@ void PlanCall::cancel() {
   cancel_t question{};
   question.client_id = context_.options().client_id;
   question.request_id = request_id();
-  question.utime = microseconds_since_1970();
+  question.utime = wire::utime_now();
   replace_question({{context_.channels().cancel(), wire::encode(question)}});
   retry().restart();
 }

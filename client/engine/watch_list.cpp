@@ -9,8 +9,8 @@
 #include "client/engine/handler.h"
 #include "client/engine/heartbeat_limits.h"
 #include "client/engine/plan_call.h"
-#include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -467,7 +467,7 @@ void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double 
   watch_t message{};
   message.client_id = context_.options().client_id;
   message.request_id = id;
-  message.utime = microseconds_since_1970();
+  message.utime = wire::utime_now();
   message.lease_s = lease_s;
   message.paths = std::move(paths);
   message.num_paths = static_cast<std::int32_t>(message.paths.size());

@@ -7,6 +7,7 @@
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -42,7 +43,7 @@ class Splitter {
  public:
   Splitter(const OccupancyBatch& batch, const std::string& client_id) {
     empty_.client_id = client_id;
-    empty_.utime = microseconds_since_1970();
+    empty_.utime = wire::utime_now();
     empty_.scene = batch.scene;
     empty_.deadline_s = batch.deadline_s;
     begin_next();

@@ -8,6 +8,7 @@
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 #include "lcmtypes/wire/path_fault.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -95,7 +96,7 @@ std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& clien
   convert(request, wire);
   wire.client_id = client_id;
   wire.request_id = request_id;
-  wire.utime = microseconds_since_1970();
+  wire.utime = wire::utime_now();
   return wire::encode_pages(wire);
 }
 

@@ -12,11 +12,6 @@
 
 namespace camway::service {
 
-std::int64_t utime_now() {
-  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
-}
-
 Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
            std::shared_ptr<Log> service_log)
     : config(std::move(core_config)),

@@ -23,6 +23,7 @@
 #include "daemon/service/transport/outbox.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway::service {
 
@@ -30,8 +31,7 @@ namespace camway::service {
 using Planner = std::function<planning::PlanResult(
     const scene::Snapshot&, const planning::PlanRequest&, const base::Deadline&)>;
 
-/// Returns the time in microseconds since 1970.
-std::int64_t utime_now();
+using wire::utime_now;
 
 /// State that all services share. Owned by `Service`. All members except `mailbox`, `workers`,
 /// `scenes` and `log` belong to the loop thread.

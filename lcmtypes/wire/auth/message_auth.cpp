@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "lcmtypes/wire/auth/message_auth.h"
 
-#include <chrono>
 #include <utility>
 
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/envelope.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway::wire {
 namespace {
-
-std::int64_t system_utime() {
-  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
-}
 
 /// An envelope whose tag is right, or the reason why there is none.
 struct Verified {
@@ -47,7 +42,7 @@ std::string_view to_string(Distrust why) {
 
 MessageAuth::MessageAuth(std::shared_ptr<const MessageKeys> keys, const ReplayGuard::Limits& limits,
                          Clock clock)
-    : clock_(clock != nullptr ? clock : &system_utime),
+    : clock_(clock != nullptr ? clock : &utime_now),
       sender_(MessageKeys::random_number()),
       keys_(std::move(keys)),
       guard_(limits, clock_()) {}
