@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/messages/pages.h"
 
+#include <camway/members.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -14,16 +16,12 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
   if (page.num_pages == 1) return {std::move(page), {}, 0};
 
   const Position position = find_or_begin(page);
-  const auto size = static_cast<std::size_t>(page.getEncodedSize());
-  if (position->pages.add(std::move(page))) {
-    position->bytes += size;
-    bytes_ += size;
-  }
+  position->pages.add(std::move(page));
   position->missing_at = now + kPageWait;
   position->asked = 0;
   if (!position->pages.complete()) return {std::nullopt, {}, make_room(position)};
   Message whole = position->pages.whole();
-  forget(position);
+  partial_.erase(position);
   return {std::move(whole), {}, 0};
 }
 
@@ -38,22 +36,26 @@ typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(co
     partial_.splice(partial_.end(), partial_, found);
     return found;
   }
-  if (found != partial_.end()) forget(found);
+  if (found != partial_.end()) partial_.erase(found);
   partial_.emplace_back();
   return std::prev(partial_.end());
 }
 
 template <class Message>
-std::vector<typename PageAssembly<Message>::MissingPages> PageAssembly<Message>::take_missing(
-    Clock::time_point now) {
-  std::vector<MissingPages> all;
+std::vector<missing_pages_t> PageAssembly<Message>::take_missing(Clock::time_point now) {
+  std::vector<missing_pages_t> all;
   for (Partial& partial : partial_) {
     if (partial.missing_at > now) continue;
     ++partial.asked;
     partial.missing_at = partial.asked < kMostAsked ? now + kPageWait * (1 << partial.asked)
                                                     : Clock::time_point::max();
     const Message& held = partial.pages.any();
-    all.push_back({held.client_id, held.request_id, held.num_pages, partial.pages.missing()});
+    missing_pages_t& question = all.emplace_back();
+    question.client_id = held.client_id;
+    question.request_id = held.request_id;
+    question.num_pages = held.num_pages;
+    question.missing = partial.pages.missing();
+    wire::set_counts(question);
   }
   return all;
 }
@@ -66,17 +68,14 @@ typename PageAssembly<Message>::Clock::time_point PageAssembly<Message>::next_mi
 }
 
 template <class Message>
-void PageAssembly<Message>::forget(Position position) {
-  bytes_ -= position->bytes;
-  partial_.erase(position);
-}
-
-template <class Message>
 std::size_t PageAssembly<Message>::make_room(Position keep) {
+  std::size_t bytes = 0;
+  for (const Partial& partial : partial_) bytes += partial.pages.bytes();
   std::size_t given_up = 0;
-  while ((partial_.size() > limits_.max_messages || bytes_ > limits_.max_bytes) &&
+  while ((partial_.size() > limits_.max_messages || bytes > limits_.max_bytes) &&
          partial_.begin() != keep) {
-    forget(partial_.begin());
+    bytes -= partial_.front().pages.bytes();
+    partial_.pop_front();
     ++given_up;
   }
   return given_up;

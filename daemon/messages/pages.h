@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <camway/missing_pages_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
@@ -50,16 +51,10 @@ class PageAssembly {
   /// starts the message anew, as its sender did. The body is that of page 0.
   Outcome add(Message page, Clock::time_point now = Clock::now());
 
-  /// The missing pages of an incomplete message.
-  struct MissingPages {
-    std::string client_id;
-    std::int64_t request_id = 0;
-    std::int32_t num_pages = 0;
-    std::vector<std::int32_t> missing;
-  };
-  /// Returns the messages for which no page arrived for a while by `now`: each up to `kMostAsked`
-  /// times, with growing pauses.
-  std::vector<MissingPages> take_missing(Clock::time_point now);
+  /// Returns questions for the missing pages of messages for which no page arrived for a while by
+  /// `now`: for each message up to `kMostAsked` times, with growing pauses. The caller sets
+  /// `utime`.
+  std::vector<missing_pages_t> take_missing(Clock::time_point now);
   /// Returns the time of the next such message; the end of time if no message waits for pages.
   [[nodiscard]] Clock::time_point next_missing() const;
 
@@ -67,8 +62,7 @@ class PageAssembly {
 
  private:
   struct Partial {
-    wire::PageSet<Message> pages;  ///< at least one
-    std::size_t bytes = 0;
+    wire::PageSet<Message> pages;    ///< at least one
     Clock::time_point missing_at{};  ///< time at which pages count as missing
     int asked = 0;                   ///< how often they were asked for since the last page
   };
@@ -76,13 +70,11 @@ class PageAssembly {
 
   /// Returns the message that a page belongs to, or a new one, as the last of the list.
   Position find_or_begin(const Message& page);
-  void forget(Position position);
   /// Returns how many messages were dropped.
   std::size_t make_room(Position keep);
 
   Limits limits_;
   std::list<Partial> partial_;  ///< longest without a page first
-  std::size_t bytes_ = 0;
 };
 
 extern template class PageAssembly<plan_request_t>;

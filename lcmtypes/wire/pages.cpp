@@ -140,7 +140,10 @@ template <class Message>
 bool PageSet<Message>::add(Message page) {
   if (pages_.empty()) head_ = page_head(page);
   const std::int32_t number = page.page;
-  return pages_.try_emplace(number, std::move(page)).second;
+  const auto bytes = static_cast<std::size_t>(page.getEncodedSize());
+  const bool is_new = pages_.try_emplace(number, std::move(page)).second;
+  if (is_new) bytes_ += bytes;
+  return is_new;
 }
 
 template <class Message>

@@ -49,6 +49,8 @@ class PageSet {
 
   /// Returns the number of pages that are here.
   [[nodiscard]] std::size_t held() const { return pages_.size(); }
+  /// Returns the size of these pages, as encoded.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
   /// Returns the number of pages of the whole message; 0 before the first page.
   [[nodiscard]] std::size_t expected() const {
     return pages_.empty() ? 0 : static_cast<std::size_t>(any().num_pages);
@@ -66,6 +68,7 @@ class PageSet {
  private:
   Bytes head_;  ///< encoded members that are equal on all pages
   std::map<std::int32_t, Message> pages_;
+  std::size_t bytes_ = 0;
 };
 
 extern template class PageSet<plan_request_t>;

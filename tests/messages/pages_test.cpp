@@ -261,7 +261,7 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
   int asked = 0;
   while (assembly.next_missing() != Assembly::Clock::time_point::max()) {
     now = assembly.next_missing();
-    const std::vector<Assembly::MissingPages> gaps = assembly.take_missing(now);
+    const std::vector<missing_pages_t> gaps = assembly.take_missing(now);
     ASSERT_EQ(gaps.size(), 1U);
     EXPECT_EQ(gaps[0].client_id, "asker");
     EXPECT_EQ(gaps[0].request_id, 5);

@@ -156,16 +156,10 @@ void PlanService::tick(Clock::time_point now) {
     core_.outbox.add(core_.channels.plan_progress(progress.client_id),
                      one_page(wire::encode(progress)));
   }
-  for (messages::PageAssembly<plan_request_t>::MissingPages& lost : pages_.take_missing(now)) {
-    core_.counters.request_pages_asked_again += static_cast<std::int64_t>(lost.missing.size());
-    missing_pages_t question{};
-    question.client_id = lost.client_id;
-    question.request_id = lost.request_id;
+  for (missing_pages_t& question : pages_.take_missing(now)) {
+    core_.counters.request_pages_asked_again += question.num_missing;
     question.utime = utime_now();
-    question.num_pages = lost.num_pages;
-    question.num_missing = static_cast<std::int32_t>(lost.missing.size());
-    question.missing = std::move(lost.missing);
-    core_.outbox.add(core_.channels.missing_pages(lost.client_id),
+    core_.outbox.add(core_.channels.missing_pages(question.client_id),
                      one_page(wire::encode(question)));
   }
 }
