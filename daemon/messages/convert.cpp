@@ -2,6 +2,7 @@
 #include "daemon/messages/convert.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <camway/occupancy_response_t.hpp>
 
@@ -29,6 +30,26 @@ std::string clipped(std::string_view text, std::size_t max_bytes) {
     while (size > 0 && size < text.size() && continues(size)) --size;
   }
   return std::string(text.substr(0, size));
+}
+
+bounds_t to_wire(const geometry::Bounds& bounds) {
+  bounds_t wire{};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    wire.has_min[axis] = std::isinf(bounds.min_W[axis]) ? 0 : 1;
+    wire.has_max[axis] = std::isinf(bounds.max_W[axis]) ? 0 : 1;
+    if (wire.has_min[axis] != 0) wire.min_m[axis] = bounds.min_W[axis];
+    if (wire.has_max[axis] != 0) wire.max_m[axis] = bounds.max_W[axis];
+  }
+  return wire;
+}
+
+geometry::Bounds from_wire(const bounds_t& wire) {
+  geometry::Bounds bounds;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (wire.has_min[axis] != 0) bounds.min_W[axis] = wire.min_m[axis];
+    if (wire.has_max[axis] != 0) bounds.max_W[axis] = wire.max_m[axis];
+  }
+  return bounds;
 }
 
 // The values of enumerations are those of the wire.

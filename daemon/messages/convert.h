@@ -9,6 +9,7 @@
 #include <camway/plan_response_t.hpp>
 
 #include "daemon/base/result.h"
+#include "daemon/geometry/bounds.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 
@@ -43,6 +44,11 @@ struct RequestIds {
 
 /// Returns the whole request as one page, which may be too large for a message: see `encode_pages`.
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
+
+/// Convert bounds without a check; `geometry::fault_in` checks the numbers. A side at infinity is
+/// no limit.
+bounds_t to_wire(const geometry::Bounds& bounds);
+geometry::Bounds from_wire(const bounds_t& wire);
 
 /// Returns the message for a body. A near quadrilateral has its size in the request's camera.
 body_t wire_body(const motion::BodyShape& shape);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
-#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 #include "daemon/planning/result/members.h"
 #include "lcmtypes/wire/convert.h"
@@ -56,6 +56,8 @@ inline void translate(const geometry::Quat& mine, double (&wire)[4]) {
 inline void translate(const double (&wire)[4], geometry::Quat& mine) {
   mine = geometry::from_wxyz({wire[0], wire[1], wire[2], wire[3]});
 }
+inline void translate(const geometry::Bounds& mine, bounds_t& wire) { wire = to_wire(mine); }
+inline void translate(const bounds_t& wire, geometry::Bounds& mine) { mine = from_wire(wire); }
 /// No index is -1.
 inline void translate(const std::same_as<std::optional<std::size_t>> auto& mine,
                       std::int32_t& wire) {
@@ -68,35 +70,30 @@ template <base::NamedEnum Enum>
 void translate(Enum mine, std::string& wire) {
   wire = base::name_of(mine);
 }
-template <base::NamedEnum Enum>
-void translate(const std::integral auto& wire, Enum& mine, Refusal& refusal) {
+/// Reads the number or the name of a value.
+template <class Wire, base::NamedEnum Enum>
+void translate(const Wire& wire, Enum& mine, Refusal& refusal) {
+  constexpr bool kIsName = std::is_same_v<Wire, std::string>;
   const std::optional<Enum> value = base::value_of<Enum>(wire);
-  if (!value) refusal.add(wire, std::to_string(wire) + " is unknown");
+  if (!value) refusal.add(wire, fmt::format(kIsName ? "'{}' is unknown" : "{} is unknown", wire));
   mine = value.value_or(mine);
-}
-/// An empty name leaves `mine` as it is.
-template <base::NamedEnum Enum>
-void translate(const std::string& wire, Enum& mine, Refusal& refusal) {
-  const std::optional<Enum> value = base::value_of<Enum>(wire);
-  if (!value && !wire.empty()) refusal.add(wire, "'" + wire + "' is unknown");
-  mine = value.value_or(mine);
-}
-template <std::unsigned_integral Index>
-void read_index(const std::int32_t& wire, Index& mine, Refusal& refusal) {
-  if (wire < 0) refusal.add(wire, "is " + std::to_string(wire) + "; it must be at least 0");
-  mine = static_cast<Index>(std::max(wire, 0));
 }
 /// Reads the index of a keyframe.
 template <std::same_as<std::int32_t> Wire>
 void translate(const Wire& wire, std::size_t& mine, Refusal& refusal) {
-  read_index(wire, mine, refusal);
+  if (wire < 0) refusal.add(wire, fmt::format("is {}; it must be at least 0", wire));
+  mine = static_cast<std::size_t>(std::max(wire, 0));
 }
 /// Reads indices of triangles, or of the vertices of one.
 template <class Indices>
 requires std::same_as<typename Indices::value_type, std::uint32_t>
 void translate(const std::vector<std::int32_t>& wire, Indices& mine, Refusal& refusal) {
   if constexpr (requires { mine.resize(0); }) mine.resize(wire.size());
-  for (std::size_t i = 0; i < wire.size(); ++i) read_index(wire[i], mine[i], refusal);
+  for (std::size_t i = 0; i < wire.size(); ++i) {
+    std::size_t index = 0;
+    translate(wire[i], index, refusal);
+    mine[i] = static_cast<std::uint32_t>(index);
+  }
 }
 
 /// Cuts the texts of a message to its limits.

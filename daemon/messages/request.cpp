@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
@@ -31,8 +33,9 @@ std::string wire_name(std::string_view path) {
   constexpr std::string_view kGroup = "options.";
   const std::size_t end = path.find("][");
   if (path.starts_with(kPieces) && end != std::string_view::npos) {
-    return "body.points_m (point " + std::string(path.substr(end + 2, path.size() - end - 3)) +
-           " of piece " + std::string(path.substr(kPieces.size(), end - kPieces.size())) + ")";
+    return fmt::format("body.points_m (point {} of piece {})",
+                       path.substr(end + 2, path.size() - end - 3),
+                       path.substr(kPieces.size(), end - kPieces.size()));
   }
   const std::string name = planning::spell(path, planning::Spelling::kWire);
   return name.starts_with(kGroup) ? name.substr(kGroup.size()) : name;
@@ -47,7 +50,7 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
 }
 
 /// Refuses the members of `wire` that have a value although they do not count: their sender meant
-/// them. `visit_used(note)` visits those that count with this `kind`, besides `flags`.
+/// them. `visit_used(note)` visits those that count with this `kind`; `used` are more of them.
 template <class Wire, class Kind, class VisitUsed>
 void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
                    std::vector<const void*> used, const VisitUsed& visit_used) {
@@ -59,8 +62,10 @@ void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
     const auto& member = wire.*described.member;
     const bool counts = std::ranges::count(used, static_cast<const void*>(&member)) > 0;
     if (counts || wire::is_blank(member)) return;
-    refusal.add(member, "does not count with this " + refusal.path_of(kind) +
-                            "; leave it zero or empty, or set the one that it belongs to");
+    refusal.add(member,
+                fmt::format("does not count with this {}; leave it zero or empty, or set the "
+                            "one that it belongs to",
+                            refusal.path_of(kind)));
   });
 }
 
@@ -74,7 +79,7 @@ struct TableReader {
     if (wire::is_blank(wire)) return;
     if constexpr (std::same_as<Mine, std::uint64_t>) {
       if (wire < 0) {
-        refusal.add(wire, "is " + std::to_string(wire) + "; it must be " + spec.range_text());
+        refusal.add(wire, fmt::format("is {}; it must be {}", wire, spec.range_text()));
       }
     }
     FromWire{refusal}(mine, wire);
@@ -96,14 +101,13 @@ struct TableReader {
     std::span left(points);
     for (const std::int32_t& size : sizes) {
       if (size < 0 || static_cast<std::size_t>(size) > left.size()) {
-        return refusal.add(size, "is " + std::to_string(size) + ", and " +
-                                     std::to_string(left.size()) + " points are left");
+        return refusal.add(size, fmt::format("is {}, and {} points are left", size, left.size()));
       }
       FromWire{refusal}(pieces.emplace_back(), left.first(static_cast<std::size_t>(size)));
       left = left.subspan(static_cast<std::size_t>(size));
     }
     if (left.empty()) return;
-    refusal.add(sizes, std::to_string(left.size()) + " points belong to no piece");
+    refusal.add(sizes, fmt::format("{} points belong to no piece", left.size()));
   }
 };
 
@@ -112,7 +116,7 @@ struct TableReader {
 std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
   std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
   if (!shape) {
-    refusal.add(wire.type, std::to_string(wire.type) + " is unknown");
+    refusal.add(wire.type, fmt::format("{} is unknown", wire.type));
     return shape;
   }
   const auto read = [&](auto& part) {
@@ -128,13 +132,13 @@ std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
 /// Refuses members beside body and orientation that have a value but no effect.
 void refuse_idle(Refusal& refusal, const plan_request_t& wire) {
   wire::visit_unmarked(wire, [&](const auto& member, const auto& flag) {
-    refusal.add(member,
-                "counts only with " + refusal.path_of(flag) + "; set that, or leave it zero");
+    refusal.add(member, fmt::format("counts only with {}; set that, or leave it zero",
+                                    refusal.path_of(flag)));
   });
   if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
     refusal.add(wire.max_inserted_keyframes,
-                "is " + std::to_string(wire.max_inserted_keyframes) +
-                    ", which does not count beside correct_nothing; leave it 0");
+                fmt::format("is {}, which does not count beside correct_nothing; leave it 0",
+                            wire.max_inserted_keyframes));
   }
   for (const keyframe_t& keyframe : wire.keyframes) {
     if (wire.has_times != 0 || wire::is_blank(keyframe.time_s)) continue;

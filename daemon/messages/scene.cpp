@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdint>
 
-#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 #include "lcmtypes/wire/layout.h"
 
@@ -21,7 +20,7 @@ scene_info_t scene_info_of(const scene::Snapshot& snapshot) {
     std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
     std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
   }
-  translate(snapshot.options.bounds, info.body_bounds);
+  info.body_bounds = to_wire(snapshot.options.bounds);
   if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
   return info;
 }

@@ -3,25 +3,20 @@
 
 #include "client/messages/members.h"
 #include "client/messages/plan.h"
-#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 
 namespace camway::tools {
 
 Bounds to_client_bounds(const geometry::Bounds& bounds) {
-  bounds_t wire{};
-  messages::translate(bounds, wire);
   Bounds sent;
-  convert(wire, sent);
+  convert(messages::to_wire(bounds), sent);
   return sent;
 }
 
 geometry::Bounds from_client_bounds(const Bounds& bounds) {
   bounds_t wire{};
   convert(bounds, wire);
-  geometry::Bounds read;
-  messages::translate(wire, read);
-  return read;
+  return messages::from_wire(wire);
 }
 
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene) {

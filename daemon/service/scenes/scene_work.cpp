@@ -9,7 +9,6 @@
 #include <sstream>
 #include <utility>
 
-#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/scene.h"
 #include "daemon/messages/scene_names.h"
@@ -152,7 +151,7 @@ class SceneOperation {
       return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
     scene::ObjectOptions options;
     options.mirror_voxels = rules_.mirror_voxels;
-    messages::translate(request_.body_bounds, options.bounds);
+    options.bounds = messages::from_wire(request_.body_bounds);
     if (const auto fault = geometry::fault_in(options.bounds))
       return invalid("body_bounds." + fault->field + ": " + fault->reason);
     if (request_.occupancy_resolution_m != 0.0) {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "daemon/messages/bounds.h"
+#include "daemon/messages/convert.h"
 #include "tests/support/random.h"
 
 namespace camway::process {
@@ -55,15 +55,9 @@ TEST(BoundsText, AndTheWireKeepEveryNumber) {
       if (random() % 2 == 0) bounds.max_W[axis] = number(random);
     }
     EXPECT_EQ(*parse_bounds(bounds_text(bounds)), bounds) << bounds_text(bounds);
-    bounds_t wire{};
-    messages::translate(bounds, wire);
-    geometry::Bounds back;
-    messages::translate(wire, back);
-    EXPECT_EQ(back, bounds) << bounds_text(bounds);
+    EXPECT_EQ(messages::from_wire(messages::to_wire(bounds)), bounds) << bounds_text(bounds);
   }
-  geometry::Bounds none;
-  messages::translate(bounds_t{}, none);
-  EXPECT_FALSE(none.any());
+  EXPECT_FALSE(messages::from_wire(bounds_t{}).any());
 }
 
 }  // namespace
