@@ -5,7 +5,9 @@
   generate_layout.py --source LAYOUT.cpp --limits LIMITS.h --members MEMBERS.h --types TYPE... --files FILE.lcm...
 
 LAYOUT.cpp defines `layout_of` for each TYPE. LIMITS.h holds the limit of each string as a constant, for the code that
-has to keep it. MEMBERS.h lists the members of every struct, for code that treats all of them alike (members.h). A string member has its limit beside it, in bytes without the final NUL, as a remark of this form:
+has to keep it. MEMBERS.h lists the members of every struct, and their partners in other structs, for code that treats
+all of them alike (member.h). A string member has its limit beside it, in bytes without the final NUL, as a remark of
+this form:
 
   string scene;   // name of a scene [max 128]
 
