@@ -58,13 +58,10 @@ void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
   visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
     (used.push_back(&members), ...);
   });
-  wire::for_each_member<Wire>([&](const auto& described) {
-    const auto& member = wire.*described.member;
-    const bool counts = std::ranges::count(used, static_cast<const void*>(&member)) > 0;
-    if (counts || wire::is_blank(member)) return;
+  wire::visit_unused(wire, used, [&](std::string_view, const auto& member) {
     refusal.add(member,
                 fmt::format("does not count with this {}; leave it zero or empty, or set the "
-                            "one that it belongs to",
+                            "one it belongs to",
                             refusal.path_of(kind)));
   });
 }
