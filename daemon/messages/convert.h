@@ -56,8 +56,8 @@ body_t wire_body(const motion::BodyShape& shape);
 /// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
 /// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a
 /// correction's collision) stay 0 or empty. Returns an error for a status that planning does not
-/// have (overloaded, malformed, cancelled, limit), for segments that are no path, and for a report
-/// of something that no correction does.
+/// have (overloaded, malformed, cancelled, limit), for segments that are no path, and for numbers
+/// that have no meaning.
 base::Result<planning::PlanResult> from_wire(const plan_response_t& wire);
 
 /// The members of an answer that are not in the result.

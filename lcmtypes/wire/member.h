@@ -70,15 +70,15 @@ struct Members;
 
 /// Returns the struct that members of a message are a part of; null for an optional that is empty
 /// and cannot be filled.
-template <class Group>
-auto* group(Group& group) {
-  if constexpr (requires { group.has_value(); }) {
-    if constexpr (!std::is_const_v<Group>) {
-      if (!group) group.emplace();
+template <class Struct>
+auto* group(Struct& members) {
+  if constexpr (requires { members.has_value(); }) {
+    if constexpr (!std::is_const_v<Struct>) {
+      if (!members) members.emplace();
     }
-    return group ? &*group : nullptr;
+    return members ? &*members : nullptr;
   } else {
-    return &group;
+    return &members;
   }
 }
 
@@ -163,6 +163,19 @@ void visit_unmarked(const Message& message, const Visit& visit) {
   for_each_member<Message>([&](const auto& described) {
     using Member = std::remove_cvref_t<decltype(message.*described.member)>;
     if constexpr (Described<Member>) visit_unmarked(message.*described.member, visit);
+  });
+}
+
+/// Calls `visit(name, member)` for each member of a message that has a value although it is not
+/// among `used`, the addresses of the members that count.
+template <Described Message, class Visit>
+void visit_unused(const Message& message, const std::vector<const void*>& used,
+                  const Visit& visit) {
+  for_each_member<Message>([&](const auto& described) {
+    const auto& member = message.*described.member;
+    const void* const address = &member;
+    const bool counts = std::find(used.begin(), used.end(), address) != used.end();
+    if (!counts && !is_blank(member)) visit(described.name, member);
   });
 }
 

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+<<<<<<< HEAD
+=======
+#include <string>
+#include <string_view>
+>>>>>>> c1
 #include <vector>
 
 #include "daemon/planning/request/body_members.h"
@@ -12,6 +17,10 @@
 namespace camway::tools {
 namespace {
 
+<<<<<<< HEAD
+=======
+using correction::OrientationRule;
+>>>>>>> c1
 using geometry::Vec3;
 using motion::Keyframe;
 using planning::FieldSpec;
@@ -20,7 +29,11 @@ using planning::FieldSpec;
 void read_camera(const Field& field, motion::Camera& camera) {
   allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
   const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
+<<<<<<< HEAD
     io.need({spec.file_name(), spec.old_file}, member);
+=======
+    io.need(spec, member);
+>>>>>>> c1
   };
   planning::visit_camera(need, camera);
 }
@@ -33,7 +46,11 @@ struct ShapeReader {
   void operator()(const FieldSpec& spec, Value& member) const {
     const JsonReader io(body);
     if (spec.name == planning::body::kCenter.name) return io(spec, member);
+<<<<<<< HEAD
     io.need({spec.file_name(), spec.old_file}, member);
+=======
+    io.need(spec, member);
+>>>>>>> c1
   }
   /// Reads a list of points for each piece, or `points` for a single piece.
   void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
@@ -169,6 +186,38 @@ SceneReading read_reading(const Field& root) {
 
 }  // namespace
 
+<<<<<<< HEAD
+=======
+void read_value(const Field& field, correction::MotionLimits& limits) {
+  read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
+}
+
+void read_value(const Field& field, correction::OrientationPolicy& policy) {
+  read_table(field, [&](const auto& visit) { planning::visit_orientation(visit, policy); });
+  policy.up_W = planning::direction_of(policy.up_W);
+  std::vector<std::string_view> used;
+  planning::visit_used([&](const FieldSpec& spec, auto&) { used.push_back(spec.name); }, policy);
+  planning::visit_orientation([&](const FieldSpec& spec) {
+    const auto member = field.optional_member(spec.file_name());
+    if (!member || std::ranges::count(used, spec.name) > 0) return;
+    member->fail("does not count with this policy; leave it out, or set the one it belongs to");
+  });
+  if (policy.rule == OrientationRule::kTarget) static_cast<void>(field.member("target"));
+}
+
+void read_value(const Field& field, planning::PlanOptions& options) {
+  read_table(field, [&](const auto& visit) { planning::visit_options(visit, options); });
+}
+
+planning::FieldSpelling json_spelling(const DocumentNotes& notes) {
+  return [old_names = notes.old_names](std::string_view path) {
+    const std::string name = planning::spell(path, planning::Spelling::kFile);
+    const auto old_name = old_names.find(name);
+    return old_name == old_names.end() ? name : old_name->second;
+  };
+}
+
+>>>>>>> c1
 void read_value(const Field& root, RequestFile& request) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});

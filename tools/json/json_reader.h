@@ -159,7 +159,7 @@ class JsonReader {
   /// Reads a member of a table if the object has it.
   template <class Value>
   void operator()(const planning::FieldSpec& spec, Value& member) const {
-    may({spec.file_name(), spec.old_file}, true, member);
+    may(spec, true, member);
   }
   /// Reads a whole number of any size, from the least of its range.
   void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {

@@ -109,12 +109,13 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
       {R"({"orientation": {"policy": "free", "turn": 3}})", "orientation.turn: is unknown"},
       {R"({"orientation": {"policy": "level", "up": [0, 1]}})", "orientation.up: must be an array"},
       {R"({"orientation": {"policy": "keep", "up": [0, 1, 0]}})",
-       "orientation.up: counts only with \"policy\": \"level\""},
+       "orientation.up: does not count with this policy; leave it out, or set the one it belongs "
+       "to"},
       {R"({"orientation": {"policy": "target"}})", "orientation.target: is missing"},
       {R"({"orientation": {"policy": "level", "target": [0, 1, 0]}})",
-       "orientation.target: counts only with \"policy\": \"target\""},
+       "orientation.target: does not count with this policy"},
       {R"({"orientation": {"policy": "free", "cone_deg": 3}})",
-       "orientation.cone_deg: counts only with"},
+       "orientation.cone_deg: does not count with this policy"},
       {R"({"orientation": {"policy": "free", "max_turn_deg": "x"}})",
        "orientation.max_turn_deg: must be a number"},
       {R"({"limits": {"speed_m": 1}})", "limits.speed_m: is unknown"},
@@ -195,14 +196,7 @@ struct OptionText {
   }
   static std::string value_of(const FieldSpec&, const correction::OrientationPolicy& policy) {
     std::string members;
-    const OptionText write{members};
-    const auto write_used = [&](const FieldSpec& spec, const auto& member) {
-      const bool is_target = spec.name == "target" || spec.name == "cone";
-      if (spec.name == "up" && policy.rule != OrientationRule::kLevel) return;
-      if (is_target && policy.rule != OrientationRule::kTarget) return;
-      write(spec, member);
-    };
-    planning::visit_orientation(write_used, policy);
+    planning::visit_used(OptionText{members}, policy);
     return "{" + members + "}";
   }
 };
