@@ -89,11 +89,7 @@ template <class Indices>
 requires std::same_as<typename Indices::value_type, std::uint32_t>
 void translate(const std::vector<std::int32_t>& wire, Indices& mine, Refusal& refusal) {
   if constexpr (requires { mine.resize(0); }) mine.resize(wire.size());
-<<<<<<< HEAD
-  for (std::size_t i = 0; i < wire.size(); ++i) {
-=======
   for (std::size_t i = 0; i < std::min(wire.size(), mine.size()); ++i) {
->>>>>>> c1
     std::size_t index = 0;
     translate(wire[i], index, refusal);
     mine[i] = static_cast<std::uint32_t>(index);

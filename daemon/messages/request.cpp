@@ -23,10 +23,7 @@ using planning::FieldSpec;
 using Points = std::vector<std::vector<double>>;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
-<<<<<<< HEAD
 static_assert(wire::kMaxBodyVertices == motion::kMaxBodyVertices);
-=======
->>>>>>> c1
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
 static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
 
@@ -62,20 +59,10 @@ void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
   visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
     (used.push_back(&members), ...);
   });
-<<<<<<< HEAD
-  wire::for_each_member<Wire>([&](const auto& described) {
-    const auto& member = wire.*described.member;
-    const bool counts = std::ranges::count(used, static_cast<const void*>(&member)) > 0;
-    if (counts || wire::is_blank(member)) return;
-    refusal.add(member,
-                fmt::format("does not count with this {}; leave it zero or empty, or set the "
-                            "one that it belongs to",
-=======
   wire::visit_unused(wire, used, [&](std::string_view, const auto& member) {
     refusal.add(member,
                 fmt::format("does not count with this {}; leave it zero or empty, or set the "
                             "one it belongs to",
->>>>>>> c1
                             refusal.path_of(kind)));
   });
 }

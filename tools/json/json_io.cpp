@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-<<<<<<< HEAD
-=======
 #include <string>
 #include <string_view>
->>>>>>> c1
 #include <vector>
 
 #include "daemon/planning/request/body_members.h"
@@ -17,10 +14,7 @@
 namespace camway::tools {
 namespace {
 
-<<<<<<< HEAD
-=======
 using correction::OrientationRule;
->>>>>>> c1
 using geometry::Vec3;
 using motion::Keyframe;
 using planning::FieldSpec;
@@ -29,11 +23,7 @@ using planning::FieldSpec;
 void read_camera(const Field& field, motion::Camera& camera) {
   allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
   const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
-<<<<<<< HEAD
-    io.need({spec.file_name(), spec.old_file}, member);
-=======
     io.need(spec, member);
->>>>>>> c1
   };
   planning::visit_camera(need, camera);
 }
@@ -46,11 +36,7 @@ struct ShapeReader {
   void operator()(const FieldSpec& spec, Value& member) const {
     const JsonReader io(body);
     if (spec.name == planning::body::kCenter.name) return io(spec, member);
-<<<<<<< HEAD
-    io.need({spec.file_name(), spec.old_file}, member);
-=======
     io.need(spec, member);
->>>>>>> c1
   }
   /// Reads a list of points for each piece, or `points` for a single piece.
   void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
@@ -186,8 +172,6 @@ SceneReading read_reading(const Field& root) {
 
 }  // namespace
 
-<<<<<<< HEAD
-=======
 void read_value(const Field& field, correction::MotionLimits& limits) {
   read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
 }
@@ -217,7 +201,6 @@ planning::FieldSpelling json_spelling(const DocumentNotes& notes) {
   };
 }
 
->>>>>>> c1
 void read_value(const Field& root, RequestFile& request) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});

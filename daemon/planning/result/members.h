@@ -33,13 +33,8 @@ namespace camway::planning {
 struct FileName {
   constexpr FileName(const char* name_now, std::string_view old_name = {})  // NOLINT: implicit
       : name(name_now), old(old_name) {}
-<<<<<<< HEAD
-  constexpr FileName(std::string_view name_now, std::string_view old_name)
-      : name(name_now), old(old_name) {}
-=======
   constexpr FileName(const FieldSpec& spec)  // NOLINT: implicit
       : name(spec.file_name()), old(spec.old_file) {}
->>>>>>> c1
   std::string_view name;
   std::string_view old;
 };
