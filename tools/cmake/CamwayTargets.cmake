@@ -107,41 +107,30 @@ endfunction()
 # they are not built with it.
 set(threaded_tests base client integration process scene service tools wire)
 
-# compile_test(TARGET DEPENDS LIGHT): compiles sources of tests, without optimisation if LIGHT. Eight of them
-# are one unit of translation, which takes a third of the time: most of it goes into instances of the same
-# templates.
-function(compile_test name depends light)
-  target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${depends} GTest::gtest GTest::gmock
-                        GTest::gtest_main Eigen3::Eigen)
+# camway_test(NAME [NETWORK] [QUICK] [COMPUTING] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest
+# program per folder of tests/, whose name is the label of its tests (`ctest -L service`). COMPUTING is for
+# tests whose own code takes their time, such as oracles: with CAMWAY_LIGHT, all others are not optimised.
+# NETWORK runs each test in a private network namespace of its own, for tests that use LCM. QUICK adds the label
+# `quick` to all tests but those named after SLOW, which take more than a second.
+function(camway_test name)
+  cmake_parse_arguments(arg "NETWORK;QUICK;COMPUTING" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
+  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/no_scene_cache.cpp)
+  target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${arg_DEPENDS} GTest::gtest
+                        GTest::gmock GTest::gtest_main Eigen3::Eigen)
   # GCC 12 warns of std::regex, which tests use, with a sanitizer, and of structs of strings at -O3.
   target_compile_options(${name} PRIVATE ${CAMWAY_NO_MAYBE_UNINITIALIZED})
   set(precompiled camway_precompiled_test)
-  if(light)
+  if(CAMWAY_LIGHT AND NOT arg_COMPUTING)
     target_compile_options(${name} PRIVATE -O0)
     set(precompiled camway_precompiled_test_light)
   endif()
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM ${precompiled})
   endif()
-  # In one unit with other files, a local name may be one of theirs.
+  # Eight files are one unit of translation, which takes a third of their time one by one: most of it goes
+  # into instances of the same templates. There a local name may be one of another file.
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${CAMWAY_UNITY} UNITY_BUILD_BATCH_SIZE 8
                                            CAMWAY_MAY_SHADOW ${CAMWAY_UNITY})
-endfunction()
-
-# camway_test(NAME [NETWORK] [QUICK] SOURCES ... [COMPUTING ...] DEPENDS ... [SLOW TEST ...]): one GoogleTest
-# program per folder of tests/, whose name is the label of its tests (`ctest -L service`). COMPUTING are
-# sources whose own code takes the time of their tests, such as oracles: with CAMWAY_LIGHT, they alone are
-# optimised. NETWORK runs each test in a private network namespace of its own, for tests that use LCM. QUICK
-# adds the label `quick` to all tests but those named after SLOW, which take more than a second.
-function(camway_test name)
-  cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;COMPUTING;DEPENDS;SLOW" ${ARGN})
-  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/no_scene_cache.cpp)
-  compile_test(${name} "${arg_DEPENDS}" "${CAMWAY_LIGHT}")
-  if(arg_COMPUTING)
-    add_library(${name}_computing OBJECT EXCLUDE_FROM_ALL ${arg_COMPUTING})
-    compile_test(${name}_computing "${arg_DEPENDS}" FALSE)
-    target_link_libraries(${name} PRIVATE ${name}_computing)
-  endif()
   if(arg_NETWORK)
     # The emulator is CMake's word for "what runs the program"; gtest_discover_tests heeds it.
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR
