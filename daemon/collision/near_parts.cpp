@@ -19,7 +19,7 @@ using geometry::Vec3;
 using Node = motion::BodyTree::Node;
 
 /// Upper bound of the rounding of a sum or difference of a few numbers.
-constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
+constexpr double kSumRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
 
 /// How much farther than necessary a distance is measured: a step may then grow as much.
 constexpr double kLookAhead = 2.0;
@@ -48,10 +48,10 @@ void NearParts::choose(const motion::Stretch& stretch, double within_m) {
     waiting_.pop_back();
     const Node& node = tree_->nodes()[number];
     const Vec3 center_W = stretch.R_WC * node.center_C + stretch.eye_W;
-    const double enough_m = (node.radius_m + within_m) * kRoundUp;
+    const double enough_m = (node.radius_m + within_m) * kSumRoundUp;
     const double room_m = room_at_least_m(center_W, enough_m);
     if (room_m > enough_m) {
-      others_at_least_m_ = std::min(others_at_least_m_, room_m / kRoundUp - node.radius_m);
+      others_at_least_m_ = std::min(others_at_least_m_, room_m / kSumRoundUp - node.radius_m);
       others_are_in_solid_ = others_are_in_solid_ ||
                              (obstacles_.solids != nullptr && obstacles_.solids->hold(center_W));
     } else if (node.is_leaf()) {
