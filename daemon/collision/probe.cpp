@@ -51,43 +51,40 @@ Probe::Probe(const Obstacles& obstacles, const motion::Body& body, double cleara
       has_bounds_(obstacles.bounds.any()),
       keep_m_((body.ball_radius_m() + clearance_m) * kRoundUp),
       radius_m_(body.radius_m()),
-      parts_(obstacles, body) {}
-
-// A vertex and the centre of a ball are both placed with this rounding.
-void Probe::choose(const motion::Stretch& stretch, double within_m) {
-  parts_.choose(stretch, (within_m + 2.0 * rounding_m(stretch)) * kRoundUp);
-  placed_.resize(parts_.numbers().size());
-  ends_.resize(2 * placed_.size());
+      center_C_(bounds_of(body.triangles_C()).center()),
+      placed_(body.triangles_C().size()),
+      ends_(2 * placed_.size()) {
+  for (const Triangle& triangle : body.triangles_C()) {
+    for (const Vec3& vertex : triangle) {
+      center_radius_m_ = std::max(center_radius_m_, (vertex - center_C_).norm() * kRoundUp);
+    }
+  }
 }
 
-std::span<const Triangle> Probe::place(const motion::Stretch& stretch, double within_m) {
-  choose(stretch, within_m);
+std::span<const Triangle> Probe::place(const motion::Stretch& stretch) {
   const std::span<const Triangle> triangles_C = body_.triangles_C();
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    const Triangle& part_C = triangles_C[parts_.numbers()[i]];
-    for (std::size_t k = 0; k < 3; ++k) placed_[i][k] = to_world(stretch, part_C[k]);
+  for (std::size_t i = 0; i < triangles_C.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) placed_[i][k] = to_world(stretch, triangles_C[i][k]);
   }
   return placed_;
 }
 
 double Probe::field_distance_m(const motion::Stretch& stretch) const {
   if (obstacles_.field == nullptr) return 0.0;
-  const Vec3 center_W = to_world(stretch, body_.center_C());
+  const Vec3 center_W = to_world(stretch, center_C_);
   const double clearance_m = obstacles_.field->clearance_at_least_m(center_W);
   if (!(clearance_m > 0.0)) return 0.0;
   // The centre may be far from all faces, but inside of a solid.
   if (obstacles_.solids != nullptr && obstacles_.solids->hold(center_W)) return 0.0;
-  return clearance_m - body_.center_radius_m() * kRoundUp;
+  return clearance_m - center_radius_m_ * kRoundUp;
 }
 
-scene::SweptBody Probe::move(const motion::Stretch& stretch, double within_m, Way way) {
-  choose(stretch, within_m);
+scene::SweptBody Probe::move(const motion::Stretch& stretch, Way way) {
   const std::span<const Triangle> triangles_C = body_.triangles_C();
   const std::size_t begin = way == Way::kForwards ? 0 : 1;
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    const Triangle& part_C = triangles_C[parts_.numbers()[i]];
+  for (std::size_t i = 0; i < triangles_C.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 arm_W = stretch.R_WC * part_C[k];
+      const Vec3 arm_W = stretch.R_WC * triangles_C[i][k];
       const Vec3 step_W = stretch.eye_step_W + stretch.turn_step_W.cross(arm_W);
       placed_[i][k] = arm_W + stretch.eye_W;
       ends_[2 * i + begin][k] = placed_[i][k] - step_W;
@@ -118,7 +115,7 @@ ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, 
     result.step_scale = result.gap_m / result.reach_m;
     return result;
   }
-  scene::SweptBody body = move(stretch, result.reach_m + margin_m + keep_m_, way);
+  scene::SweptBody body = move(stretch, way);
   const double error_m = obstacles_.index.nearest_error_m(body.ends);
   result.rounding_m += error_m;
   body.keep_m = (margin_m + error_m + keep_m_) * kRoundUp;
@@ -128,18 +125,16 @@ ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, 
   result.contains = swept.is_clear && (holds_scene(stretch) || is_in_solid());
   result.free = swept.is_clear && !result.contains;
   result.is_measured = swept.nearest.has_value() || !result.free;
-  const double others_m = parts_.others_at_least_m() - keep_m_;
-  result.step_scale = std::min(swept.step_scale, others_m / result.reach_m);
+  result.step_scale = swept.step_scale;
   // Inside of a solid the gap stays 0, however far the surface is.
   if (result.contains) return result;
-  const double unmet_m = placed_.empty() ? others_m : margin_m;
-  result.gap_m = swept.nearest ? swept.nearest->distance_m - keep_m_ : unmet_m;
+  result.gap_m = swept.nearest ? swept.nearest->distance_m - keep_m_ : margin_m;
   return result;
 }
 
 double Probe::ball_depth_m(const motion::Stretch& stretch) const {
-  const double depth_m = obstacles_.bounds.depth_m(to_world(stretch, body_.center_C()));
-  return depth_m - body_.center_radius_m() * kRoundUp;
+  const double depth_m = obstacles_.bounds.depth_m(to_world(stretch, center_C_));
+  return depth_m - center_radius_m_ * kRoundUp;
 }
 
 Probe::Depths Probe::least_depths() const {
@@ -158,19 +153,14 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
                          ProbeResult& result) {
   const double ball_m = body_.ball_radius_m();
   const double keep_m = (margin_m + ball_m) * kRoundUp;
-  double all_inside_m = ball_depth_m(stretch);
-  const double enough_m = (result.reach_m + keep_m) * kRoundUp;
-  scene::SweptBody body;
-  if (!(all_inside_m > enough_m)) {
-    body = move(stretch, enough_m, way);
-    if (placed_.empty()) all_inside_m = parts_.others_at_least_m();
-  }
-  if (all_inside_m > enough_m) {
+  const double all_inside_m = ball_depth_m(stretch);
+  if (all_inside_m > (result.reach_m + keep_m) * kRoundUp) {
     if (result.free)
       result.step_scale = std::min(result.step_scale, (all_inside_m - keep_m) / result.reach_m);
     if (!result.is_measured) result.gap_m = std::min(result.gap_m, all_inside_m - ball_m);
     return;
   }
+  const scene::SweptBody body = move(stretch, way);
   const Depths depth = least_depths();
   // A reach that is not a number fails both conditions.
   const bool is_inside =
@@ -196,14 +186,13 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
 }
 
 std::optional<Probe::Edge> Probe::nearest_edge() const {
-  if (!has_bounds_ || placed_.empty()) return std::nullopt;
-  Edge nearest{0, 0, Vec3::Zero(), std::numeric_limits<double>::infinity()};
+  if (!has_bounds_) return std::nullopt;
+  Edge nearest{0, 0, std::numeric_limits<double>::infinity()};
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
     for (std::size_t vertex = 0; vertex < 3 * placed_.size(); ++vertex) {
       const Vec3& vertex_W = placed_[vertex / 3][vertex % 3];
       const double gap_m = obstacles_.bounds.depth_m(side, vertex_W) - body_.ball_radius_m();
-      if (!(gap_m < nearest.gap_m)) continue;
-      nearest = {side, 3 * parts_.numbers()[vertex / 3] + vertex % 3, vertex_W, gap_m};
+      if (gap_m < nearest.gap_m) nearest = {side, vertex, gap_m};
     }
   }
   return nearest;
@@ -212,9 +201,8 @@ std::optional<Probe::Edge> Probe::nearest_edge() const {
 void Probe::refine(const motion::Stretch& stretch, ProbeResult& result, double share) {
   if (result.free || result.contains || !(result.gap_m + keep_m_ > 0.0)) return;
   // If no triangle is nearer, the gap found before holds.
-  const double within_m = result.gap_m + keep_m_;
   const std::optional<scene::Nearest> nearest =
-      obstacles_.index.near(place(stretch, within_m), within_m, /*certain_m=*/0.0, share);
+      obstacles_.index.near(place(stretch), result.gap_m + keep_m_, /*certain_m=*/0.0, share);
   if (nearest) result.gap_m = nearest->distance_m - keep_m_;
 }
 
@@ -238,14 +226,13 @@ bool Probe::holds_scene(const motion::Stretch& stretch) {
 
 bool Probe::is_in_solid() const {
   if (obstacles_.solids == nullptr) return false;
-  return parts_.others_are_in_solid() || std::ranges::any_of(placed_, [&](const Triangle& part) {
-           return obstacles_.solids->hold(part[0]);
-         });
+  return std::ranges::any_of(
+      placed_, [&](const Triangle& part) { return obstacles_.solids->hold(part[0]); });
 }
 
 std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch& stretch,
                                                           std::uint32_t guess) {
-  const std::span<const Triangle> placed = place(stretch, keep_m_);
+  const std::span<const Triangle> placed = place(stretch);
   if (const std::optional<Edge> edge = nearest_edge(); edge && edge->gap_m <= 0.0)
     return Obstacles::number_of_side(edge->side);
   if (guess < obstacles_.index.size()) {
@@ -262,7 +249,7 @@ std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch&
 }
 
 bool Probe::surely_collides_with(std::uint32_t obstacle, const motion::Stretch& stretch) {
-  place(stretch, keep_m_);
+  place(stretch);
   if (!Obstacles::is_side(obstacle))
     return surely_meets(obstacles_.index.triangle(obstacle), reach_m(stretch));
   return surely_leaves(reach_m(stretch));
@@ -277,7 +264,7 @@ bool Probe::surely_leaves(double moved_m) const {
 }
 
 std::optional<std::uint32_t> Probe::surely_hit(const motion::Stretch& stretch) {
-  if (place(stretch, keep_m_).empty()) return std::nullopt;
+  place(stretch);
   const double least_m = reach_m(stretch);
   if (surely_leaves(least_m)) return Obstacles::number_of_side(nearest_edge()->side);
   std::optional<std::uint32_t> hit;

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "daemon/collision/near_parts.h"
 #include "daemon/collision/obstacles.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/stretch.h"
@@ -64,10 +63,6 @@ struct ProbeResult {
 /// distance computations in workspace", with our motion bounds; the check of motion along a
 /// direction, for a slab, is after Mirtich 1996 ("Impulse-based dynamic simulation of rigid body
 /// systems", section 2.3).
-///
-/// Of a body of many triangles, only those are placed that may be as near as the proof needs at the
-/// middle of the stretch; of all others one distance of a ball proves that they are not
-/// (`NearParts`).
 ///
 /// A side of the bounds is a half-space, so a condition that holds for the vertices of a triangle,
 /// and for both ends of a straight line, holds for all of it. The body stays inside if each vertex
@@ -126,20 +121,15 @@ class Probe {
     const double scene_m = field_distance_m(stretch) - keep_m_;
     return has_bounds_ ? std::min(scene_m, ball_depth_m(stretch) - body_.ball_radius_m()) : scene_m;
   }
-  /// Places the body's triangles at the middle of `stretch`, for a body of many triangles only
-  /// those that may be within `within_m` of the scene or of a side of the bounds (`NearParts`).
-  /// Returns them; valid until the next call.
-  std::span<const geometry::Triangle> place(const motion::Stretch& stretch, double within_m);
-  /// The number of each triangle that was placed last.
-  [[nodiscard]] std::span<const std::uint32_t> placed_numbers() const { return parts_.numbers(); }
+  /// The body's triangles placed at the middle of `stretch`; valid until the next call.
+  std::span<const geometry::Triangle> place(const motion::Stretch& stretch);
   [[nodiscard]] const Obstacles& obstacles() const { return obstacles_; }
   [[nodiscard]] const motion::Body& body() const { return body_; }
-  /// The vertex and the side of the bounds with the least depth inside, as computed, among the
-  /// triangles that were placed last; nothing without bounds or triangles.
+  /// The vertex and the side of the bounds with the least depth inside, as computed, for the body
+  /// as it was placed last; nothing without bounds.
   struct Edge {
     std::size_t side = 0;
     std::size_t vertex = 0;  ///< vertex of the body: 3 × its triangle + its index in it
-    geometry::Vec3 vertex_W;
     double gap_m = 0.0;
   };
   [[nodiscard]] std::optional<Edge> nearest_edge() const;
@@ -153,22 +143,20 @@ class Probe {
   void check_bounds(const motion::Stretch& stretch, double margin_m, Way way, ProbeResult& result);
   /// Lower bound of the depth of the body's triangles inside the bounds.
   [[nodiscard]] double ball_depth_m(const motion::Stretch& stretch) const;
-  /// Least depths of the vertices inside the bounds, of the triangles that were moved last: at the
-  /// middle of the stretch, and at its ends in the direction of the check.
+  /// Least depths of the body's vertices inside the bounds, as it was moved last: at the middle of
+  /// the stretch, and at its ends in the direction of the check.
   struct Depths {
     double middle_m = std::numeric_limits<double>::infinity();
     double first_m = std::numeric_limits<double>::infinity();
     double last_m = std::numeric_limits<double>::infinity();
   };
   [[nodiscard]] Depths least_depths() const;
-  /// The body on the stretch, or its triangles that may be within `within_m` of an obstacle at the
-  /// middle; valid until it is placed again.
-  scene::SweptBody move(const motion::Stretch& stretch, double within_m, Way way);
-  void choose(const motion::Stretch& stretch, double within_m);
+  /// The body on the stretch; valid until it is placed again.
+  scene::SweptBody move(const motion::Stretch& stretch, Way way);
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
-  /// Whether a part of the body is inside a solid of the scene. Requires that no part touches a
-  /// triangle of the scene, and that all that may are placed.
+  /// Whether a part of the body as it was placed last is inside a solid of the scene. Requires that
+  /// no part touches a triangle of the scene.
   [[nodiscard]] bool is_in_solid() const;
   /// Checks the body as it was placed last, for motions up to `moved_m`.
   [[nodiscard]] bool surely_leaves(double moved_m) const;
@@ -179,7 +167,8 @@ class Probe {
   bool has_bounds_;
   double keep_m_;
   double radius_m_;
-  NearParts parts_;
+  geometry::Vec3 center_C_;       ///< centre of a ball about the body's triangles
+  double center_radius_m_ = 0.0;  ///< radius of that ball
   std::vector<geometry::Triangle> placed_;
   std::vector<geometry::Triangle> ends_;  ///< two for each triangle
 };

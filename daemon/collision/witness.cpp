@@ -123,19 +123,18 @@ std::uint32_t nearest_part(std::span<const Triangle> placed, const Vec3& point_W
   return nearest;
 }
 
-// The vertex that is farthest beyond the bounds.
-std::optional<Witness> beyond_bounds(Probe& probe, const motion::Stretch& stretch,
+// The vertex that is farthest beyond the bounds. Requires the body to be placed.
+std::optional<Witness> beyond_bounds(const Probe& probe, std::span<const Triangle> placed,
                                      double beyond_m) {
-  probe.place(stretch, probe.keep_m() + beyond_m);
   const std::optional<Probe::Edge> edge = probe.nearest_edge();
   if (!edge || edge->gap_m > beyond_m) return std::nullopt;
   const std::size_t part = edge->vertex / 3;
+  const Vec3& vertex_W = placed[part][edge->vertex % 3];
   Witness witness;
   witness.triangle = Obstacles::number_of_side(edge->side);
   witness.depth_m = std::max(0.0, -edge->gap_m);
   const Vec3 inward = geometry::Bounds::inward(edge->side);
-  const double depth_m = probe.obstacles().bounds.depth_m(edge->side, edge->vertex_W);
-  witness.point_W = edge->vertex_W - depth_m * inward;
+  witness.point_W = vertex_W - probe.obstacles().bounds.depth_m(edge->side, vertex_W) * inward;
   // The corners of (c0, c1, c2) and (c0, c2, c3).
   constexpr std::array<std::uint32_t, 6> kCorners = {0, 1, 2, 0, 2, 3};
   witness.feature =
@@ -143,45 +142,39 @@ std::optional<Witness> beyond_bounds(Probe& probe, const motion::Stretch& stretc
   return witness;
 }
 
-// The deepest contact of one part of the body that is at least as deep as `deepest`.
-void look_at_part(const scene::SceneIndex& index, const Triangle& part, double keep_m,
-                  double within_m, std::uint32_t number_of_part, std::optional<Witness>& deepest) {
-  const std::array<Triangle, 1> alone = {part};
-  index.for_each_touching(grown_bounds(alone, within_m), [&](std::uint32_t number) {
-    const Triangle obstacle = index.triangle(number);
-    const bool touches = geometry::triangles_touch(part, obstacle);
-    if (!touches && !(within_m > 0.0)) return true;
-    const double distance_m = touches ? 0.0 : geometry::triangle_distance(part, obstacle);
-    if (distance_m > within_m) return true;
-    const double crossing_m = touches ? depth_of_crossing_m(part, obstacle) : 0.0;
-    const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
-    const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
-    if (deepest && !(depth_m > deepest->depth_m) && !tie) return true;
-    deepest = Witness{0.0, number, number_of_part, depth_m, Vec3::Zero()};
-    return true;
-  });
-}
-
 std::optional<Witness> deepest_in_scene(Probe& probe, const motion::Stretch& stretch,
                                         double beyond_m) {
   const double keep_m = probe.keep_m();
-  const std::span<const Triangle> placed = probe.place(stretch, keep_m + beyond_m);
-  const std::span<const std::uint32_t> numbers = probe.placed_numbers();
+  const std::span<const Triangle> placed = probe.place(stretch);
   const scene::SceneIndex& index = probe.obstacles().index;
   std::optional<Witness> deepest;
-  for (std::size_t part = 0; part < placed.size(); ++part) {
-    look_at_part(index, placed[part], keep_m, keep_m + beyond_m, numbers[part], deepest);
-  }
+  std::uint32_t part_of_deepest = 0;
+  index.for_each_touching(grown_bounds(placed, keep_m + beyond_m), [&](std::uint32_t number) {
+    const Triangle obstacle = index.triangle(number);
+    for (std::uint32_t part = 0; part < placed.size(); ++part) {
+      const bool touches = geometry::triangles_touch(placed[part], obstacle);
+      if (!touches && !(keep_m + beyond_m > 0.0)) continue;
+      const double distance_m = touches ? 0.0 : geometry::triangle_distance(placed[part], obstacle);
+      if (distance_m > keep_m + beyond_m) continue;
+      const double crossing_m = touches ? depth_of_crossing_m(placed[part], obstacle) : 0.0;
+      const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
+      const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
+      if (deepest && !(depth_m > deepest->depth_m) && !tie) continue;
+      deepest = Witness{0.0, number, part, depth_m, Vec3::Zero()};
+      part_of_deepest = part;
+    }
+    return true;
+  });
   std::optional<Witness> inside = deepest_inside(probe, stretch, placed);
   if (inside && (!deepest || inside->depth_m > deepest->depth_m)) {
-    inside->feature = numbers[nearest_part(placed, inside->point_W)];
+    inside->feature = nearest_part(placed, inside->point_W);
     return inside;
   }
   if (!deepest) return std::nullopt;
   const Triangle obstacle = index.triangle(deepest->triangle);
   const Vec3 middle = grown_bounds(placed, 0.0).center();
   deepest->point_W = closest_on_triangle(obstacle, middle);
-  if (probe.body().is_camera()) deepest->feature = camera_feature(placed, obstacle);
+  deepest->feature = probe.body().is_camera() ? camera_feature(placed, obstacle) : part_of_deepest;
   return deepest;
 }
 
@@ -190,7 +183,7 @@ std::optional<Witness> deepest_in_scene(Probe& probe, const motion::Stretch& str
 std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
                                        double beyond_m) {
   const std::optional<Witness> scene = deepest_in_scene(probe, stretch, beyond_m);
-  const std::optional<Witness> outside = beyond_bounds(probe, stretch, beyond_m);
+  const std::optional<Witness> outside = beyond_bounds(probe, probe.place(stretch), beyond_m);
   return outside && (!scene || outside->depth_m > scene->depth_m) ? outside : scene;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/geometry/types.h"
-
 namespace camway::geometry {
 
 /// Half the distance from 1 to the next double, 2^-53. A correctly rounded +, -, *, / or sqrt has a
@@ -19,16 +17,5 @@ inline constexpr double kLargestCoordinate_m = 0x1p200;
 
 /// Returns the nearest number in [0, 1]; 0 for NaN.
 constexpr double clamp_to_unit(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
-
-/// Returns a length of `v` that is never below the true one, and above it by few roundings. Scales
-/// by the largest coordinate, so that squares neither overflow nor vanish.
-inline double length_above(const Vec3& v) {
-  const double scale = v.lpNorm<Eigen::Infinity>();
-  if (scale == 0.0) return 0.0;
-  // Three quotients, three squares, two sums, a root and a product are fewer than 8 roundings in
-  // sequence.
-  constexpr double kRounding = 8.0 * kUnitRoundoff;
-  return scale * (v / scale).norm() * (1.0 + 2.0 * kRounding) + kSmallestNormal;
-}
 
 }  // namespace camway::geometry

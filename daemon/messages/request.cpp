@@ -23,7 +23,6 @@ using planning::FieldSpec;
 using Points = std::vector<std::vector<double>>;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
-static_assert(wire::kMaxBodyVertices == motion::kMaxBodyVertices);
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
 static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
 

@@ -209,15 +209,11 @@ std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random) {
 }
 
 motion::BodyShape largest_body(Random& random) {
-  motion::MeshShape mesh;
-  for (std::size_t i = 0; i < motion::kMaxBodyVertices; ++i) {
-    mesh.vertices_C.push_back(point(random));
+  motion::ConvexShape convex;
+  for (std::size_t i = 0; i < motion::kMaxBodyPoints; ++i) {
+    convex.pieces_C.push_back({point(random)});
   }
-  constexpr auto kVertices = static_cast<std::uint32_t>(motion::kMaxBodyVertices);
-  for (std::uint32_t i = 0; i < motion::kMaxBodyTriangles; ++i) {
-    mesh.triangles.push_back({i % kVertices, (i + 1) % kVertices, (i + 2) % kVertices});
-  }
-  return mesh;
+  return convex;
 }
 
 planning::PlanResult sample_result(std::size_t segments, Random& random) {

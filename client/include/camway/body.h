@@ -29,8 +29,8 @@ struct Body {
   double radius_m = 0.0;  ///< [Limit: 0 < value]
   /// Point sets; the body is the union of their convex hulls. [Limit: 512 points in all]
   std::vector<std::vector<Point>> pieces_m;
-  std::vector<Point> vertices_m;  ///< [Limit: 100,000 vertices]
-  /// Indices into `vertices_m`, counted from 0. [Limit: 100,000 triangles]
+  std::vector<Point> vertices_m;  ///< [Limit: 512 vertices]
+  /// Indices into `vertices_m`, counted from 0. [Limit: 1024 triangles]
   std::vector<std::array<std::int32_t, 3>> triangles;
 
   static Body box(const Point& size_m, const Point& center_m = {}) {

@@ -55,9 +55,8 @@ double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
 std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, double up_to_m) {
   const motion::Stretch standing = motion::standing_at(pose);
   if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
-  const double within_m = up_to_m + probe_.keep_m();
   std::optional<scene::Nearest> found = query_.obstacles.index.near(
-      probe_.place(standing, within_m), within_m, /*certain_m=*/0.0, kNearestShare);
+      probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
   if (found) found->distance_m -= probe_.keep_m();
   const std::optional<collision::Probe::Edge> edge = probe_.nearest_edge();
   if (edge && edge->gap_m < (found ? found->distance_m : up_to_m))
@@ -120,11 +119,8 @@ double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m
 motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {
   const geometry::Bounds inner =
       query_.obstacles.bounds.shrunk_by(margin_m).shrunk_by(query_.body.ball_radius_m());
-  const motion::Stretch standing = motion::standing_at(pose);
   geometry::Box box;
-  for (const Triangle& triangle : query_.body.triangles_C()) {
-    for (const Vec3& vertex_C : triangle) box.extend(standing.R_WC * vertex_C + standing.eye_W);
-  }
+  for (const Triangle& triangle : placed(pose)) box.extend(geometry::bounds(triangle));
   const Vec3 below = (inner.min_W - box.min()).cwiseMax(0.0);
   const Vec3 above = (box.max() - inner.max_W).cwiseMax(0.0);
   if (below.isZero(0.0) && above.isZero(0.0)) return pose;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -39,14 +38,9 @@ class FreeSpace {
   [[nodiscard]] double at_least_m(const motion::Pose& pose) const {
     return probe_.at_least_m(motion::standing_at(pose));
   }
-  /// The body's triangles at `pose`, of a body of many triangles only those that may be within
-  /// `within_m` of an obstacle; valid until the next query.
-  std::span<const geometry::Triangle> placed(const motion::Pose& pose, double within_m) {
-    return probe_.place(motion::standing_at(pose), within_m);
-  }
-  /// The number of each triangle that was placed last.
-  [[nodiscard]] std::span<const std::uint32_t> placed_numbers() const {
-    return probe_.placed_numbers();
+  /// The body's triangles at `pose`; valid until the next query.
+  std::span<const geometry::Triangle> placed(const motion::Pose& pose) {
+    return probe_.place(motion::standing_at(pose));
   }
   /// Distance between the body's triangles and the scene at which the body collides.
   [[nodiscard]] double keep_m() const { return probe_.keep_m(); }

@@ -50,18 +50,17 @@ void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
 /// The body at a pose, and the rotations that steps of its image make.
 struct Place {
   std::span<const Triangle> parts;
-  std::span<const std::uint32_t> numbers;  ///< of the parts
   motion::Pose pose;
   Turns turns;
   double lever_m;
 
-  /// The row for vertex `i` of part `k`, which is `room_m` beyond the plane.
+  /// The row for vertex `i` of body triangle `k`, which is `room_m` beyond the plane.
   [[nodiscard]] ContactRow row(std::uint32_t obstacle, std::size_t k, std::size_t i,
                                const Vec3& away_W, double room_m) const {
     ContactRow row;
     row.room_m = room_m;
     row.triangle = obstacle;
-    row.vertex = 3 * numbers[k] + i;
+    row.vertex = 3 * k + i;
     row.direction.head<3>() = away_W;
     row.direction.tail<4>() =
         turns.transpose() * (parts[k][i] - pose.position).cross(away_W) / lever_m;
@@ -108,9 +107,7 @@ void add_contact_rows(FreeSpace& space, const StackedPlace& at,
   const motion::CubicPoint cubic = unstacked(at.point, at.lever_m);
   const motion::Pose pose = motion::pose_of(at.reference, cubic);
   const Turns turns = at.may_turn ? turns_of(at.reference, cubic.image) : Turns(Turns::Zero());
-  // A vertex has no more room than its triangle is far from the obstacle.
-  const std::span<const Triangle> parts = space.placed(pose, horizon_m + space.keep_m());
-  const Place place{parts, space.placed_numbers(), pose, turns, at.lever_m};
+  const Place place{space.placed(pose), pose, turns, at.lever_m};
   for (const std::uint32_t number : obstacles) {
     const std::size_t first_row = rows.size();
     if (collision::Obstacles::is_side(number)) {

@@ -18,16 +18,22 @@ using geometry::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Most triangles of a body that gets no tree. Measured: placing and searching as many together
-/// costs about as much as choosing those that are near.
-constexpr std::size_t kFewTriangles = 64;
-
 /// Tangent (2 units: the library's is within 1 ulp), product, and a third for second order; from
 /// coordinates to length this bound of each is one of the whole.
 constexpr double kCameraCornerRounding = 4.0 * kUnitRoundoff;
 
 /// One addition (halving a size is exact, or loses less than the smallest normal number).
 constexpr double kBoxCornerRounding = 2.0 * kUnitRoundoff;
+
+/// Length of `v`, never below the true one: three quotients, three squares, two sums, a root and a
+/// product are fewer than 8 roundings in sequence. Scaled, so that squares neither overflow nor
+/// vanish.
+double length_above(const Vec3& v) {
+  const double scale = v.lpNorm<Eigen::Infinity>();
+  if (scale == 0.0) return 0.0;
+  constexpr double kRounding = 8.0 * kUnitRoundoff;
+  return scale * (v / scale).norm() * (1.0 + 2.0 * kRounding) + geometry::kSmallestNormal;
+}
 
 /// The corner of the box on the upper side of the axes whose bits are set.
 Vec3 box_corner(const BoxShape& box, unsigned bits) {
@@ -119,17 +125,8 @@ void Body::add(const MeshShape& mesh) {
 }
 
 void Body::measure() {
-  geometry::Box box;
-  for (const Triangle& triangle : triangles_C_) box.extend(geometry::bounds(triangle));
-  center_C_ = box.center();
   for (const Triangle& triangle : triangles_C_) {
-    for (const Vec3& vertex : triangle) {
-      radius_m_ = std::max(radius_m_, geometry::length_above(vertex));
-      center_radius_m_ = std::max(center_radius_m_, geometry::length_above(vertex - center_C_));
-    }
-  }
-  if (triangles_C_.size() > kFewTriangles && solids_C_.empty()) {
-    tree_ = std::make_shared<const BodyTree>(triangles_C_, radius_m_);
+    for (const Vec3& vertex : triangle) radius_m_ = std::max(radius_m_, length_above(vertex));
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +12,6 @@
 
 #include "daemon/base/result.h"
 #include "daemon/geometry/half_space.h"
-#include "daemon/motion/body/body_tree.h"
 #include "daemon/motion/body/camera.h"
 
 namespace camway::motion {
@@ -47,10 +45,9 @@ struct Solid {
 };
 
 /// Limits of shapes.
-inline constexpr std::size_t kMaxBodyPoints = 512;         ///< points of all convex pieces
-inline constexpr std::size_t kMaxBodyVertices = 100'000;   ///< vertices of a mesh
-inline constexpr std::size_t kMaxBodyTriangles = 100'000;  ///< triangles of a mesh
-inline constexpr double kMaxBodyCoordinate_m = 1e9;        ///< any coordinate, size or radius
+inline constexpr std::size_t kMaxBodyPoints = 512;  ///< points of all pieces, or vertices of a mesh
+inline constexpr std::size_t kMaxBodyTriangles = 1024;  ///< triangles of a mesh
+inline constexpr double kMaxBodyCoordinate_m = 1e9;     ///< any coordinate, size or radius
 
 /// A fault of a shape.
 struct ShapeFault {
@@ -88,12 +85,6 @@ class Body {
   /// Largest distance of a triangle's vertex from the eye, rounded up. Under rotation alone no
   /// point of a triangle moves farther than a point at this radius, and a ball moves as its centre.
   [[nodiscard]] double radius_m() const { return radius_m_; }
-  /// Centre of the box about the triangles, and an upper bound of the distance of a vertex from it.
-  [[nodiscard]] const geometry::Vec3& center_C() const { return center_C_; }
-  [[nodiscard]] double center_radius_m() const { return center_radius_m_; }
-  /// Balls about groups of the triangles; null for a body of few triangles, and for one with
-  /// solids, of which a part of the scene may be far from every triangle.
-  [[nodiscard]] const BodyTree* tree() const { return tree_.get(); }
   /// Bound of the rounding of the shape: every point of the shape as given is within this of the
   /// triangles (and their balls) or inside a solid. It comes from rounding the corners of a camera
   /// or a box; 0 for shapes given by their points, as hulls are exact (`convex_hull.h`).
@@ -114,9 +105,6 @@ class Body {
 
   std::vector<geometry::Triangle> triangles_C_;
   std::vector<Solid> solids_C_;
-  std::shared_ptr<const BodyTree> tree_;
-  geometry::Vec3 center_C_ = geometry::Vec3::Zero();
-  double center_radius_m_ = 0.0;
   double ball_radius_m_ = 0.0;
   double radius_m_ = 0.0;
   double slack_m_ = 0.0;

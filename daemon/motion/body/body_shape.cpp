@@ -90,7 +90,7 @@ Fault fault_in_shape(const ConvexShape& convex) {
 }
 
 Fault fault_in_shape(const MeshShape& mesh) {
-  if (Fault fault = fault_in_count("vertices", mesh.vertices_C.size(), kMaxBodyVertices))
+  if (Fault fault = fault_in_count("vertices", mesh.vertices_C.size(), kMaxBodyPoints))
     return fault;
   if (Fault fault = fault_in_count("triangles", mesh.triangles.size(), kMaxBodyTriangles))
     return fault;
