@@ -23,10 +23,11 @@ std::shared_ptr<const Mesh> mesh_with(const std::vector<Triangle>& triangles,
 }
 
 WholeMesh of_three() {
-  return WholeMesh(
-      {{"house", {mesh_with({triangle_at(0), triangle_at(1), triangle_at(2)}, {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})}},
-       {"nothing", {mesh_with({}, {})}},
-       {"table", {mesh_with({triangle_at(3)}, {{"top", 0, 1}})}}});
+  return WholeMesh({{"house",
+                     {mesh_with({triangle_at(0), triangle_at(1), triangle_at(2)},
+                                {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})}},
+                    {"nothing", {mesh_with({}, {})}},
+                    {"table", {mesh_with({triangle_at(3)}, {{"top", 0, 1}})}}});
 }
 
 TEST(WholeMesh, IsItsOnlyMeshItself) {
