@@ -78,8 +78,10 @@ TEST_F(LifecycleTest, ClientCarriesOnWhenTheDaemonIsKilledInTheMiddleOfPlanning)
   handlers.on_progress = [&](const PlanProgress& progress) {
     if (progress.stage != PlanProgress::Stage::kWaiting) is_being_planned = true;
   };
+  // Planning one takes less than the period of progress, so that most say nothing of it.
+  constexpr int kRequests = 16;
   std::vector<PendingPlan> pending;
-  for (int i = 0; i < 3; ++i) pending.push_back(client.plan_async(request, handlers));
+  for (int i = 0; i < kRequests; ++i) pending.push_back(client.plan_async(request, handlers));
   ASSERT_TRUE(eventually([&] { return is_being_planned.load(); }));
   kill_daemon();
   start_daemon();
