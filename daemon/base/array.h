@@ -19,8 +19,8 @@ class Array {
   using value_type = T;
 
   Array() = default;
-  Array(std::vector<T> values)  // NOLINT(google-explicit-constructor): a vector is an array
-      : Array(std::make_shared<const std::vector<T>>(std::move(values))) {}
+  /// Implicit, because a vector is an array.
+  Array(std::vector<T> values) : Array(std::make_shared<const std::vector<T>>(std::move(values))) {}
   /// Refers to `values`, which live as long as `owner`.
   Array(std::shared_ptr<const void> owner, std::span<const T> values)
       : owner_(std::move(owner)), values_(values) {

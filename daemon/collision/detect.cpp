@@ -52,10 +52,9 @@ enum class Goal : std::uint8_t {
   kAny,    ///< at the first stretch that collides at its middle, or that is resolved
 };
 
-/// What is known of the obstacle in which the body is, from one step within a collision to the
-/// next. A step is proved to collide if one obstacle is hit everywhere on it. Looking for such an
-/// obstacle is expensive where there is none, so after each failure more steps pass before the next
-/// attempt.
+/// Remembers, from one step within a collision to the next, which obstacle the body hits. A step is
+/// proved to collide if one obstacle is hit everywhere on it. A search for such an obstacle is
+/// expensive where there is none, so after each failure more steps pass before the next search.
 class HitTracker {
  public:
   explicit HitTracker(Probe& probe) : probe_(probe) {}

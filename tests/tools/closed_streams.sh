@@ -37,15 +37,16 @@ exit_code_of() {
 # nothing is closed), or where standard output is closed with MUTE_CODE, if it prints there. @ in it is
 # the folder for its files. The ways to close run at the same time, because most commands wait.
 try() {
-  local command=$1 expected=$2 i code
+  local command=$1 expected=$2 i code jobs=()
   mkdir open
   code=$(exit_code_of "${command//@/open} >open.out 2>open.err </dev/null")
   [[ $expected != as-open ]] || expected=$code
   [[ $code == "$expected" ]] || fault "$command: ends with $code, not $expected: $(<open.err)"
   for i in "${!kWays[@]}"; do
     try_closed "$command" "$expected" "${3:-$expected}" "${kWays[i]}" "closed$i" &
+    jobs+=($!)
   done
-  wait_for_jobs "${#kWays[@]}"
+  wait_for "${jobs[@]}"
   rm -r open closed?
 }
 
@@ -62,10 +63,10 @@ try_closed() {
   done
 }
 
-# wait_for_jobs COUNT: for the last COUNT jobs, not for a daemon that goes on.
-wait_for_jobs() {
+# wait_for JOB...: for these processes of this script.
+wait_for() {
   local job
-  for job in $(jobs -p | tail -n "$1"); do
+  for job in "$@"; do
     wait "$job" || fault "job $job of this script died"
   done
 }
@@ -134,10 +135,12 @@ try "camway watch nowhere --request $kRequest" 2
 try "camway doctor" as-open 2
 stop_daemon 'with open streams'
 
+daemons=()
 for i in "${!kWays[@]}"; do
   try_daemon "${kWays[i]}" "way$i" &
+  daemons+=($!)
 done
-wait_for_jobs "${#kWays[@]}"
+wait_for "${daemons[@]}"
 
 cat faults
 echo "$(wc -l <faults) faults"

@@ -9,8 +9,8 @@
 
 namespace camway::correction {
 
-/// What a search knows of the scene about the points of a lattice: where the ball fits, which steps
-/// are free, and what makes a step dearer than its length.
+/// A lattice of points in the scene. It tells a search where the ball fits, which steps are free,
+/// and by how much a step costs more than its length. Not thread-safe.
 class Lattice {
  public:
   /// Refers to `space` and `options`, which must outlive it.
@@ -28,7 +28,7 @@ class Lattice {
   /// then along edges.
   [[nodiscard]] double rest_m(CellKey key) const;
 
-  /// A point with what the scene says of it.
+  /// Gap and extra costs at a point.
   struct Surroundings {
     double gap_m;        ///< gap of the ball; 0 within an avoided ball
     double near = 0.0;   ///< relative extra cost of steps near the scene

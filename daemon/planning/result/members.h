@@ -29,12 +29,12 @@
 /// pair of numbers (`std::tie`) is an array in files.
 namespace camway::planning {
 
-/// Name of a member in files, and its old name, which is still read.
+/// Name of a member in files, and its old name, which is still read. Its constructors are implicit,
+/// so that the lists below read as lists of names.
 struct FileName {
-  constexpr FileName(const char* name_now, std::string_view old_name = {})  // NOLINT: implicit
+  constexpr FileName(const char* name_now, std::string_view old_name = {})
       : name(name_now), old(old_name) {}
-  constexpr FileName(const FieldSpec& spec)  // NOLINT: implicit
-      : name(spec.file_name()), old(spec.old_file) {}
+  constexpr FileName(const FieldSpec& spec) : name(spec.file_name()), old(spec.old_file) {}
   std::string_view name;
   std::string_view old;
 };

@@ -25,7 +25,7 @@ class WholeMesh {
   /// A mesh without triangles.
   WholeMesh();
   /// Requires a mesh that is not null.
-  WholeMesh(std::shared_ptr<const Mesh> mesh);  // NOLINT: implicit, it is the same thing
+  WholeMesh(std::shared_ptr<const Mesh> mesh);
   explicit WholeMesh(std::vector<Part> parts);
 
   const Mesh& operator*() const { return *share(); }

@@ -270,11 +270,11 @@ bool covers(const Correction& correction, double time_s) {
 TEST(Ladder, TellsWhatBecameOfThePath) {
   testing::Random random(4501);
   int corrected = 0;
-  constexpr std::array kEach = {Objective::kClosest, Objective::kShortest, Objective::kSmoothest,
-                                Objective::kSafest};
+  constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
+                                      Objective::kSmoothest, Objective::kSafest};
   for (int run = 0; run < 12; ++run) {
     LadderCase c = cluttered_tour(random);
-    c.options.objective = kEach[static_cast<std::size_t>(run) % kEach.size()];
+    c.options.objective = kObjectives[static_cast<std::size_t>(run) % kObjectives.size()];
     const CubicPath before = c.path();
     const LadderResult result = c.corrected();
     expect_same_keyframes(c, result.path);

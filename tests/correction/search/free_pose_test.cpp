@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
 
-constexpr double kBody_m = 0.2;
+constexpr double kSphere_m = 0.2;
 constexpr double kPoseMargin_m = 0.01;
 // The length of a move is the least in its direction to within the precision, and a direction is
 // improved as long as that shortens it by half of that.
@@ -37,10 +37,10 @@ TEST(NearestFreePose, OffAWallOfAnyTilt) {
     scene::Mesh mesh;
     testing::add_parallelogram(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0),
                                tilt * Vec3(0, 100, 0));
-    const SearchScene scene(std::move(mesh), sphere(kBody_m));
+    const SearchScene scene(std::move(mesh), sphere(kSphere_m));
     FreeSpace space = scene.space();
-    const double depth_m = share(random) * kBody_m;
-    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, kBody_m - depth_m));
+    const double depth_m = share(random) * kSphere_m;
+    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, kSphere_m - depth_m));
     const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     expect_free(scene, pose, *found);
@@ -59,14 +59,14 @@ TEST(NearestFreePose, OutOfACorner) {
       const Vec3 v = Vec3::Unit((axis + 2) % 3);
       testing::add_parallelogram(mesh, -50.0 * (u + v), 100.0 * u, 100.0 * v);
     }
-    const SearchScene scene(std::move(mesh), sphere(kBody_m));
+    const SearchScene scene(std::move(mesh), sphere(kSphere_m));
     FreeSpace space = scene.space();
     for (const double gap : {0.1, 0.5, 0.9}) {
-      const motion::Pose pose = pose_at(gap * kBody_m * Vec3::Ones());
+      const motion::Pose pose = pose_at(gap * kSphere_m * Vec3::Ones());
       const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
       ASSERT_TRUE(found);
       expect_free(scene, pose, *found);
-      const double least_m = std::sqrt(walls) * ((1.0 - gap) * kBody_m + kPoseMargin_m);
+      const double least_m = std::sqrt(walls) * ((1.0 - gap) * kSphere_m + kPoseMargin_m);
       EXPECT_GE(found->moved_m, least_m - 1e-12);
       EXPECT_LE(found->moved_m, kPrecise * least_m);
     }
@@ -82,9 +82,9 @@ TEST(NearestFreePose, StaysOnItsSideOfAWall) {
     scene::Mesh mesh;
     testing::add_parallelogram(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0),
                                tilt * Vec3(0, 100, 0));
-    const SearchScene scene(std::move(mesh), sphere(kBody_m));
+    const SearchScene scene(std::move(mesh), sphere(kSphere_m));
     FreeSpace space = scene.space();
-    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, share(random) * kBody_m));
+    const motion::Pose pose = pose_at(tilt * Vec3(0, 0, share(random) * kSphere_m));
     const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, kAny);
     ASSERT_TRUE(found);
     EXPECT_GT((tilt.inverse() * found->pose.position).z(), 0.0);
@@ -95,10 +95,10 @@ TEST(NearestFreePose, StaysOnItsSideOfAWall) {
 TEST(NearestFreePose, OfTwoAsNearTheOneWithMoreRoom) {
   for (const double up : {1.0, -1.0}) {
     scene::Mesh mesh;
-    const double bottom_m = -up * 2.2 * kBody_m;
+    const double bottom_m = -up * 2.2 * kSphere_m;
     testing::add_cuboid(mesh, {-50, std::min(0.0, bottom_m), -50},
                         {50, std::max(0.0, bottom_m), 50});
-    const SearchScene scene(std::move(mesh), sphere(kBody_m));
+    const SearchScene scene(std::move(mesh), sphere(kSphere_m));
     FreeSpace space = scene.space();
     const std::optional<FreePose> found =
         nearest_free_pose(space, pose_at(Vec3::Zero()), kPoseMargin_m, kAny);
@@ -110,14 +110,14 @@ TEST(NearestFreePose, OfTwoAsNearTheOneWithMoreRoom) {
 TEST(NearestFreePose, WillDo) {
   scene::Mesh mesh;
   testing::add_parallelogram(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
-  const SearchScene scene(std::move(mesh), sphere(kBody_m));
+  const SearchScene scene(std::move(mesh), sphere(kSphere_m));
   FreeSpace space = scene.space();
-  const motion::Pose pose = pose_at({0, 0, 0.5 * kBody_m});
+  const motion::Pose pose = pose_at({0, 0, 0.5 * kSphere_m});
   const PoseRule is_beyond = [](const motion::Pose& p) { return p.position.z() < 0.0; };
   const std::optional<FreePose> found = nearest_free_pose(space, pose, kPoseMargin_m, is_beyond);
   ASSERT_TRUE(found);
   EXPECT_LT(found->pose.position.z(), 0.0);
-  EXPECT_LE(found->moved_m, kPrecise * (1.5 * kBody_m + kPoseMargin_m));
+  EXPECT_LE(found->moved_m, kPrecise * (1.5 * kSphere_m + kPoseMargin_m));
   EXPECT_FALSE(
       nearest_free_pose(space, pose, kPoseMargin_m, [](const motion::Pose&) { return false; }));
 }
@@ -160,7 +160,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
 TEST(NearestFreePose, KeepsTheClearanceToo) {
   scene::Mesh mesh;
   testing::add_parallelogram(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
-  SearchScene scene(std::move(mesh), sphere(kBody_m));
+  SearchScene scene(std::move(mesh), sphere(kSphere_m));
   scene.detect.clearance_m = 0.3;
   FreeSpace space = scene.space();
   const motion::Pose pose = pose_at({0, 0, 0.4});
@@ -173,11 +173,11 @@ TEST(NearestFreePose, KeepsTheClearanceToo) {
 // Plates without an end stand closer than the sphere is wide, as far as they go.
 TEST(NearestFreePose, NothingWhereTheBodyIsBuriedBeyondReach) {
   for (const double reach : {0.6, 1.3}) {
-    const double end_m = reach * kFreePoseReach * kBody_m;
+    const double end_m = reach * kFreePoseReach * kSphere_m;
     scene::Mesh mesh;
-    for (double x_m = -end_m; x_m <= end_m; x_m += kBody_m)
+    for (double x_m = -end_m; x_m <= end_m; x_m += kSphere_m)
       testing::add_parallelogram(mesh, {x_m, -50, -50}, {0, 100, 0}, {0, 0, 100});
-    const SearchScene scene(std::move(mesh), sphere(kBody_m));
+    const SearchScene scene(std::move(mesh), sphere(kSphere_m));
     FreeSpace space = scene.space();
     const std::optional<FreePose> found =
         nearest_free_pose(space, pose_at(Vec3::Zero()), kPoseMargin_m, kAny);
@@ -208,13 +208,13 @@ TEST(NearestFreePose, IsFreeWhateverTheScene) {
 
 // However far beyond its bounds a pose is, it is brought back straight, and then out of the scene.
 TEST(NearestFreePose, BackWithinBounds) {
-  const SearchScene empty({}, sphere(kBody_m));
+  const SearchScene empty({}, sphere(kSphere_m));
   geometry::Bounds bounds;
   bounds.max_W = {1.0, 1.0, std::numeric_limits<double>::infinity()};
   FreeSpace space({collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect});
   const auto found = nearest_free_pose(space, pose_at({31, 41, 0}), kPoseMargin_m, kAny);
   ASSERT_TRUE(found);
-  const double inset_m = kBody_m + kPoseMargin_m;
+  const double inset_m = kSphere_m + kPoseMargin_m;
   const double least_m = std::hypot(30.0 + inset_m, 40.0 + inset_m);
   EXPECT_GE(found->moved_m, least_m);
   // On each of two axes the margin, to within the precision.
@@ -223,7 +223,7 @@ TEST(NearestFreePose, BackWithinBounds) {
 
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, 0.5, -0.1}, {1.5, 1.5, 0.1});
-  const SearchScene scene(std::move(mesh), sphere(kBody_m));
+  const SearchScene scene(std::move(mesh), sphere(kSphere_m));
   FreeSpace blocked({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
   const auto beside = nearest_free_pose(blocked, pose_at({31, 41, 0}), kPoseMargin_m, kAny);
   ASSERT_TRUE(beside);
