@@ -30,6 +30,10 @@ std::string explain(std::int32_t status, const std::string& message) {
          (message.empty() ? "(no reason given)" : message);
 }
 
+/// Time for the daemon to say what became of a request that is cancelled. It answers at once,
+/// whatever its workers do.
+constexpr double kCancelWait_s = 1.0;
+
 Failure cancelled() { return {Status::kCancelled, "cancelled before anything was changed"}; }
 
 /// The answer to one request, or the reason why there is none.
@@ -75,22 +79,33 @@ class OneAnswer final : public Call {
     question.request_id = request_id();
     question.utime = wire::utime_now();
     replace_question({{context_.channels().cancel_scene(), wire::encode(question)}});
-    retry().restart();
+    retry().restart_within(kCancelWait_s, Clock::now());
   }
   void finish(Outcome outcome) override {
     Asked<Response> asked{std::move(response_), {Status::kOk, {}}};
     if (outcome == Outcome::kAnswered && !asked.response) {
       asked.failure = cancelled();
     } else if (outcome != Outcome::kAnswered) {
-      asked = {std::nullopt,
-               refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
-                   ? *refusal_
-                   : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
+      asked.failure = failure_of(outcome);
     }
     promise_.set_value(std::move(asked));
   }
 
  private:
+  /// Returns why there is no answer.
+  Failure failure_of(Outcome outcome) const {
+    const bool is_late = outcome == Outcome::kDeadline || outcome == Outcome::kSilence;
+    if (is_late && refusal_) return *refusal_;
+    Failure failure = context_.explain(outcome, retry().ever_heard(), {}, fault_);
+    if (is_late && is_cancelled_) {
+      const bool was_heard = retry().ever_heard();
+      failure.error = (was_heard ? "cancelled, but the daemon does not say what became of it: "
+                                 : "cancelled: ") +
+                      failure.error;
+    }
+    return failure;
+  }
+
   Context& context_;
   std::optional<Response> response_;
   std::optional<Failure> refusal_;

@@ -79,4 +79,11 @@ void Retry::restart() {
   wait_s_ = rules_.try_timeout_s;
 }
 
+void Retry::restart_within(double patience_s, Clock::time_point now) {
+  constexpr double kWaits = 4.0;  // that fit into the time, so that a lost message is no loss
+  restart();
+  wait_s_ = std::min(wait_s_, patience_s / kWaits);
+  deadline_ = std::min(deadline_, now + duration(patience_s));
+}
+
 }  // namespace camway

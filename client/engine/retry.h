@@ -61,6 +61,9 @@ class Retry {
 
   /// Starts over for a new request that replaces the current one. The next call of `next` sends it.
   void restart();
+  /// Starts over for a request that is given up after `patience_s`, or at the deadline if that is
+  /// sooner. It is repeated within that time.
+  void restart_within(double patience_s, Clock::time_point now);
 
   bool ever_heard() const { return ever_heard_; }
   /// Returns how often the whole request was sent.

@@ -74,13 +74,18 @@ bool has_flag(const CLI::App& command, const std::string& flag) {
                              [&](const CLI::Option* option) { return option->check_name(flag); });
 }
 
-/// Returns a sentence about the first flag whose value is another flag of the command: its value
-/// was left out. Empty if there is none.
-std::string flag_as_value(const CLI::App& app) {
+/// Returns a sentence about the first flag whose value was left out: it is another flag of the
+/// command, or the empty name of a file or folder. Empty if there is none.
+std::string missing_value(const CLI::App& app) {
   const CLI::App& command = called(app);
   for (const CLI::Option* option : command.get_options()) {
     if (!option->nonpositional()) continue;
+    const std::string form = option->get_type_name();
+    const bool is_path = form.starts_with("FILE") || form.starts_with("DIR");
     for (const std::string& word : option->results()) {
+      if (is_path && word.empty()) {
+        return option->get_name() + ": needs a value; it is empty" + see_help(command);
+      }
       if (!is_flag(word) || !has_flag(command, flag_in(word))) continue;
       return fmt::format("{}: needs a value; '{}' is a flag", option->get_name(), flag_in(word)) +
              see_help(command);
@@ -123,6 +128,18 @@ std::string worded(const CLI::App& command, const CLI::ParseError& error) {
 std::string or_nearest(const std::string& word, const std::vector<std::string>& words) {
   const std::string nearest = nearest_word(word, words);
   return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+/// Returns a question about the one flag that the command needs and did not get, if `word` may be
+/// its value.
+std::string or_flag_of(const std::string& word, const CLI::App& command) {
+  const CLI::Option* needed = nullptr;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_required() || option->count() > 0 || !option->nonpositional()) continue;
+    if (needed != nullptr) return {};
+    needed = option;
+  }
+  return needed == nullptr ? "" : fmt::format("; did you mean {} {}?", needed->get_name(), word);
 }
 
 std::optional<double> number_of(const std::string& text) {
@@ -170,7 +187,8 @@ std::string unknown_word(const CLI::App& app) {
   }
   const auto flag = std::ranges::find_if(left, is_flag);
   if (flag == left.end()) {
-    return fmt::format("'{}' is a word too many for {}", left.front(), full_name(command)) +
+    return fmt::format("'{}' is a word too many for {}{}", left.front(), full_name(command),
+                       or_flag_of(left.front(), command)) +
            see_help(command);
   }
   const std::string name = flag_in(*flag);
@@ -179,17 +197,17 @@ std::string unknown_word(const CLI::App& app) {
          see_help(command);
 }
 
-void refuse_flags_as_values(CLI::App& app) {
+void refuse_missing_values(CLI::App& app) {
   // The library calls this before the commands run.
   app.parse_complete_callback([&app] {
-    const std::string fault = flag_as_value(app);
+    const std::string fault = missing_value(app);
     if (!fault.empty()) throw CLI::ValidationError(fault);
   });
 }
 
 std::string command_line_fault(const CLI::App& app, const CLI::ParseError& error) {
   // First, because the value of that flag may have become a word too many.
-  std::string without_value = flag_as_value(app);
+  std::string without_value = missing_value(app);
   if (!without_value.empty()) return without_value;
   std::string unknown = unknown_word(app);
   if (!unknown.empty()) return unknown;

@@ -20,15 +20,15 @@ namespace camway::cli_support {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 
 /// Returns a sentence about the first flag, or else word, that `app` does not know, which names the
-/// nearest right one and the help. Empty if all words that it read are known. Requires that
-/// `app.parse` was called, whether it threw or not.
+/// nearest right one, or the needed flag that a word may be the value of, and the help. Empty if
+/// all words that it read are known. Requires that `app.parse` was called, whether it threw or not.
 std::string unknown_word(const CLI::App& app);
 
-/// Makes `app.parse` throw `CLI::ValidationError` where a flag of the called command has another
-/// one of its flags as its value, before the command runs: `--response --no-timing` would write a
-/// file named `--no-timing`. Such a file can be given as `./--no-timing`. `app` must outlive its
-/// calls of `parse`.
-void refuse_flags_as_values(CLI::App& app);
+/// Makes `app.parse` throw `CLI::ValidationError`, before the command runs, where a flag of the
+/// called command has another one of its flags as its value, or an empty text as the name of a file
+/// or folder: `--response --no-timing` would write a file named `--no-timing`. Such a file can be
+/// given as `./--no-timing`. `app` must outlive its calls of `parse`.
+void refuse_missing_values(CLI::App& app);
 
 /// Returns the message for a command line that `app` refused, with a reference to the help: about a
 /// flag without its value, else about the unknown word, else about `error`.

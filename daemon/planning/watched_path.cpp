@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/keyframe_times.h"
+#include "daemon/planning/stages/prepare.h"
 
 namespace camway::planning {
 namespace {
@@ -60,6 +62,20 @@ std::optional<WatchedPath> WatchedPath::of(const PlanRequest& request, const Pla
   if (!body) return std::nullopt;
   return WatchedPath(result.path, *std::move(body), detect_options(request.options),
                      request.options.bounds);
+}
+
+std::optional<WatchedPath> WatchedPath::as_interpolated(const PlanRequest& request,
+                                                        const PlanResult& result) {
+  if (!result.certificate.certified || result.collisions.empty()) return std::nullopt;
+  base::Result<motion::Body> body = motion::Body::make(body_shape(request));
+  if (!body) return std::nullopt;
+  PreparedKeyframes prepared = prepared_keyframes(request);
+  for (const KeyframeFault& fault : result.keyframe_faults) {
+    if (fault.free_pose) prepared.keyframes[fault.keyframe].pose = *fault.free_pose;
+  }
+  const motion::CubicPath path = interpolated_path(request, prepared.keyframes, prepared.origin);
+  return WatchedPath(to_sent_times(prepared.origin, path.path()), *std::move(body),
+                     detect_options(request.options), request.options.bounds);
 }
 
 bool WatchedPath::may_meet(const scene::SceneDifference& change) const {

@@ -15,9 +15,8 @@
 
 namespace camway::planning {
 
-/// A path that was proved free of collision, with all that is needed to tell quickly whether it
-/// still is after a change of its scene. Immutable.
-/// Thread-safe.
+/// A path, mostly one that was proved free of collision, with all that is needed to tell quickly
+/// whether it still is after a change of its scene. Immutable. Thread-safe.
 ///
 /// Proof: the scene after a change consists of the part that stayed and the part that was added. A
 /// path that was proved free in the earlier scene is free of the part that stayed, since removing
@@ -38,6 +37,12 @@ class WatchedPath {
 
   /// Returns the path that `result` proves free for `request`; nothing if it has no proved path.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
+
+  /// Returns the path of `request` as interpolated, which collided, where `result` has a corrected
+  /// one; nothing if it has none, or did not correct any. Keyframes that were repaired are where
+  /// `result` has them, and the body is as large as was asked for.
+  static std::optional<WatchedPath> as_interpolated(const PlanRequest& request,
+                                                    const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
 

@@ -133,12 +133,6 @@ class ServingDaemon {
     service::ServiceConfig config = options_.service;
     config.claim_window = options_.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
     service::Service service(transport(), scenes, std::move(config), planner, log_, hooks());
-    log_->info("serving", {{"url", options_.lcm_url},
-                           {"prefix", options_.service.prefix},
-                           {"workers", options_.service.workers},
-                           {"scene_workers", options_.service.scene_workers},
-                           {"queue", options_.service.queue.jobs},
-                           {"client_queue", options_.service.queue.jobs_of_a_client}});
     Reloader reloader(options_, std::move(read_again), configured, reloads_, manager_, log_, auth_);
     const SignalWaiter signals(
         [&](int signal) {
@@ -204,7 +198,15 @@ class ServingDaemon {
 
   service::ServiceHooks hooks() {
     service::ServiceHooks hooks;
-    hooks.ready = [this] { manager_.ready("serving"); };
+    hooks.ready = [this] {
+      log_->info("serving", {{"url", options_.lcm_url},
+                             {"prefix", options_.service.prefix},
+                             {"workers", options_.service.workers},
+                             {"scene_workers", options_.service.scene_workers},
+                             {"queue", options_.service.queue.jobs},
+                             {"client_queue", options_.service.queue.jobs_of_a_client}});
+      manager_.ready("serving");
+    };
     hooks.stopping = [this] { manager_.stopping(); };
     hooks.alive = [this] { manager_.alive(); };
     hooks.status = [this](status_t& status) { complete(status); };

@@ -40,6 +40,7 @@ std::string said_of(const std::vector<std::string>& words) {
   paint->add_option("--count", values.count)->check(whole_number(1, 9));
   paint->add_option("--file", values.files)->required();
   paint->add_option("--out", values.out);
+  paint->add_option("--picture", values.out)->type_name("FILE");
   add_numbers(*paint, "--box", values.box_m, "X,Y,Z", "",
               {"above 0", [](double value) { return value > 0.0; }});
   paint->add_flag("--dry", values.is_dry);
@@ -48,7 +49,7 @@ std::string said_of(const std::vector<std::string>& words) {
   CLI::App* const scene = app.add_subcommand("scene", "");
   scene->require_subcommand(1);
   scene->add_subcommand("upload", "");
-  refuse_flags_as_values(app);
+  refuse_missing_values(app);
   std::vector<std::string> reversed(words.rbegin(), words.rend());
   try {
     app.parse(reversed);
@@ -71,7 +72,7 @@ TEST(CommandLine, UnknownWordsAreNamedWithTheNearestRightOneAndTheHelp) {
       {{"paint", "--file", "a", "--lenght=2"},
        "'--lenght' is no flag of tool paint; did you mean --length?"},
       {{"paint", "--file", "a", "--weight", "2"}, "'--weight' is no flag of tool paint (see"},
-      {{"paint", "b"}, "'b' is a word too many for tool paint (see"},
+      {{"paint", "b"}, "'b' is a word too many for tool paint; did you mean --file b? (see"},
       {{}, "a command is missing: paint, scene (see tool --help)"},
       {{"scene"}, "a command is missing: upload (see tool scene --help)"},
       {{"paint"}, "--file is required (see tool paint --help)"},
@@ -117,6 +118,8 @@ TEST(CommandLine, AFlagWithoutItsValueIsNamed) {
       {{"--length", "1", "--length"}, "--length: needs a value"},
       {{"--box"}, "--box: needs a value"},
       {{"b", "--file"}, "--file: needs a value"},
+      {{"--picture", ""}, "--picture: needs a value; it is empty (see tool paint --help)"},
+      {{"--picture="}, "--picture: needs a value"},
   };
   const int before = runs;
   for (const auto& [flags, said] : kCases) {

@@ -78,7 +78,7 @@ TEST_F(ClientTest, SaysThatThereIsNoDaemon) {
 
 TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
   FakeDaemon daemon;
-  daemon.heartbeat_every = milliseconds(30);
+  daemon.heartbeat_every = milliseconds(5);
   daemon.start();
   ClientOptions options = quick();
   options.deadline_s = 1.5;  // more than (1 + retries) tries

@@ -134,7 +134,7 @@ TEST_F(OperationTest, LogsObjectsOfJsonWhereThatIsAskedFor) {
     }
   }
   EXPECT_THAT(events, ElementsAre("starting", "reading scene", "scene read", "page of metrics",
-                                  "serving", "ready", "answered", "signal", "stopping", "stopped"));
+                                  "ready", "serving", "answered", "signal", "stopping", "stopped"));
 }
 
 TEST_F(OperationTest, IsScrapedUnderLoad) {

@@ -40,7 +40,7 @@ std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request
                      const PlanResult& result) {
   if (result.path.empty()) {
     const bool says_so = result.status == Status::kTimeout && result.keyframes.empty() &&
-                         result.message.find("there is no path") != std::string::npos;
+                         result.message.find("no path was made") != std::string::npos;
     return says_so && !result.certificate.certified ? "" : "no path";
   }
   const motion::Body body(request.camera);

@@ -200,5 +200,29 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
                    .empty());
 }
 
+TEST(WatchedPath, KnowsThePathAsInterpolatedWhereItWasCorrected) {
+  PlanRequest request;
+  request.camera = testing::small_camera();
+  request.has_times = true;
+  constexpr double kBegin_s = 1.76e9;  // seconds since 1970
+  request.keyframes = {{kBegin_s, {Vec3(0, 0, 0), Quat::Identity()}},
+                       {kBegin_s + 4.0, {Vec3(4, 0, 0), Quat::Identity()}}};
+  const auto empty = scene::assemble("room", 1, {}, {});
+  EXPECT_FALSE(WatchedPath::as_interpolated(request, plan(*empty, request))) << "it is free";
+  const auto placed = scene::place_object("box", box_source({0.4, 0.4, 0.4}), at({2, 0, 0}), {});
+  const auto after = scene::assemble("room", 2, {placed.object}, {});
+  const PlanResult corrected = plan(*after, request);
+  ASSERT_EQ(corrected.status, Status::kOk) << corrected.message;
+  const auto watched = WatchedPath::as_interpolated(request, corrected);
+  ASSERT_TRUE(watched);
+  EXPECT_EQ(watched->path().begin_s(), kBegin_s);
+  EXPECT_EQ(watched->path().end_s(), kBegin_s + 4.0);
+  EXPECT_LT((watched->path().pose(kBegin_s + 2.0).position - Vec3(2, 0, 0)).norm(), 1e-9);
+  const auto found = watched->collisions(collision::Obstacles(*after), Deadline::never());
+  ASSERT_EQ(found.size(), corrected.collisions.size());
+  EXPECT_NEAR(found[0].t_begin_s, corrected.collisions[0].t_begin_s, 0.01);
+  EXPECT_TRUE(watched->collisions(collision::Obstacles(*empty), Deadline::never()).empty());
+}
+
 }  // namespace
 }  // namespace camway::planning

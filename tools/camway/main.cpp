@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
           "the answer is no (plan, check, occupancy, load, replay, doctor and watch say of what)",
           /*asks_daemon=*/true));
   add_commands(app, argc > 1 ? argv[1] : "", exit_code);
-  camway::cli_support::refuse_flags_as_values(app);
+  camway::cli_support::refuse_missing_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version

@@ -22,6 +22,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
+#include "tools/camway/scene/scene_text.h"
 #include "tools/support/client_request.h"
 
 namespace camway::tools {
@@ -206,10 +207,10 @@ void print_text(const DaemonStatus& status) {
   fmt::print("workers      {} of {} plan, {} requests wait\n", status.running_requests,
              status.num_workers, status.queued_requests);
   fmt::print(
-      "answered     {} ({:.3g}/s since the start), {} of {} that were known from the cache; {} "
-      "refused for want of room\n",
+      "answered     {} ({:.3g}/s since the start), {} requests came again and {} of them were "
+      "answered from the cache; {} refused for want of room\n",
       status.answered_requests, per_second(status.answered_requests, status.uptime_s),
-      status.cache_hits, status.repeated_requests, status.overloaded_requests);
+      status.repeated_requests, status.cache_hits, status.overloaded_requests);
   fmt::print("plans        {}\n", answers_text(status.plan_answers));
   fmt::print("occupancy    {}\n", answers_text(status.occupancy_answers));
   fmt::print("changes      {}\n", answers_text(status.scene_answers));
@@ -222,12 +223,12 @@ void print_text(const DaemonStatus& status) {
              status.broken_paths);
   fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);
   for (const SceneInfo& scene : status.scenes) {
-    fmt::print("  {}: revision {}, {} triangles, {}, digest {}\n", scene.name, scene.revision,
+    fmt::print("  {}: revision {}, {} triangles, {}{}, digest {}\n", scene.name, scene.revision,
                scene.num_triangles,
                scene.occupancy_resolution_m > 0.0
                    ? fmt::format("occupancy at {:g} m", scene.occupancy_resolution_m)
                    : std::string("no occupancy map"),
-               scene.digest);
+               bounds_note(scene), scene.digest);
   }
 }
 
@@ -263,11 +264,27 @@ void print(const StatusFlags& flags, const DaemonStatus& status,
   std::fflush(stdout);
 }
 
+/// Time for a daemon to say whether it is there at all.
+constexpr double kProbe_s = 0.3;
+
+/// Says that no heartbeat came within the time of the flags, and whether a daemon is there.
+ExitCode report_no_heartbeat(const StatusFlags& flags, Client& client, const DaemonStatus& silent) {
+  if (silent.status != Status::kNoDaemon || !client.list_scenes().ok()) {
+    return report_failure(silent.status, silent.error, flags.key_file);
+  }
+  print_error(
+      fmt::format("a daemon is there, but no heartbeat of it came within {:g} s; its "
+                  "status.period_s may be longer, so wait longer with --timeout-s",
+                  flags.timeout_s));
+  return ExitCode::kNoDaemon;
+}
+
 ExitCode run_status(StatusFlags flags) {
   if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
   }
+  flags.client.deadline_s = kProbe_s;
   Client client(flags.client);
   if (!client.good()) {
     print_error(client.error());
@@ -278,7 +295,7 @@ ExitCode run_status(StatusFlags flags) {
   for (std::int64_t heard = 0;;) {
     DaemonStatus status = client.status(flags.timeout_s);
     if (!status.ok()) {
-      const ExitCode code = report_failure(status.status, status.error, flags.key_file);
+      const ExitCode code = report_no_heartbeat(flags, client, status);
       if (!flags.watch || flags.count > 0) return code;
       continue;
     }
@@ -298,7 +315,10 @@ void add_status_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--prefix", flags->client.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
   add_key_file(*command, flags->key_file);
-  command->add_option("--timeout-s", flags->timeout_s, "How long to wait for a heartbeat, seconds")
+  command
+      ->add_option(
+          "--timeout-s", flags->timeout_s,
+          "How long to wait for a heartbeat, seconds; longer than the daemon's status.period_s")
       ->check(cli_support::between(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", flags->json,

@@ -68,6 +68,13 @@ const char* name_of(WatchEvent::Kind kind) {
   return "unknown";
 }
 
+/// Returns how far a path is from the one that was asked for.
+std::string deviation_text(const PathMeasures& measures) {
+  constexpr double kLeastTold_m = 1e-6;  // below, the two differ by rounding
+  if (measures.largest_deviation_m < kLeastTold_m) return "as it was asked for";
+  return fmt::format("at most {:.4g} m from the one asked for", measures.largest_deviation_m);
+}
+
 std::string text_of(const WatchEvent& event) {
   switch (event.kind) {
     case WatchEvent::Kind::kAnswer: {
@@ -77,11 +84,12 @@ std::string text_of(const WatchEvent& event) {
                          event.answer->message);
     }
     case WatchEvent::Kind::kBroken: {
-      std::string text = event.scene_revision == 0
-                             ? std::string("the scene is gone")
-                             : fmt::format("revision {}: collides", event.scene_revision);
+      if (event.scene_revision == 0) return "the scene is gone";
+      std::string text = fmt::format("revision {}: collides", event.scene_revision);
+      std::string_view separator = " at ";
       for (const CollisionInterval& interval : event.broken) {
-        text += fmt::format(" {:.6g}-{:.6g} s", interval.t_begin_s, interval.t_end_s);
+        text += fmt::format("{}{:.6g}-{:.6g} s", std::exchange(separator, ", "), interval.t_begin_s,
+                            interval.t_end_s);
       }
       return text;
     }
@@ -92,11 +100,9 @@ std::string text_of(const WatchEvent& event) {
       return fmt::format("revision {}: watched again, what was said last holds",
                          event.scene_revision);
     case WatchEvent::Kind::kBetter:
-      return fmt::format(
-          "revision {}: a better path is on offer, {:.4g} m long and at most {:.4g} m from the one "
-          "asked for",
-          event.scene_revision, event.answer->measures->length_m,
-          event.answer->measures->largest_deviation_m);
+      return fmt::format("revision {}: a better path is on offer, {:.4g} m long and {}",
+                         event.scene_revision, event.answer->measures->length_m,
+                         deviation_text(*event.answer->measures));
     case WatchEvent::Kind::kWithdrawn:
       return fmt::format(
           "revision {}: a change broke the better path, which is not on offer any more",
@@ -208,8 +214,21 @@ class Printer {
 /// The end of the watch.
 struct Followed {
   ExitCode code;
-  bool is_daemon_there = true;
+  double farewell_s = 1.0;  ///< how long the daemon may take to say that it heard of the end
 };
+
+/// Time for that where no daemon may be there.
+constexpr double kShortFarewell_s = 0.3;
+
+/// Says that the watch ended before a path was answered, and what the last event said of that.
+ExitCode report_no_answer(const WatchFlags& flags, const std::optional<WatchEvent>& unheard) {
+  const std::string end =
+      flags.for_s > 0.0 ? fmt::format("within {:g} s", flags.for_s) : std::string("before the end");
+  print_error("no answer came " + end + ": " +
+              (unheard ? unheard->error
+                       : std::string("the path is still being planned, or no daemon is there")));
+  return ExitCode::kNoDaemon;
+}
 
 /// Prints events until a flag or a signal ends it, or no daemon is heard at all.
 Followed follow(const WatchFlags& flags, const Interruption& interruption, Events& events) {
@@ -229,7 +248,7 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
     const Clock::time_point now = Clock::now();
     if (interruption.came() || now >= until) break;
     if (unheard && now >= wait_until) {
-      return {report_failure(unheard->status, unheard->error, flags.key_file), false};
+      return {report_failure(unheard->status, unheard->error, flags.key_file), 0.0};
     }
     const std::optional<WatchEvent> event = events.take(std::min(until, now + kLook));
     if (event && event->kind == WatchEvent::Kind::kEnded) {
@@ -247,7 +266,7 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
     is_answered = is_answered || event->kind == WatchEvent::Kind::kAnswer;
   }
   printer.flush();
-  if (!is_answered) return {ExitCode::kNoDaemon};
+  if (!is_answered) return {report_no_answer(flags, unheard), kShortFarewell_s};
   return {is_watched ? ExitCode::kSuccess : ExitCode::kNegative};
 }
 
@@ -288,11 +307,10 @@ ExitCode run_watch(WatchFlags flags) {
     }
   };
   const std::int64_t id = client.watch(to_client_request(*request, flags.scene), take);
-  const auto [code, is_daemon_there] = follow(flags, interruption, events);
-  if (!is_daemon_there) return code;
+  const auto [code, farewell_s] = follow(flags, interruption, events);
+  if (farewell_s == 0.0) return code;
   // Otherwise the daemon would watch and plan again until the lease is over.
-  constexpr double kFarewell_s = 3.0;
-  if (!client.unwatch(id, kFarewell_s) && code == ExitCode::kSuccess) {
+  if (!client.unwatch(id, farewell_s) && code == ExitCode::kSuccess) {
     print_error("the daemon did not say that it heard of the end; it watches on until --lease-s");
   }
   return code;

@@ -183,6 +183,9 @@ base::Result<json> parse_document(std::string_view text, std::string_view source
   if (text.size() > kMaxDocumentBytes) {
     return base::Failure{prefix + "larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
   }
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    return base::Failure{prefix + "is empty"};
+  }
   json root;
   const char* read_to = text.data();
   DocumentBuilder builder(root, text.data(), read_to, most_values);

@@ -31,6 +31,9 @@ constexpr bool is_angle(std::string_view file_name) {
   return rest.empty() || rest.starts_with("_per_");
 }
 
+/// The unit of angles in a message: degrees for files, radians for the wire.
+enum class AngleUnit { kDegrees, kRadians };
+
 /// Describes a member of a request. `visit_options` and the functions like it are tables of these
 /// descriptions. The code that reads, writes, checks or documents requests follows the tables.
 struct FieldSpec {
@@ -49,11 +52,15 @@ struct FieldSpec {
   [[nodiscard]] constexpr std::string_view wire_name() const { return wire.empty() ? name : wire; }
   [[nodiscard]] constexpr std::string_view file_name() const { return file.empty() ? name : file; }
   [[nodiscard]] constexpr bool is_angle() const { return planning::is_angle(file_name()); }
-  /// Returns whether messages about a value are in degrees: if it is an angle with a largest one.
-  [[nodiscard]] bool is_told_in_degrees() const;
   /// Returns the range in words: "at least 0 and below 1", "from 1e-06 to 1e+06", "between 0 and
   /// 180 degrees".
-  [[nodiscard]] std::string range_text() const;
+  [[nodiscard]] std::string range_text(AngleUnit angles = AngleUnit::kDegrees) const;
+  /// Returns a value in words: "-1", "200 degrees". An angle is in radians.
+  [[nodiscard]] std::string value_text(double value, AngleUnit angles) const;
+
+ private:
+  /// Whether it is an angle itself. Rates have their unit in their name, and no largest value.
+  [[nodiscard]] bool is_plain_angle() const;
 };
 
 }  // namespace camway::planning

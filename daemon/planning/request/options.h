@@ -114,7 +114,9 @@ inline constexpr FieldSpec kIntervalTolerance{
 inline constexpr FieldSpec kMaxInsertedKeyframes{
     .name = "max_inserted_keyframes",
     .range = {.least = 0.0},
-    .help = "most keyframes that corrections may insert; 0 corrects nothing and shrinks nothing"};
+    .help =
+        "most keyframes that corrections may insert; 0 corrects and shrinks nothing, and "
+        "repairs keyframes all the same"};
 inline constexpr FieldSpec kObjective{
     .name = "objective", .help = "what corrected stretches are improved for", .has_section = true};
 inline constexpr FieldSpec kOrientation{.name = "orientation",
@@ -238,9 +240,15 @@ void visit_limits(const Visit& visit, Limits&... limits) {
 /// Visits the members of a camera.
 template <class Visit, class... Camera>
 void visit_camera(const Visit& visit, Camera&... camera) {
-  visit(FieldSpec{.name = "fov_x", .wire = "fov_x_rad", .file = "fov_x_deg"}, camera.fov_x_rad...);
-  visit(FieldSpec{.name = "fov_y", .wire = "fov_y_rad", .file = "fov_y_deg"}, camera.fov_y_rad...);
-  visit(FieldSpec{.name = "near", .wire = "near_m"}, camera.near_m...);
+  constexpr Range kAngle{
+      .least = 0.0, .most = std::numbers::pi, .excludes_least = true, .excludes_most = true};
+  constexpr Range kDistance{.least = 0.0, .most = kMaxCoordinate_m, .excludes_least = true};
+  visit(FieldSpec{.name = "fov_x", .wire = "fov_x_rad", .file = "fov_x_deg", .range = kAngle},
+        camera.fov_x_rad...);
+  visit(FieldSpec{.name = "fov_y", .wire = "fov_y_rad", .file = "fov_y_deg", .range = kAngle},
+        camera.fov_y_rad...);
+  visit(FieldSpec{.name = "near", .wire = "near_m", .unit = "m", .range = kDistance},
+        camera.near_m...);
 }
 
 /// Visits those members of a frame whose names differ, without their values.

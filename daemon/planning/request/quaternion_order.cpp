@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace camway::planning {
 
@@ -23,18 +23,19 @@ std::optional<double> roll_rad(const Quat& orientation, const Vec3& up_W) {
   return std::abs(std::atan2(across, upward));
 }
 
-/// The quaternion of the same four numbers if they are x, y, z, w.
-Quat in_other_order(const Quat& q) {
-  const geometry::Vec4 wxyz = geometry::wxyz(q);
-  return geometry::from_wxyz({wxyz[3], wxyz[0], wxyz[1], wxyz[2]});
+/// The quaternion of the same four numbers, read in the other order.
+Quat in_other_order(const Quat& q, QuaternionOrder as_read) {
+  if (as_read == QuaternionOrder::kXyzw) return {q.x(), q.y(), q.z(), q.w()};
+  return {q.z(), q.w(), q.x(), q.y()};
 }
 
-bool looks_like_xyzw(std::span<const motion::Keyframe> keyframes, const Vec3& up_W) {
+bool looks_like_other_order(std::span<const motion::Keyframe> keyframes, QuaternionOrder as_read,
+                            const Vec3& up_W) {
   bool any = false;
   for (const motion::Keyframe& keyframe : keyframes) {
     const Quat q = keyframe.pose.orientation.normalized();
     const std::optional<double> as_read_rad = roll_rad(q, up_W);
-    const std::optional<double> other_rad = roll_rad(in_other_order(q), up_W);
+    const std::optional<double> other_rad = roll_rad(in_other_order(q, as_read), up_W);
     if (!as_read_rad || !other_rad) continue;
     if (!(*as_read_rad > kRolled_rad && *other_rad <= kUpright_rad)) return false;
     any = true;
@@ -44,20 +45,21 @@ bool looks_like_xyzw(std::span<const motion::Keyframe> keyframes, const Vec3& up
 
 }  // namespace
 
-bool looks_like_xyzw(std::span<const motion::Keyframe> keyframes) {
-  const std::array<Vec3, 2> ups_W{Vec3::UnitY(), Vec3::UnitZ()};
-  for (const Vec3& up_W : ups_W) {
-    if (looks_like_xyzw(keyframes, up_W)) return true;
-  }
-  return false;
+bool looks_like_other_order(std::span<const motion::Keyframe> keyframes, QuaternionOrder as_read) {
+  return looks_like_other_order(keyframes, as_read, Vec3::UnitY()) ||
+         looks_like_other_order(keyframes, as_read, Vec3::UnitZ());
 }
 
-std::optional<std::string> quaternion_order_warning(const PlanRequest& request) {
-  if (!looks_like_xyzw(request.keyframes)) return std::nullopt;
+std::optional<std::string> quaternion_order_warning(const PlanRequest& request,
+                                                    QuaternionOrder as_read) {
+  if (!looks_like_other_order(request.keyframes, as_read)) return std::nullopt;
+  constexpr std::string_view kWxyz = "w, x, y, z";
+  constexpr std::string_view kXyzw = "x, y, z, w";
+  const bool is_wxyz = as_read == QuaternionOrder::kWxyz;
   return fmt::format(
       "{}: all cameras look rolled by more than 60 degrees, and would be upright if the "
-      "quaternions were in the order x, y, z, w; they are read as w, x, y, z",
-      request.name_of("keyframes[].orientation"));
+      "quaternions were in the order {}; they are read as {}",
+      request.name_of("keyframes[].orientation"), is_wxyz ? kXyzw : kWxyz, is_wxyz ? kWxyz : kXyzw);
 }
 
 }  // namespace camway::planning

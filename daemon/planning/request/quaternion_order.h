@@ -18,16 +18,21 @@ inline constexpr double kUpright_rad = 0.2617993877991494;
 /// [Units: radians]
 inline constexpr double kLooksAlong_rad = 0.17453292519943295;
 
-/// Returns whether the quaternions seem to be written x, y, z, w and read as w, x, y, z. They do
-/// if, with y or with z as the world's up axis, every camera is rolled by more than `kRolled_rad`
-/// as read and by at most `kUpright_rad` in the other order. Roll is the angle about the viewing
-/// direction between the camera's up axis and the plane of the viewing direction and the world's up
-/// axis. Cameras that look along the up axis in either order are left out; returns false if no
-/// camera is left.
-bool looks_like_xyzw(std::span<const motion::Keyframe> keyframes);
+/// Order of the four numbers of a quaternion in a message or file.
+enum class QuaternionOrder { kWxyz, kXyzw };
+
+/// Returns whether the quaternions, read in the order `as_read`, seem to be written in the other
+/// one. They do if, with y or with z as the world's up axis, every camera is rolled by more than
+/// `kRolled_rad` as read and by at most `kUpright_rad` in the other order. Roll is the angle about
+/// the viewing direction between the camera's up axis and the plane of the viewing direction and
+/// the world's up axis. Cameras that look along the up axis in either order are left out; returns
+/// false if no camera is left. With z up, half of the headings look upright in both orders.
+bool looks_like_other_order(std::span<const motion::Keyframe> keyframes,
+                            QuaternionOrder as_read = QuaternionOrder::kWxyz);
 
 /// Returns a sentence for the sender of such a request, which names the field; nothing if
-/// `looks_like_xyzw` is false.
-std::optional<std::string> quaternion_order_warning(const PlanRequest& request);
+/// `looks_like_other_order` is false.
+std::optional<std::string> quaternion_order_warning(
+    const PlanRequest& request, QuaternionOrder as_read = QuaternionOrder::kWxyz);
 
 }  // namespace camway::planning

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/request/request.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -58,6 +60,8 @@ std::string spell(std::string_view path, Spelling spelling) {
   if (group == "options") visit_options(visit);
   if (group == "options.orientation") visit_orientation(visit);
   if (group == "options.limits") visit_limits(visit);
+  if (group == "options.bounds" && spelling == Spelling::kWire)
+    return fmt::format("{}.{}_m{}", group, name, indices);
   if (group == "camera") visit_camera(visit);
   if (group == "body") visit_body(visit);
   if (group == "frame") visit_frame(visit);

@@ -24,15 +24,6 @@ void to_sent_times(const TimeOrigin& origin, CollisionInterval& interval) {
   if (interval.witness) interval.witness->time_s = origin.sent_s(interval.witness->time_s);
 }
 
-motion::Path to_sent_times(const TimeOrigin& origin, const motion::Path& path) {
-  std::vector<Segment> segments(path.segments().begin(), path.segments().end());
-  for (Segment& segment : segments) {
-    segment.t0_s = origin.sent_s(segment.t0_s);
-    segment.t1_s = origin.sent_s(segment.t1_s);
-  }
-  return motion::Path(std::move(segments));
-}
-
 }  // namespace
 
 PreparedKeyframes prepared_keyframes(const PlanRequest& request) {
@@ -56,6 +47,15 @@ PreparedKeyframes prepared_keyframes(const PlanRequest& request) {
       poses, request.options.default_speed_m_per_s.value_or(motion::kNominalSpeed_m_per_s));
   for (std::size_t i = 0; i < times_s.size(); ++i) prepared.keyframes[i].time_s = times_s[i];
   return prepared;
+}
+
+motion::Path to_sent_times(const TimeOrigin& origin, const motion::Path& path) {
+  std::vector<Segment> segments(path.segments().begin(), path.segments().end());
+  for (Segment& segment : segments) {
+    segment.t0_s = origin.sent_s(segment.t0_s);
+    segment.t1_s = origin.sent_s(segment.t1_s);
+  }
+  return motion::Path(std::move(segments));
 }
 
 void to_sent_times(const TimeOrigin& origin, PlanResult& result) {

@@ -20,6 +20,9 @@ struct PreparedKeyframes {
 /// Requires a valid request.
 PreparedKeyframes prepared_keyframes(const PlanRequest& request);
 
+/// Returns the path at the sender's times.
+motion::Path to_sent_times(const motion::TimeOrigin& origin, const motion::Path& path);
+
 /// Converts each time of `result` to the sender's. The times of given keyframes become the sender's
 /// bit for bit, in `keyframes` and at the ends of segments; segments keep their durations. Ends of
 /// collision intervals are rounded outwards, so that all time outside of them stays proved free.

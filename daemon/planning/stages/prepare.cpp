@@ -31,7 +31,7 @@ void refuse(std::string message, std::optional<std::size_t> keyframe, PlanResult
 // Ends with a timeout and without a path.
 void give_up(std::string_view before, const PlanRequest& request, PlanResult& result) {
   result.status = Status::kTimeout;
-  result.message = fmt::format("{} before {}: there is no path", deadline_reached(request), before);
+  result.message = fmt::format("{} before {}; no path was made", deadline_reached(request), before);
   result.keyframes.clear();
   result.keyframe_faults.clear();
 }
@@ -79,6 +79,13 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
 
 }  // namespace
 
+motion::CubicPath interpolated_path(const PlanRequest& request,
+                                    const std::vector<motion::Keyframe>& keyframes,
+                                    const motion::TimeOrigin& origin) {
+  return request.frame ? motion::interpolate_cubic(keyframes, *request.frame)
+                       : motion::interpolate_cubic(keyframes, origin);
+}
+
 std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
                                     const collision::Obstacles& obstacles,
                                     const PlanRequest& request, const base::Deadline& deadline,
@@ -96,9 +103,7 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
     give_up("the path was interpolated", request, result);
     return std::nullopt;
   }
-  motion::CubicPath interpolated =
-      request.frame ? motion::interpolate_cubic(result.keyframes, *request.frame)
-                    : motion::interpolate_cubic(result.keyframes, prepared.origin);
+  motion::CubicPath interpolated = interpolated_path(request, result.keyframes, prepared.origin);
   result.path = interpolated.path();
   if (request.frame) {
     result.keyframes = motion::keyframes_of(interpolated, result.keyframes);

@@ -24,6 +24,11 @@ struct PreparedPlan {
   std::optional<motion::PathFrame> frame;   ///< frame of the request
 };
 
+/// Returns the path of a valid request through these keyframes, which are its own but for repairs.
+motion::CubicPath interpolated_path(const PlanRequest& request,
+                                    const std::vector<motion::Keyframe>& keyframes,
+                                    const motion::TimeOrigin& origin);
+
 /// Checks a request, repairs its keyframes where it asks for that, and interpolates them. Adds the
 /// bounds, keyframes, keyframe faults and path to `result`.
 ///

@@ -191,7 +191,9 @@ std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
 }
 
 std::string deadline_reached(const PlanRequest& request) {
-  return fmt::format("the deadline of {} s was reached", request.options.deadline_s);
+  // The other half is for smaller cameras (`plan_with_shrinking`).
+  return fmt::format("{}the deadline of {} s was reached", may_shrink(request) ? "half of " : "",
+                     request.options.deadline_s);
 }
 
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,

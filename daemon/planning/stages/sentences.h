@@ -80,7 +80,8 @@ std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
                                    const PlanRequest& request);
 
-/// "the deadline of 0.05 s was reached", for what was cut short by it.
+/// "the deadline of 0.05 s was reached", for what was cut short by it; "half of the deadline" where
+/// the other half is for smaller cameras.
 std::string deadline_reached(const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for

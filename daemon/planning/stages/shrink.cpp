@@ -13,6 +13,7 @@
 
 #include "daemon/planning/stages/keyframe_times.h"
 #include "daemon/planning/stages/limits.h"
+#include "daemon/planning/stages/sentences.h"
 
 namespace camway::planning {
 
@@ -76,7 +77,7 @@ class Shrinking {
       return;
     }
     // A keyframe without a way out at the smallest size has none at any size.
-    if (is_shut_in_) return;
+    if (!shut_in_.empty()) return;
     for (std::size_t i = 0; i < least; ++i) {
       if (is_free(i, 1.0 / static_cast<double>(least - i))) return;
     }
@@ -94,7 +95,7 @@ class Shrinking {
     UnsentResult found = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
     if (found.result.status == Status::kTimeout) cut_off_ = true;
-    is_shut_in_ = !found.result.shut_in.empty();
+    shut_in_ = std::move(found.result.shut_in);
     if (found.result.status != Status::kOk) return false;
     found.result.near_scale = scales_[index];
     best_ = std::move(found);
@@ -127,6 +128,16 @@ class Shrinking {
     full.message += tried_.empty()
                         ? "; the deadline left no time to make the near distance smaller"
                         : "; nor was there a free path with the near distance times " + list;
+    // A keyframe without a way out at the smallest size has none at the full one, however long the
+    // search is.
+    if (!shut_in_.empty()) {
+      full.status = Status::kPartial;
+      if (!full.shut_in.empty()) return;
+      full.message += note_of_shut_in(shut_in_, full.bounds.any());
+      full.keyframe = shut_in_.front().keyframe;
+      full.shut_in = std::move(shut_in_);
+      return;
+    }
     if (cut_off_ && !tried_.empty()) full.message += ", as far as the deadline allowed to search";
     if (cut_off_) full.status = Status::kTimeout;
   }
@@ -138,7 +149,7 @@ class Shrinking {
   std::vector<double> tried_;
   std::optional<UnsentResult> best_;
   bool cut_off_ = false;
-  bool is_shut_in_ = false;  ///< a keyframe, for the camera that was tried last
+  std::vector<correction::ShutIn> shut_in_;  ///< keyframes, for the camera that was tried last
 };
 
 }  // namespace

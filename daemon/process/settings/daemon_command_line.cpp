@@ -144,7 +144,7 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
                                         DaemonOptions& options) {
   CLI::App app("camwayd: plans camera paths that are free of collision, over LCM", "camwayd");
   declare(app, raw, options);
-  cli_support::refuse_flags_as_values(app);
+  cli_support::refuse_missing_values(app);
   try {
     app.parse(argc, argv);
     return std::nullopt;

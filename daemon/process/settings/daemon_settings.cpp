@@ -35,7 +35,8 @@ template <class Choice>
 std::string choose(Choice& place, std::string_view word) {
   const auto words = words_for(place);
   const auto found = std::ranges::find(words, word);
-  if (found == words.end()) return fmt::format("must be one of {}", fmt::join(words, ", "));
+  if (found == words.end())
+    return fmt::format("must be one of {}, not '{}'", fmt::join(words, ", "), word);
   place = static_cast<Choice>(found - words.begin());
   return {};
 }
@@ -84,7 +85,7 @@ std::string Setting::set(std::string_view value) const {
 
 std::string Setting::set(double value) const {
   if (!(value >= least && value <= most)) {
-    return fmt::format("must be within {} to {}", least, most);
+    return fmt::format("must be within {} to {}, not {}", least, most, value);
   }
   std::visit(
       [value](auto* place) {
@@ -105,7 +106,7 @@ std::string Setting::set_word(std::string_view word) const {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   const bool is_number = error == std::errc{} && end == word.data() + word.size();
   if (is_number && !(is_whole_number() && number != std::trunc(number))) return set(number);
-  return is_whole_number() ? "must be a whole number" : "must be a number";
+  return fmt::format("must be a {}number, not '{}'", is_whole_number() ? "whole " : "", word);
 }
 
 void Setting::turn(bool on) const { *std::get<bool*>(target) = on; }

@@ -32,10 +32,7 @@ void append_warnings(const scene::ImportReport& report, const planning::PlanRequ
   for (const std::string& warning : scene::import_warnings(report, resolution_m)) append(warning);
 }
 
-/// Null if the result has no proved path.
-std::shared_ptr<const planning::WatchedPath> watchable_path(const planning::PlanRequest& request,
-                                                            const planning::PlanResult& result) {
-  std::optional<planning::WatchedPath> path = planning::WatchedPath::of(request, result);
+std::shared_ptr<const planning::WatchedPath> shared(std::optional<planning::WatchedPath> path) {
   return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
 }
 
@@ -60,22 +57,24 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
     const base::Result<planning::PlanRequest> converted = messages::from_wire(wire, limits);
     if (!converted) {
       return {messages::plain_answer(plan_response_t::STATUS_INVALID, converted.error,
-                                     header_of(wire, &snapshot)),
-              nullptr};
+                                     header_of(wire, &snapshot))};
     }
     planning::PlanResult result = planner(snapshot, *converted, deadline);
     planning::name_witnesses(snapshot.mesh, *converted, result);
     append_warnings(snapshot.report, *converted, result);
-    return {messages::to_wire(result, header_of(wire, &snapshot)),
-            wire.watch_lease_s > 0.0 ? watchable_path(*converted, result) : nullptr};
+    Answered answered{messages::to_wire(result, header_of(wire, &snapshot))};
+    if (wire.watch_lease_s > 0.0) {
+      answered.path = shared(planning::WatchedPath::of(*converted, result));
+      answered.interpolated = shared(planning::WatchedPath::as_interpolated(*converted, result));
+    }
+    return answered;
   } catch (const std::exception& exception) {
     error = exception.what();
   } catch (...) {
     error = "unknown exception";
   }
   return {messages::plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
-                                 header_of(wire, &snapshot)),
-          nullptr};
+                                 header_of(wire, &snapshot))};
 }
 
 Pages encode_answer(plan_response_t& answer, int most_pages) {

@@ -20,11 +20,13 @@ namespace camway::service {
 /// Returns the header of an answer; with a null `snapshot`, of one that concerns no scene.
 messages::AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
-/// An answer, and its path for watching. The path is null unless the request asks for a watch and
+/// An answer, and its paths for watching. A path is null unless the request asks for a watch and
 /// the answer has a proved path.
 struct Answered {
   plan_response_t wire;
-  std::shared_ptr<const planning::WatchedPath> path;
+  std::shared_ptr<const planning::WatchedPath> path = nullptr;
+  /// The path as interpolated; null also where that is `path`.
+  std::shared_ptr<const planning::WatchedPath> interpolated = nullptr;
 };
 
 /// Returns the answer of `planner`. Does not throw: an exception of the planner is an internal

@@ -33,6 +33,22 @@ std::string fault_of_handling(const plan_request_t& request) {
   return {};
 }
 
+/// Returns an answer with what watching needs to know. `snapshot` is the one it was planned in.
+WatchableAnswer watchable(const RequestKey& key, std::shared_ptr<const plan_request_t> request,
+                          const Answered& answered,
+                          std::shared_ptr<const scene::Snapshot> snapshot) {
+  WatchableAnswer watchable{key,
+                            std::move(request),
+                            answered.path,
+                            std::move(snapshot),
+                            AnswerQuality::of(answered.wire),
+                            answered.interpolated};
+  for (const collision_interval_t& collision : answered.wire.collisions) {
+    watchable.colliding_s += collision.t_end_s - collision.t_begin_s;
+  }
+  return watchable;
+}
+
 /// Requires that `fault_of_handling` finds nothing.
 Priority priority_of(const plan_request_t& request) {
   switch (request.priority) {
@@ -292,8 +308,8 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
 }
 
 void PlanService::watch(const Pending& pending, const Answered& answered) {
-  const WatchableAnswer watched{pending.key, pending.request, answered.path, pending.snapshot,
-                                AnswerQuality::of(answered.wire)};
+  const WatchableAnswer watched =
+      watchable(pending.key, pending.request, answered, pending.snapshot);
   if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
@@ -342,8 +358,8 @@ void PlanService::run_again(const Replan& replan) {
 void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   const Clock::time_point now = Clock::now();
   const plan_response_t& answer = done.answered.wire;
-  const WatchableAnswer watched{replan.key, replan.request, done.answered.path, done.snapshot,
-                                AnswerQuality::of(answer)};
+  const WatchableAnswer watched =
+      watchable(replan.key, replan.request, done.answered, done.snapshot);
   if (replan.for_offer) {
     if (watched.path) {
       watches_.offer(watched, done.pages, now);

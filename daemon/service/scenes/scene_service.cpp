@@ -58,6 +58,13 @@ FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
   return limits;
 }
 
+scene_response_t late_answer(const scene_request_t& request) {
+  return plain_scene_answer(request, scene_response_t::STATUS_TIMEOUT,
+                            "the deadline passed before the change was committed, and nothing was "
+                            "changed; allow more time with deadline_s (up to "
+                            "scenes.max_deadline_s)");
+}
+
 }  // namespace
 
 SceneService::SceneService(Core& core, scene::SceneStore& scenes, const SceneConfig& config)
@@ -132,8 +139,11 @@ void SceneService::begin(const Request& request) {
   work.client = request->client_id;
   work.id = request->request_id;
   work.strand = target_of(*request);
-  work.run = [this, request, upload, ticket = pending.ticket] {
-    auto done = std::make_shared<SceneReply>(reply_to(*request, upload, context(ticket)));
+  work.run = [this, request, upload, ticket = pending.ticket, deadline = pending.deadline] {
+    // A small change would be committed before the loop looks at deadlines.
+    const bool is_late = Clock::now() >= deadline;
+    auto done = std::make_shared<SceneReply>(is_late ? SceneReply{late_answer(*request), {}}
+                                                     : reply_to(*request, upload, context(ticket)));
     Pages map;
     if (!done->map.empty()) map = map_pages(key_of(*request), done->map);
     core_.mailbox.post([this, request, done, map] { take_done(request, std::move(*done), map); });
@@ -189,12 +199,7 @@ void SceneService::tick(Clock::time_point now) {
     const Pending pending = unanswered_.at(deadlines_.begin()->second);
     deadlines_.erase(deadlines_.begin());
     if (!cancel_pending(pending)) continue;  // committed, and its answer is on the way
-    finish(
-        *pending.request,
-        plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
-                           "the deadline passed before the change was committed, and nothing was "
-                           "changed; allow more time with deadline_s (up to "
-                           "scenes.max_deadline_s)"));
+    finish(*pending.request, late_answer(*pending.request));
   }
 }
 

@@ -132,10 +132,10 @@ void WatchChecker::begin(Id id, const std::string& name,
   Scene& scene = position->second;
   if (is_first) scene.seen = scenes_.find(name);
   Watched watched{path, {}};
-  if (scene.seen != proved_in) {
-    const bool holds =
-        scene.seen && path->stays_free(scene::difference(*proved_in, *scene.seen),
-                                       Deadline::after_s(kCheckBudget_s).watched(stop_, nullptr));
+  if (!proved_in || scene.seen != proved_in) {
+    const bool holds = proved_in && scene.seen &&
+                       path->stays_free(scene::difference(*proved_in, *scene.seen),
+                                        Deadline::after_s(kCheckBudget_s).watched(stop_, nullptr));
     if (!holds) watched.collisions = check(*path, scene.seen);
   }
   Teller teller(tell_, name, scene.seen ? scene.seen->revision : 0);

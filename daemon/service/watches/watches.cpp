@@ -24,7 +24,7 @@ constexpr milliseconds kPlanAgainIn{500};
 constexpr milliseconds kSettle{100};
 constexpr milliseconds kLongestImprovePause{30'000};
 /// Number of former paths that are kept for each watched path.
-constexpr std::size_t kFormers = 2;
+constexpr std::size_t kFormers = 3;
 
 std::chrono::steady_clock::duration lease_of(double lease_s, milliseconds most) {
   const std::chrono::duration<double> asked(lease_s);
@@ -92,6 +92,7 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
     keep_former(position->second, bytes);
   }
   set_answer(position->second, answer, bytes);
+  if (is_new) keep_interpolated(position->second);
   make_news(position->second, now);
   core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
   return true;
@@ -351,6 +352,20 @@ void Watches::make_room(Watch& watch, std::size_t bytes) {
   withdraw_offer(watch);
   if (bytes_ + bytes <= limits_.bytes) return;
   while (!watch.formers.empty()) forget_former(watch, 0);
+}
+
+/// Has the path as interpolated checked, too, if it collides. A better one may be found when it
+/// collides less.
+void Watches::keep_interpolated(Watch& watch) {
+  const WatchableAnswer& answer = watch.answer;
+  if (!answer.interpolated) return;
+  const std::size_t bytes = answer.interpolated->memory_bytes();
+  if (bytes_ + bytes > limits_.bytes) return;
+  const WatchChecker::Id id = next_id_++;
+  keys_.emplace(id, answer.key);
+  watch.formers.push_back({id, bytes, answer.colliding_s});
+  bytes_ += bytes;
+  checker_.watch(id, answer.request->scene, answer.interpolated, nullptr);
 }
 
 /// Keeps the present path of `watch` in the checker, although one of `next_bytes` replaces it, if

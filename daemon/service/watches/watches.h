@@ -31,6 +31,9 @@ struct WatchableAnswer {
   std::shared_ptr<const planning::WatchedPath> path;
   std::shared_ptr<const scene::Snapshot> proved_in;
   AnswerQuality quality;
+  /// The path as interpolated, which collides in `proved_in` for `colliding_s`; null if it is free.
+  std::shared_ptr<const planning::WatchedPath> interpolated;
+  double colliding_s = 0.0;
 };
 
 /// The watched paths of all clients: their leases, their states, and which state each client knows.
@@ -39,9 +42,10 @@ struct WatchableAnswer {
 /// lost messages, and restarts of the client or the daemon.
 ///
 /// When a path was replaced because it collided, the replacement stays in use even after the
-/// obstacle is gone. To notice that, two former paths are watched too: the first one and the most
-/// recent one. When a former path collides for less time than before, the request is planned again.
-/// Only one request is planned so at a time, and each request at most once per pause, which grows
+/// obstacle is gone. To notice that, up to three former paths are watched too: the path as
+/// interpolated, if it collided from the beginning, the first one and the most recent one. When a
+/// former path collides for less time than before, the request is planned again. Only one request
+/// is planned so at a time, and each request at most once per pause, which grows
 /// (`kFirstImprovePause`). If the new answer is better (`is_better`), the client is offered it and
 /// decides whether to accept it. An offer that a change breaks is withdrawn.
 ///
@@ -109,7 +113,7 @@ class Watches {
   enum class Planning : std::uint8_t { kNot, kWaits, kRuns };
   /// Least pause between two searches for a better path of one request. It grows with each failure.
   static constexpr std::chrono::milliseconds kFirstImprovePause{1000};
-  /// A path that was watched before.
+  /// A path that was watched before, or that collided from the beginning.
   struct Former {
     WatchChecker::Id id = 0;
     std::size_t bytes = 0;
@@ -139,7 +143,7 @@ class Watches {
     Planning planning = Planning::kNot;
     bool is_outdated = false;     ///< something near the path has changed since planning began
     Clock::time_point due;        ///< its place in `due_`
-    std::vector<Former> formers;  ///< the first path, and the one before this
+    std::vector<Former> formers;  ///< as interpolated, the first path, and the one before this
     std::optional<Offer> offer;
     std::optional<Clock::time_point> improve_at;  ///< its place in `improvable_`
     Clock::time_point improve_not_before{};
@@ -158,6 +162,7 @@ class Watches {
   void refuse(const RequestKey& key, const std::string& limit);
   void set_answer(Watch& watch, const WatchableAnswer& answer, std::size_t bytes);
   void make_room(Watch& watch, std::size_t bytes);
+  void keep_interpolated(Watch& watch);
   void keep_former(Watch& watch, std::size_t next_bytes);
   void forget_former(Watch& watch, std::size_t which);
   void withdraw_offer(Watch& watch);

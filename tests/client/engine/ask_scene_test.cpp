@@ -99,6 +99,25 @@ TEST_F(AskSceneTest, AChangeThatIsInForceKeepsItsAnswer) {
   EXPECT_TRUE(called_off(client, asked).ok());
 }
 
+TEST_F(AskSceneTest, WaitsNotLongForADaemonThatSaysNothingOfACancel) {
+  std::atomic<std::int64_t> asked = 0;
+  FakeDaemon daemon;
+  daemon.heartbeat_every = std::chrono::milliseconds(20);
+  daemon.on_scene = [&](const scene_request_t& request) {
+    asked = request.request_id;
+    return std::vector<Bytes>{};
+  };
+  daemon.start();
+  ClientOptions options = quick();
+  options.deadline_s = 60.0;
+  Client client(options);
+  const auto begin = std::chrono::steady_clock::now();
+  const SceneAnswer answer = called_off(client, asked);
+  EXPECT_EQ(answer.status, Status::kNoAnswer);
+  EXPECT_THAT(answer.error, HasSubstr("does not say what became of it"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
 TEST_F(AskSceneTest, CallsOffAnUploadAndNothingThatIsAskedLater) {
   std::atomic<int> asked = 0;
   FakeDaemon daemon;  // it says nothing of uploads

@@ -136,5 +136,22 @@ TEST(Retry, AnotherQuestionIsSentAtOnceAndAsPatiently) {
   EXPECT_EQ(retry.wake(), now + seconds(1));
 }
 
+TEST(Retry, AQuestionWithLittleTimeIsRepeatedWithinIt) {
+  Retry retry(kRules, kStart + seconds(100), 1);
+  EXPECT_EQ(retry.next(kStart), Action::kSend);
+  const Clock::time_point now = kStart + milliseconds(500);
+  retry.restart_within(1.0, now);
+  EXPECT_EQ(retry.next(now), Action::kSend);
+  EXPECT_EQ(retry.next(now), Action::kWait);
+  EXPECT_EQ(retry.next(retry.wake()), Action::kSend) << "the first may be lost";
+  EXPECT_LT(retry.wake(), now + seconds(1));
+  retry.note_life();
+  EXPECT_EQ(retry.next(now + seconds(1)), Action::kDeadline) << "even where a daemon lives";
+  retry = Retry(kRules, now + milliseconds(100), 1);
+  retry.restart_within(1.0, now);
+  EXPECT_EQ(retry.next(now), Action::kSend);
+  EXPECT_EQ(retry.next(now + milliseconds(100)), Action::kDeadline) << "an earlier one counts";
+}
+
 }  // namespace
 }  // namespace camway

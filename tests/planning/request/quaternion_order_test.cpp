@@ -41,7 +41,8 @@ std::vector<motion::Keyframe> keyframes(const std::vector<Quat>& orientations) {
 }
 
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
-  EXPECT_TRUE(looks_like_xyzw(keyframes({misread(Quat::Identity()), misread(Quat::Identity())})));
+  EXPECT_TRUE(
+      looks_like_other_order(keyframes({misread(Quat::Identity()), misread(Quat::Identity())})));
   testing::Random random(kOrderSeed);
   std::uniform_real_distribution<double> heading_deg(-80, 80);
   std::uniform_real_distribution<double> small_deg(-10, 10);
@@ -53,8 +54,8 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
                              radians(small_deg(random)), radians(small_deg(random))));
       wrong.push_back(misread(right.back()));
     }
-    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "trial " << trial;
-    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "trial " << trial;
+    EXPECT_FALSE(looks_like_other_order(keyframes(right))) << "trial " << trial;
+    EXPECT_TRUE(looks_like_other_order(keyframes(wrong))) << "trial " << trial;
   }
 }
 
@@ -72,8 +73,8 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
                              radians(small_deg(random)), radians(small_deg(random))));
       wrong.push_back(misread(right.back()));
     }
-    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "trial " << trial;
-    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "trial " << trial;
+    EXPECT_FALSE(looks_like_other_order(keyframes(right))) << "trial " << trial;
+    EXPECT_TRUE(looks_like_other_order(keyframes(wrong))) << "trial " << trial;
   }
 }
 
@@ -88,20 +89,20 @@ TEST(QuaternionOrder, IsNotDoubtedWhereOneCameraIsUprightOrNoneIsInTheOtherOrder
       for (int i = 0; i < 3; ++i) {
         upright.push_back(camera(up_W, heading(random), pitch(random), 0.0));
       }
-      EXPECT_FALSE(looks_like_xyzw(keyframes(upright)))
+      EXPECT_FALSE(looks_like_other_order(keyframes(upright)))
           << "trial " << trial << ", up " << up_W.transpose();
     }
   }
   const Quat rolled = camera(Vec3::UnitY(), 0.4, 0.1, radians(90));
-  EXPECT_FALSE(looks_like_xyzw(keyframes({rolled, rolled})));
+  EXPECT_FALSE(looks_like_other_order(keyframes({rolled, rolled})));
   const Quat wrong = misread(Quat::Identity());
-  EXPECT_FALSE(looks_like_xyzw(keyframes({wrong, wrong, Quat::Identity()})));
+  EXPECT_FALSE(looks_like_other_order(keyframes({wrong, wrong, Quat::Identity()})));
 }
 
 TEST(QuaternionOrder, LengthAndSignDoNotMatter) {
   Quat wrong = misread(camera(Vec3::UnitY(), 0.5, 0.1, 0.0));
   wrong.coeffs() *= -7.0;
-  EXPECT_TRUE(looks_like_xyzw(keyframes({wrong, wrong})));
+  EXPECT_TRUE(looks_like_other_order(keyframes({wrong, wrong})));
 }
 
 TEST(QuaternionOrder, TheWarningNamesTheFieldAsTheSenderDoes) {
@@ -112,6 +113,17 @@ TEST(QuaternionOrder, TheWarningNamesTheFieldAsTheSenderDoes) {
               ::testing::StartsWith("<keyframes[].orientation>: "));
   request.keyframes[0].pose.orientation = Quat::Identity();
   EXPECT_FALSE(quaternion_order_warning(request));
+}
+
+TEST(QuaternionOrder, TellsWhatWasWrittenWxyzAndReadXyzw) {
+  const Quat right = camera(Vec3::UnitY(), radians(40), 0, 0);
+  const Quat wrong{right.z(), right.w(), right.x(), right.y()};  // its w was read as x
+  PlanRequest request;
+  request.keyframes = keyframes({wrong, wrong});
+  EXPECT_TRUE(looks_like_other_order(request.keyframes, QuaternionOrder::kXyzw));
+  EXPECT_FALSE(looks_like_other_order(keyframes({right, right}), QuaternionOrder::kXyzw));
+  EXPECT_THAT(*quaternion_order_warning(request, QuaternionOrder::kXyzw),
+              ::testing::HasSubstr("in the order w, x, y, z; they are read as x, y, z, w"));
 }
 
 }  // namespace

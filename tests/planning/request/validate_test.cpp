@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "daemon/planning/request/options.h"
 #include "daemon/planning/request/request.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -157,6 +158,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"options.limits.turn_rate",
        {},
        [](PlanRequest& r) { r.options.limits.turn_rate_rad_per_s = kNaN; }},
+      {"options.limits.retime", {}, [](PlanRequest& r) { r.options.limits.may_retime = true; }},
       {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = -0.1; }},
       {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = 1.0; }},
       {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = kNaN; }},
@@ -268,6 +270,70 @@ TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {
   for (motion::Keyframe& keyframe : request.keyframes) keyframe.time_s = kNaN;
   request.has_times = false;
   EXPECT_FALSE(validate(request));
+}
+
+/// Returns the message about a request with this fault, in the names of files or of the wire.
+std::string message_of(Spelling spelling, const std::function<void(PlanRequest&)>& make) {
+  PlanRequest request = good_request();
+  make(request);
+  request.spelling = [spelling](std::string_view path) { return spell(path, spelling); };
+  const std::optional<InvalidRequest> found = validate(request);
+  return found ? found->message : "";
+}
+
+TEST(Validate, SaysValuesInTheUnitsOfTheSender) {
+  struct Case {
+    std::function<void(PlanRequest&)> make;
+    const char* in_files;
+    const char* on_the_wire;
+  };
+  const double degree = std::numbers::pi / 180.0;
+  const Case cases[] = {
+      {[=](PlanRequest& r) { r.camera.fov_x_rad = 180 * degree; },
+       "camera.fov_x_deg: is 180 degrees; it must be above 0 and below 180 degrees",
+       "camera.fov_x_rad: is 3.141592653589793 rad; it must be above 0 and below 3.14159 rad"},
+      {[](PlanRequest& r) { r.camera.near_m = 2e9; },
+       "camera.near: is 2000000000 m; it must be above 0 and at most 1e+09",
+       "camera.near_m: is 2000000000 m; it must be above 0 and at most 1e+09"},
+      {[=](PlanRequest& r) { r.options.limits.turn_rate_rad_per_s = -degree; },
+       "options.limits.turn_rate_deg_per_s: is -1; it must be above 0",
+       "options.limits.turn_rate_rad_per_s: is -0.017453292519943295; it must be above 0"},
+      {[=](PlanRequest& r) { r.options.orientation.cone_rad = 200 * degree; },
+       "options.orientation.cone_deg: is 200 degrees; it must be above 0 and at most 180 degrees",
+       "options.orientation.cone_rad: is 3.490658503988659 rad; it must be above 0 and at most "
+       "3.14159 rad"},
+      {[](PlanRequest& r) { r.options.bounds.min_W.x() = kNaN; },
+       "options.bounds.min[0]: is not a number", "options.bounds.min_m[0]: is not a number"},
+      {[](PlanRequest& r) { r.options.max_inserted_keyframes = -1; },
+       "options.max_inserted_keyframes: is -1; it must be at least 0",
+       "options.max_inserted_keyframes: is -1; it must be at least 0"},
+  };
+  for (const Case& c : cases) {
+    EXPECT_EQ(message_of(Spelling::kFile, c.make), c.in_files);
+    EXPECT_EQ(message_of(Spelling::kWire, c.make), c.on_the_wire);
+  }
+}
+
+TEST(Validate, TakesTimesAsCloseAsDoublesAllow) {
+  for (const double first_s : {0.0, 1.76e9, -4e9}) {
+    PlanRequest request = good_request();
+    const auto set_gap = [&](double gap_s) {
+      for (std::size_t i = 0; i < 3; ++i)
+        request.keyframes[i].time_s = first_s + static_cast<double>(i) * gap_s;
+    };
+    set_gap(1e-3);
+    EXPECT_FALSE(validate(request)) << "1 kHz from " << first_s;
+    const double least_s = std::max(kLeastTimeStep_s, kLeastRelativeTimeStep * std::abs(first_s));
+    set_gap(1.1 * least_s);
+    EXPECT_FALSE(validate(request)) << first_s;
+    set_gap(0.9 * least_s);
+    const std::optional<InvalidRequest> found = validate(request);
+    ASSERT_TRUE(found) << first_s;
+    EXPECT_THAT(found->message,
+                ::testing::HasSubstr("s after keyframe 0; at such times it must be"));
+    set_gap(0.0);
+    EXPECT_THAT(validate(request)->message, ::testing::HasSubstr("times must increase"));
+  }
 }
 
 TEST(Validate, ABodyNeedsNoCamera) {

@@ -105,12 +105,15 @@ TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {
   const PlanResult result =
       plan_within(request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
         tried.push_back(asked.camera.near_m);
+        if (tried.size() == 1) return ended(Status::kTimeout);  // its half of the deadline is over
         UnsentResult shut_in = ended(Status::kPartial);
         shut_in.result.shut_in = {{1, {}}};
         return shut_in;
       });
   EXPECT_EQ(tried, (std::vector<double>{1.0, 0.5}));
-  EXPECT_EQ(result.status, Status::kPartial);
+  EXPECT_EQ(result.status, Status::kPartial) << "more time would not help";
+  EXPECT_EQ(result.keyframe, 1U);
+  EXPECT_THAT(result.message, HasSubstr("keyframe 1 seems shut in"));
 }
 
 // The collisions are those of the camera that was asked for, at the times of the answered path,

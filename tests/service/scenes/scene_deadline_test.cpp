@@ -127,6 +127,16 @@ TEST_F(SceneDeadline, EndsAChangeThatIsBeingMade) {
   expect_next_is_made(2, 1);
 }
 
+TEST_F(SceneDeadline, EndsASmallChangeWhoseDeadlineHasPassedWhenItBegins) {
+  for (std::int64_t id = 1; id <= 50; ++id) {
+    const scene_request_t small = put_box(id, kSlow, 0.01, 1e-9);
+    send(small);
+    expect_status(small, scene_response_t::STATUS_TIMEOUT);
+  }
+  expect_as_before();
+  expect_next_is_made(100, 50);
+}
+
 /// One change occupies the only worker, because a listener of it does not return.
 class SceneDeadlineInAQueue : public SceneDeadline {
  protected:

@@ -300,6 +300,23 @@ TEST_F(WatchesTest, OffersTheFirstPathAgainOnceWhatBrokeItIsGone) {
   }
 }
 
+TEST_F(WatchesTest, OffersThePathAsInterpolatedOnceWhatStoodThereAtFirstIsGone) {
+  put({2, 0, 0});
+  send(request(1));
+  const plan_response_t corrected = next_answer();
+  ASSERT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
+  ASSERT_GT(corrected.measures.largest_deviation_m, 0.0);
+  wait_for(1, path_state_t::FREE);
+  take_away();
+  const auto mended = static_cast<std::int64_t>(scenes_.find("room")->revision);
+  const State offered = wait_for_offer(1, mended);
+  EXPECT_EQ(offered.path.answer_revision, corrected.scene_revision) << "it is not forced";
+  const plan_response_t better = next_offer();
+  EXPECT_EQ(better.collisions.size(), 0U);
+  EXPECT_LT(better.measures.largest_deviation_m, 1e-9);
+  EXPECT_EQ(planned_, 2) << "nothing was planned as long as the scene did not change";
+}
+
 TEST_F(WatchesTest, AnOfferIsWithdrawnWhenAChangeBreaksIt) {
   const auto [first, corrected] = go_round();
   take_away();

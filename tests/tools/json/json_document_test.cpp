@@ -19,7 +19,6 @@ struct BadDocument {
 
 TEST(JsonDocument, NamesSourceLineAndColumnOfBadSyntax) {
   const BadDocument cases[] = {
-      {"", "line 1, column 1"},
       {"{", "line 1, column"},
       {"{\n  \"a\": 1,\n  \"b\" 2\n}", "line 3, column 7"},
       {"{\"a\": NaN}", "line 1, column 7"},
@@ -36,6 +35,12 @@ TEST(JsonDocument, NamesSourceLineAndColumnOfBadSyntax) {
     EXPECT_THAT(parsed.error, StartsWith("R.json: ")) << bad.text;
     EXPECT_THAT(parsed.error, HasSubstr(bad.expected)) << bad.text;
     EXPECT_THAT(parsed.error, ::testing::Not(HasSubstr("json.exception"))) << bad.text;
+  }
+}
+
+TEST(JsonDocument, SaysSoWhereThereIsNothing) {
+  for (const char* nothing : {"", " \n\t"}) {
+    EXPECT_EQ(parse_document(nothing, "a.json", 10).error, "a.json: is empty");
   }
 }
 

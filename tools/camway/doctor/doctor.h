@@ -61,6 +61,7 @@ struct HostFacts {
   std::string unguarded;             ///< reason why other hosts are heard though ttl is 0, or empty
   std::optional<DaemonFact> daemon;  ///< unset: none was heard
   std::string config_file;           ///< empty: none was given
+  bool config_is_readable = true;
   std::vector<std::string> config_faults;  ///< faults of that file
   std::vector<SceneFileFact> scene_files;  ///< scenes that it names
 };

@@ -196,6 +196,7 @@ void look_at_config(const std::string& file, HostFacts& facts) {
   facts.config_file = file;
   if (file.empty()) return;
   process::DaemonOptions options = process::default_options();
+  facts.config_is_readable = ::access(file.c_str(), R_OK) == 0;
   facts.config_faults = process::read_config_file(file, options);
   if (!facts.config_faults.empty()) return;
   for (const process::SceneArgument& scene : options.scenes) {

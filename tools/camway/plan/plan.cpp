@@ -74,10 +74,12 @@ ExitCode exit_code_of(Status status) {
 
 /// Returns warnings about the request, a sentence each.
 std::vector<std::string> warnings_of(const RequestFile& request) {
-  if (request.says_xyzw) return {};
-  const auto order = planning::quaternion_order_warning(request);
+  using planning::QuaternionOrder;
+  const auto order = planning::quaternion_order_warning(
+      request, request.says_xyzw ? QuaternionOrder::kXyzw : QuaternionOrder::kWxyz);
   if (!order) return {};
-  return {*order + "; orientation_xyzw takes the other order"};
+  return {fmt::format("{}; {} takes the other order", *order,
+                      request.says_xyzw ? "orientation" : "orientation_xyzw")};
 }
 
 Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {

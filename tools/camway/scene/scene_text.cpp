@@ -16,12 +16,6 @@
 namespace camway::tools {
 namespace {
 
-/// Returns the box that no body may leave in the scene.
-std::string bounds_note(const SceneInfo& scene) {
-  const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
-  return bounds.any() ? ", bodies within " + process::bounds_text(bounds) : std::string();
-}
-
 void print_object(const SceneObject& object) {
   const Pose& pose = object.pose;
   fmt::print(
@@ -54,6 +48,11 @@ std::string named_as_flag(std::string error) {
 }
 
 }  // namespace
+
+std::string bounds_note(const SceneInfo& scene) {
+  const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
+  return bounds.any() ? ", bodies within " + process::bounds_text(bounds) : std::string();
+}
 
 void print_scene(const SceneInfo& scene) {
   fmt::print(

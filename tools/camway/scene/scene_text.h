@@ -9,6 +9,10 @@
 
 namespace camway::tools {
 
+/// Returns ", bodies within ..." with the box that no body may leave in the scene; nothing without
+/// one.
+std::string bounds_note(const SceneInfo& scene);
+
 /// Prints a line about the scene.
 void print_scene(const SceneInfo& scene);
 

@@ -108,6 +108,11 @@ std::vector<Illness> illnesses() {
        "90.0 s behind ours", "timedatectl"},
       {[](HostFacts& facts) { facts.config_faults = {"c.toml:3: no"}; }, "configuration",
        Severity::kProblem, "c.toml:3: no", "mend that line"},
+      {[](HostFacts& facts) {
+         facts.config_is_readable = false;
+         facts.config_faults = {"c.toml: cannot be opened"};
+       },
+       "configuration", Severity::kProblem, "c.toml: cannot be opened", "name a file"},
       {[](HostFacts& facts) { facts.scene_files[0].exists = false; }, "scene files",
        Severity::kProblem, "'room': /room.obj does not exist", "mend `file`"},
       {[](HostFacts& facts) { facts.scene_files[0].readable = false; }, "scene files",
