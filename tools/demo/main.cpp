@@ -104,7 +104,7 @@ std::string draw_answer(const Answered& answered, scene::Mesh mesh, const std::s
 }
 
 /// Plans all requests and prints a row for each. Returns the first answer if all were answered.
-std::optional<Answered> ask_all(Client& client, const scene::Mesh& mesh, const std::string& scene,
+std::optional<Answered> ask_all(Client& client, const std::string& scene,
                                 const std::vector<std::string>& files) {
   std::optional<Answered> first;
   bool all_answered = true;
@@ -113,8 +113,7 @@ std::optional<Answered> ask_all(Client& client, const scene::Mesh& mesh, const s
     std::optional<Answered> answered = ask(client, scene, file);
     if (!answered) return std::nullopt;
     const PlanResponse& response = answered->response;
-    const std::vector<std::string> objects = objects_hit(mesh, answered->request.camera, response);
-    fmt::print("{}\n", table_row(answered->name, response, objects));
+    fmt::print("{}\n", table_row(answered->name, response));
     std::fflush(stdout);
     if (!from_daemon(response)) {
       print_error(answered->name + ": " + response.error);
@@ -144,7 +143,7 @@ int run(const std::vector<std::string>& arguments) {
   fmt::print("camwayd {} holds {} scene(s), {} workers\n", daemon.version, daemon.total_scenes,
              daemon.num_workers);
   const std::vector<std::string> files(arguments.begin() + 3, arguments.end());
-  const std::optional<Answered> pictured = ask_all(client, *scene.mesh, arguments[0], files);
+  const std::optional<Answered> pictured = ask_all(client, arguments[0], files);
   if (!pictured) return 1;
   if (!pictured->response.ok()) {
     print_error(pictured->name + " should end ok: " + pictured->response.error);

@@ -4,17 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "daemon/collision/near_quad.h"
-#include "daemon/geometry/triangle_intersection.h"
 #include "daemon/motion/spline/interpolate.h"
 
 namespace camway::demo {
 namespace {
 
-/// Number of steps of a collision interval for finding the objects that are hit.
-constexpr int kStepsPerInterval = 24;
 constexpr std::size_t kMostNames = 2;
 
 motion::Keyframe to_motion(const PathKeyframe& keyframe) {
@@ -29,48 +24,20 @@ motion::Keyframe to_motion(const PathKeyframe& keyframe) {
   return converted;
 }
 
-/// Returns triangles of the filled quadrilateral and of the sides of the volume that it sweeps to
-/// the next pose. The sides are necessary: the quadrilateral touches a parallel wall for one
-/// instant only, which is between two poses.
-using Step = std::vector<geometry::Triangle>;
-
-Step step_between(const motion::Corners& from, const motion::Corners& to) {
-  const std::array<geometry::Triangle, 2> quad = collision::near_quad_triangles(from);
-  Step step(quad.begin(), quad.end());
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const std::size_t next = (i + 1) % from.size();
-    step.push_back({from[i], from[next], to[i]});
-    step.push_back({from[next], to[next], to[i]});
+/// Returns the names of the objects that the answer has as witnesses of collisions, each once.
+std::vector<std::string> objects_hit(const PlanResponse& response) {
+  std::vector<std::string> names;
+  for (const CollisionInterval& collision : response.collisions) {
+    if (!collision.witness) continue;
+    const std::string& object = collision.witness->object;
+    if (std::find(names.begin(), names.end(), object) == names.end()) names.push_back(object);
   }
-  return step;
+  return names;
 }
 
-bool touches(const scene::Mesh& mesh, const scene::MeshObject& object, const Step& step,
-             const geometry::Box& step_bounds) {
-  for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
-    const geometry::Triangle triangle = mesh.triangle(object.first_triangle + i);
-    if (!geometry::bounds(triangle).intersects(step_bounds)) continue;
-    if (std::any_of(step.begin(), step.end(), [&](const geometry::Triangle& swept) {
-          return geometry::triangles_touch(triangle, swept);
-        })) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Adds the names of the objects that the step touches to `names`, each once.
-void add_names(const scene::Mesh& mesh, const Step& step, std::vector<std::string>& names) {
-  geometry::Box bounds;
-  for (const geometry::Triangle& triangle : step) bounds.extend(geometry::bounds(triangle));
-  for (const scene::MeshObject& object : mesh.objects) {
-    if (std::find(names.begin(), names.end(), object.name) != names.end()) continue;
-    if (touches(mesh, object, step, bounds)) names.push_back(object.name);
-  }
-}
-
-std::string collided(const PlanResponse& response, const std::vector<std::string>& objects) {
+std::string collided(const PlanResponse& response) {
   if (response.collisions.empty()) return response.path.empty() ? "-" : "nothing";
+  const std::vector<std::string> objects = objects_hit(response);
   std::string text = fmt::format("{} x", response.collisions.size());
   for (std::size_t i = 0; i < std::min(kMostNames, objects.size()); ++i) {
     text += (i == 0 ? " " : ", ") + objects[i];
@@ -112,33 +79,13 @@ motion::Camera to_motion(const Camera& camera) {
   return {camera.fov_x_rad, camera.fov_y_rad, camera.near_m};
 }
 
-std::vector<std::string> objects_hit(const scene::Mesh& mesh, const Camera& camera,
-                                     const PlanResponse& response) {
-  std::vector<std::string> names;
-  const motion::Path before = path_before(response);
-  if (before.empty()) return names;
-  const motion::Corners corners_C = motion::near_corners_C(to_motion(camera));
-  for (const CollisionInterval& interval : response.collisions) {
-    const auto corners_at = [&](int step) {
-      const double share = static_cast<double>(step) / kStepsPerInterval;
-      const double time_s = interval.t_begin_s + share * (interval.t_end_s - interval.t_begin_s);
-      return motion::corners_W(corners_C, before.pose(time_s));
-    };
-    for (int i = 0; i < kStepsPerInterval; ++i) {
-      add_names(mesh, step_between(corners_at(i), corners_at(i + 1)), names);
-    }
-  }
-  return names;
-}
-
 std::string table_head() {
   return fmt::format(kRow, "request", "collided with", "inserted", "remaining", "status",
                      "planning", "round trip");
 }
 
-std::string table_row(const std::string& request, const PlanResponse& response,
-                      const std::vector<std::string>& objects) {
-  return fmt::format(kRow, request, collided(response, objects), count_inserted(response),
+std::string table_row(const std::string& request, const PlanResponse& response) {
+  return fmt::format(kRow, request, collided(response), count_inserted(response),
                      response.remaining.size(), to_string(response.status),
                      fmt::format("{:.0f} ms", response.timing.total_ms),
                      fmt::format("{:.0f} ms", 1000.0 * response.elapsed_s));

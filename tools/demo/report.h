@@ -8,7 +8,6 @@
 
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
-#include "daemon/scene/mesh/mesh.h"
 
 /// The demo's report on an answer. It is computed from the received answer alone.
 namespace camway::demo {
@@ -24,15 +23,9 @@ motion::Path path_before(const PlanResponse& response);
 
 motion::Camera to_motion(const Camera& camera);
 
-/// Returns the names of the objects that the near quadrilateral touches in the collision intervals
-/// of the path before correction, in the order of the first contact.
-std::vector<std::string> objects_hit(const scene::Mesh& mesh, const Camera& camera,
-                                     const PlanResponse& response);
-
 /// Returns the head of the table of answers.
 std::string table_head();
 /// Returns the row of one answer.
-std::string table_row(const std::string& request, const PlanResponse& response,
-                      const std::vector<std::string>& objects);
+std::string table_row(const std::string& request, const PlanResponse& response);
 
 }  // namespace camway::demo
