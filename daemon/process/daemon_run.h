@@ -5,7 +5,7 @@
 
 #include "daemon/process/configured_scenes.h"
 #include "daemon/process/reloader.h"
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 

@@ -32,7 +32,7 @@
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/service/core/answer_cache.h"
 #include "daemon/service/occupancy/occupancy_answer.h"
-#include "daemon/service/scenes/scene_work.h"
+#include "daemon/service/scenes/scene_operation.h"
 #include "daemon/service/scenes/uploads.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/envelope.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 
 namespace camway::process {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 
 /// Faults of options whose values are each valid by themselves. Each fault is a text that begins
 /// with the place where the value was set.

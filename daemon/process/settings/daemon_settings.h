@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 
 namespace camway::process {
 

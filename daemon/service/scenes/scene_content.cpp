@@ -126,7 +126,7 @@ std::shared_ptr<const scene::ObjectSource> source_of(Content content,
 Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
 
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
-                        const SceneContext& context) {
+                        const OperationContext& context) {
   const Made<scene::ImportOptions> options = import_options(request, context.rules);
   if (!options) return base::Failure{options.error};
   if (request.upload_bytes == 0) {
@@ -187,7 +187,7 @@ Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
-                        const SceneContext& context) {
+                        const OperationContext& context) {
   constexpr double kDefaultChordShare = 0.01;
   const double chord_error_m =
       request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;

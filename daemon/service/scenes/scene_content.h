@@ -15,7 +15,7 @@
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/snapshot/scene_object.h"
 #include "daemon/scene/voxels/voxel_map.h"
-#include "daemon/service/scenes/scene_context.h"
+#include "daemon/service/scenes/operation_context.h"
 #include "daemon/service/scenes/uploads.h"
 
 namespace camway::service {
@@ -53,11 +53,11 @@ geometry::Vec3 vec3(const double (&values)[3]);
 /// Reads the mesh or map of the request's file or upload, in the import process. `upload` is null
 /// if the upload that the request names is not there.
 Made<Content> read_mesh(const scene_request_t& request, const UploadedBytes& upload,
-                        const SceneContext& context);
+                        const OperationContext& context);
 
 /// Makes the content of a new object: reads it, or builds it from the numbers of the request.
 Made<Content> make_mesh(const scene_request_t& request, scene::ObjectKind kind,
-                        const UploadedBytes& upload, const SceneContext& context);
+                        const UploadedBytes& upload, const OperationContext& context);
 
 /// Reads the points of an upload of doubles. An error if its size is not that of whole points.
 Made<std::vector<geometry::Vec3>> read_points(const UploadedBytes& upload);

@@ -42,7 +42,7 @@ scene_request_t request_of(const RequestKey& key) {
 
 /// Returns the answer. Does not throw.
 SceneReply reply_to(const scene_request_t& request, const UploadedBytes& upload,
-                    const SceneContext& context) {
+                    const OperationContext& context) {
   try {
     return execute(request, upload, context);
   } catch (const std::exception& exception) {
@@ -295,7 +295,7 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
   if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
-SceneContext SceneService::context(const scene::ChangeTicket& ticket) {
+OperationContext SceneService::context(const scene::ChangeTicket& ticket) {
   return {config_.scene_rules, scenes_, writing_, ticket};
 }
 

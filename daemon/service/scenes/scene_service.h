@@ -16,7 +16,7 @@
 #include "daemon/service/core/core.h"
 #include "daemon/service/scenes/map_exports.h"
 #include "daemon/service/scenes/scene_config.h"
-#include "daemon/service/scenes/scene_work.h"
+#include "daemon/service/scenes/scene_operation.h"
 
 namespace camway::service {
 
@@ -96,7 +96,7 @@ class SceneService {
   /// Forgets a change that is answered.
   void forget(const RequestKey& key);
   Pages send(scene_response_t answer);
-  [[nodiscard]] SceneContext context(const scene::ChangeTicket& ticket);
+  [[nodiscard]] OperationContext context(const scene::ChangeTicket& ticket);
 
   Core& core_;
   scene::SceneStore& scenes_;
@@ -108,7 +108,7 @@ class SceneService {
   std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< unanswered changes by time
   /// Changes that were cancelled and answered while a worker is still at them.
   std::set<Request> left_behind_;
-  std::mutex writing_;  ///< see `SceneContext`
+  std::mutex writing_;  ///< see `OperationContext`
   WorkerPool workers_;
 };
 

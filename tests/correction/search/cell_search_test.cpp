@@ -209,7 +209,7 @@ TEST(CellWay, IsExhaustedOnlyWhereThereIsNoWay) {
   const double to_spare_m = (kBall_m + half_m) / FreeSpace::kBallShare + half_m - kBall_m;
   int ways = 0;
   int without = 0;
-  const int runs = testing::runs(12);
+  const int runs = testing::runs(8);
   for (int run = 0; run < runs; ++run) {
     SCOPED_TRACE(run);
     const SearchScene scene(plates_with_slits(random));

@@ -113,7 +113,7 @@ TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
 
 TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
   testing::Random random(kVoxelsSeed);
-  for (int run = 0; run < testing::runs(12); ++run) {
+  for (int run = 0; run < testing::runs(6); ++run) {
     const PlacedMap map(kCellM, scattered_voxels(random), random_placement(random));
     for (const double resolution_m : {0.1 * kCellM, 0.5 * kCellM, kCellM}) {
       const std::uint64_t voxels = mirror_voxels(map.task(resolution_m, kMany)).voxels->size();

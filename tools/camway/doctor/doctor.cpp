@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/key_file.h"

@@ -8,7 +8,7 @@
 #include <camway/scene_request_t.hpp>
 #include <camway/scene_response_t.hpp>
 
-#include "daemon/service/scenes/scene_context.h"
+#include "daemon/service/scenes/operation_context.h"
 #include "daemon/service/scenes/uploads.h"
 
 namespace camway::service {
@@ -34,6 +34,6 @@ struct SceneReply {
 /// changes of one scene must be made one after the other, or a change that is made in between may
 /// be lost.
 SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
-                   const SceneContext& context);
+                   const OperationContext& context);
 
 }  // namespace camway::service

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/process/settings/options.h"
+#include "daemon/process/settings/daemon_options.h"
 
 #include <cstdlib>
 #include <utility>

@@ -10,7 +10,7 @@
 namespace camway::service {
 
 /// References that a request is carried out with. All outlive the call.
-struct SceneContext {
+struct OperationContext {
   const SceneRules& rules;
   scene::SceneStore& scenes;
   /// Held while a file below the roots is written: two requests may name the same file.

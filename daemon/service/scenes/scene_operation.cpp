@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/scenes/scene_work.h"
+#include "daemon/service/scenes/scene_operation.h"
 
 #include <fmt/format.h>
 
@@ -57,7 +57,8 @@ std::string warnings_of(const scene::ImportReport& report) {
 /// Carries out one request.
 class SceneOperation {
  public:
-  SceneOperation(const Request& request, const UploadedBytes& upload, const SceneContext& context)
+  SceneOperation(const Request& request, const UploadedBytes& upload,
+                 const OperationContext& context)
       : request_(request),
         upload_(upload),
         context_(context),
@@ -263,7 +264,7 @@ class SceneOperation {
 
   const Request& request_;
   const UploadedBytes& upload_;
-  const SceneContext& context_;
+  const OperationContext& context_;
   const SceneRules& rules_;
   scene::SceneStore& scenes_;
   std::vector<std::uint8_t> map_;
@@ -313,7 +314,7 @@ const char* operation_name(const scene_request_t& request) {
 }
 
 SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
-                   const SceneContext& context) {
+                   const OperationContext& context) {
   SceneOperation operation(request, upload, context);
   Answer answer = operation.run();
   return {std::move(answer), operation.take_map()};
