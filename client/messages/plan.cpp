@@ -116,8 +116,7 @@ PlanCollector::Taken PlanCollector::take(std::span<const std::uint8_t> bytes) {
              std::to_string(page.num_pages) + " is out of range";
     return Taken::kBad;
   }
-  const bool is_of_other_time = pages_.held() > 0 && pages_.any().utime != page.utime;
-  if (is_of_other_time || !pages_.fits(page)) clear();
+  if (pages_.held() > 0 && pages_.any().utime != page.utime) clear();
   return pages_.add(std::move(page)) ? Taken::kNew : Taken::kKnown;
 }
 
