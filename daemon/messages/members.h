@@ -148,7 +148,6 @@ class Converter {
     }
     if (mine) list(*this, *mine);
   }
-  void line(int) const {}
 
  private:
   /// Converts a value by `translate` where there is one for its types.

@@ -10,7 +10,6 @@
 #include "tests/messages/plan_samples.h"
 #include "tools/camway/replay/session.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 
 namespace camway::testing {
 namespace {
