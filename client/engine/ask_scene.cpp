@@ -221,14 +221,10 @@ SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
     return answer;
   }
   answer.message = response.message;
-  answer.scene = from_wire(response.scene);
-  for (const scene_info_t& scene : response.scenes) answer.scenes.push_back(from_wire(scene));
-  for (const scene_object_t& object : response.objects) {
-    answer.objects.push_back(from_wire(object));
-  }
-  for (const scene_change_t& change : response.changes) {
-    answer.revisions.push_back(from_wire(change));
-  }
+  convert(response.scene, answer.scene);
+  convert(response.scenes, answer.scenes);
+  convert(response.objects, answer.objects);
+  convert(response.changes, answer.revisions);
   return answer;
 }
 
@@ -350,7 +346,7 @@ class MapPages final : public Call {
 /// Fetches all bytes of the map that `exported` describes.
 SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
   SceneMap map;
-  map.scene = from_wire(exported.scene);
+  convert(exported.scene, map.scene);
   const auto size = static_cast<std::size_t>(std::max<std::int64_t>(0, exported.map_bytes));
   const auto num_pages = static_cast<std::int32_t>(
       std::max<std::size_t>(1, (size + wire::kMapPageBytes - 1) / wire::kMapPageBytes));

@@ -2,6 +2,8 @@
 #include "client/messages/occupancy.h"
 
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "client/messages/text.h"
@@ -14,28 +16,13 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-Numbers numbers_of(const std::array<double, 3>& point) { return {point.begin(), point.end()}; }
-
-Numbers numbers_of(const OccupancyBox& box) {
-  return {box.min_m[0], box.min_m[1], box.min_m[2], box.max_m[0], box.max_m[1], box.max_m[2]};
-}
-
-Numbers numbers_of(const OccupancySphere& sphere) {
-  return {sphere.center_m[0], sphere.center_m[1], sphere.center_m[2], sphere.radius_m};
-}
-
-Numbers numbers_of(const OccupancyRay& ray) {
-  return {ray.origin_m[0],  ray.origin_m[1],  ray.origin_m[2], ray.direction[0],
-          ray.direction[1], ray.direction[2], ray.range_m};
-}
-
-Numbers numbers_of(const OccupancyDistance& distance) {
-  return {distance.point_m[0], distance.point_m[1], distance.point_m[2], distance.max_m};
-}
-
-Numbers numbers_of(const OccupancySpherePath& path) {
-  return {path.from_m[0], path.from_m[1], path.from_m[2], path.to_m[0],
-          path.to_m[1],   path.to_m[2],   path.radius_m};
+/// Returns the numbers of a query in the order of its members, which is the order on the wire.
+template <class Query>
+Numbers numbers_of(const Query& query) {
+  static_assert(std::is_trivially_copyable_v<Query> && sizeof query % sizeof(double) == 0);
+  Numbers numbers(sizeof query / sizeof(double));
+  std::memcpy(numbers.data(), &query, sizeof query);
+  return numbers;
 }
 
 /// Distributes queries over requests. Begins the next request when one is full.

@@ -21,9 +21,6 @@ using wire::Bytes;
 
 /// Writes a request except its ids and its time of sending.
 void convert(const PlanRequest& mine, plan_request_t& wire);
-/// Reads a whole request that has a value in every option. Requires the counts of a body that add
-/// up.
-void convert(const plan_request_t& wire, PlanRequest& mine);
 /// Reads a whole answer except its path.
 void convert(const plan_response_t& wire, PlanResponse& mine);
 /// Reads a progress report. A stage that this client does not know becomes kWaiting.

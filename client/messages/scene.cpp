@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "client/messages/members.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
 
@@ -80,24 +79,10 @@ struct ShapeWriter {
 
 }  // namespace
 
-SceneInfo from_wire(const scene_info_t& wire) {
-  SceneInfo scene;
-  convert(wire, scene);
-  return scene;
-}
-
-SceneObject from_wire(const scene_object_t& wire) {
+void convert(const scene_object_t& wire, SceneObject& mine) {
   static_assert(wire::lacks_only<scene_object_t, SceneObject>({"position_m", "orientation_wxyz"}));
-  SceneObject object;
-  convert_common(wire, object);
-  convert_common(wire, object.pose);
-  return object;
-}
-
-SceneRevision from_wire(const scene_change_t& wire) {
-  SceneRevision revision;
-  convert(wire, revision);
-  return revision;
+  convert_common(wire, mine);
+  convert_common(wire, mine.pose);
 }
 
 Bytes put_mesh(const SceneMesh& mesh, scene_request_t& request) {

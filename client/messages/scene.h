@@ -15,11 +15,12 @@
 #include <camway/upload_page_t.hpp>
 #include <camway/upload_status_t.hpp>
 
+#include "client/messages/members.h"
+
 namespace camway {
 
-SceneInfo from_wire(const scene_info_t& wire);
-SceneObject from_wire(const scene_object_t& wire);
-SceneRevision from_wire(const scene_change_t& wire);
+/// Reads an object. Other structs of scenes follow from their names (`members.h`).
+void convert(const scene_object_t& wire, SceneObject& mine);
 
 /// Writes the description of `shape` into `request`. Returns the bytes to upload; empty if none.
 std::vector<std::uint8_t> put_shape(const SceneShape& shape, scene_request_t& request);

@@ -42,16 +42,10 @@ struct RequestIds {
   std::int64_t utime = 0;  ///< microseconds since 1970
 };
 
-/// Returns the whole request as one page, which may be too large for a message: see `encode_pages`.
-plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
-
 /// Convert bounds without a check; `geometry::fault_in` checks the numbers. A side at infinity is
 /// no limit.
 bounds_t to_wire(const geometry::Bounds& bounds);
 geometry::Bounds from_wire(const bounds_t& wire);
-
-/// Returns the message for a body. A near quadrilateral has its size in the request's camera.
-body_t wire_body(const motion::BodyShape& shape);
 
 /// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
 /// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a

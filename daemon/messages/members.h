@@ -50,8 +50,9 @@ class Refusal {
   std::string error_;
 };
 
-inline void translate(const geometry::Quat& mine, double (&wire)[4]) {
-  std::copy_n(geometry::wxyz(mine).data(), 4, wire);
+template <class Numbers>
+void translate(const geometry::Quat& mine, Numbers& wire) {
+  std::copy_n(geometry::wxyz(mine).data(), 4, std::begin(wire));
 }
 inline void translate(const double (&wire)[4], geometry::Quat& mine) {
   mine = geometry::from_wxyz({wire[0], wire[1], wire[2], wire[3]});
@@ -119,7 +120,7 @@ class Converter {
   void operator()(Mine&& mine, Wire&& wire) const {
     if constexpr (requires { planning::members(*this, mine, wire); }) {
       planning::members(*this, mine, wire);
-      if constexpr (kWrites) clip_texts(wire);
+      if constexpr (kWrites && wire::Described<std::remove_reference_t<Wire>>) clip_texts(wire);
     } else if constexpr (kWrites) {
       convert(*this, mine, wire);
     } else {
@@ -127,6 +128,11 @@ class Converter {
     }
   }
 
+  /// Converts a row of a field table.
+  template <class Mine, class Wire>
+  void operator()(const planning::FieldSpec&, Mine& mine, Wire& wire) const {
+    (*this)(mine, wire);
+  }
   template <class Mine, class Wire>
   void need(planning::FileName, Mine&& mine, Wire&& wire) const {
     (*this)(mine, wire);
@@ -148,7 +154,6 @@ class Converter {
     }
     if (mine) list(*this, *mine);
   }
-  void line(int) const {}
 
  private:
   /// Converts a value by `translate` where there is one for its types.

@@ -4,7 +4,6 @@
 #include <camway/members.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace camway::messages {
@@ -15,7 +14,13 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
   if (std::string fault = wire::page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
   if (page.num_pages == 1) return {std::move(page), {}, 0};
 
-  const Position position = find_or_begin(page);
+  const auto same_ids = [&](const Partial& partial) {
+    const Message& held = partial.pages.any();
+    return held.request_id == page.request_id && held.client_id == page.client_id;
+  };
+  Position position = std::find_if(partial_.begin(), partial_.end(), same_ids);
+  if (position == partial_.end()) position = partial_.emplace(partial_.end());
+  partial_.splice(partial_.end(), partial_, position);
   position->pages.add(std::move(page));
   position->missing_at = now + kPageWait;
   position->asked = 0;
@@ -23,22 +28,6 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
   Message whole = position->pages.whole();
   partial_.erase(position);
   return {std::move(whole), {}, 0};
-}
-
-template <class Message>
-typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(const Message& page) {
-  const auto same_ids = [&](const Partial& partial) {
-    const Message& held = partial.pages.any();
-    return held.request_id == page.request_id && held.client_id == page.client_id;
-  };
-  const Position found = std::find_if(partial_.begin(), partial_.end(), same_ids);
-  if (found != partial_.end() && found->pages.fits(page)) {
-    partial_.splice(partial_.end(), partial_, found);
-    return found;
-  }
-  if (found != partial_.end()) partial_.erase(found);
-  partial_.emplace_back();
-  return std::prev(partial_.end());
 }
 
 template <class Message>

@@ -68,8 +68,6 @@ class PageAssembly {
   };
   using Position = typename std::list<Partial>::iterator;
 
-  /// Returns the message that a page belongs to, or a new one, as the last of the list.
-  Position find_or_begin(const Message& page);
   /// Returns how many messages were dropped.
   std::size_t make_room(Position keep);
 

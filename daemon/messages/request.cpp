@@ -49,27 +49,28 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
   };
 }
 
-/// Refuses the members of `wire` that have a value although they do not count: their sender meant
-/// them. `visit_used(note)` visits those that count with this `kind`; `used` are more of them.
-template <class Wire, class Kind, class VisitUsed>
-void refuse_unused(Refusal& refusal, const Wire& wire, const Kind& kind,
-                   std::vector<const void*> used, const VisitUsed& visit_used) {
-  used.push_back(&kind);
-  visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
-    (used.push_back(&members), ...);
-  });
-  wire::visit_unused(wire, used, [&](std::string_view, const auto& member) {
-    refusal.add(member,
-                fmt::format("does not count with this {}; leave it zero or empty, or set the "
-                            "one it belongs to",
-                            refusal.path_of(kind)));
-  });
-}
-
 /// Reads members of tables. One that is zero or empty leaves the default; NaN and negative values
 /// go on to `planning::validate`.
 struct TableReader {
   Refusal& refusal;
+
+  /// Reads the members of `wire` that count with this `kind`, and refuses others that have a value:
+  /// their sender meant them. `visit_used(visit)` visits those that count.
+  template <class Wire, class Kind, class VisitUsed>
+  void read_used(const Wire& wire, const Kind& kind, const VisitUsed& visit_used) const {
+    std::vector<const void*> used{&kind};
+    visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
+      (used.push_back(&members), ...);
+    });
+    wire::visit_unused(wire, used, [&](std::string_view name, const auto& member) {
+      if (name.starts_with("has_")) return;  // `refuse_idle` looks at what a flag marks
+      refusal.add(member,
+                  fmt::format("does not count with this {}; leave it zero or empty, or set the "
+                              "one it belongs to",
+                              refusal.path_of(kind)));
+    });
+    visit_used(*this);
+  }
 
   template <class Mine, class Wire>
   void operator()(const FieldSpec& spec, Mine& mine, const Wire& wire) const {
@@ -87,9 +88,8 @@ struct TableReader {
   }
   void operator()(const FieldSpec&, OrientationPolicy& mine, const orientation_t& wire) const {
     (*this)(planning::option::kPolicy, mine.rule, wire.policy);
-    refuse_unused(refusal, wire, wire.policy, {&wire.has_max_turn},
-                  [&](const auto& note) { planning::visit_used(note, mine, wire); });
-    planning::visit_used(*this, mine, wire);
+    read_used(wire, wire.policy,
+              [&](const auto& visit) { planning::visit_used(visit, mine, wire); });
     mine.up_W = planning::direction_of(mine.up_W);
     if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
   }
@@ -117,9 +117,8 @@ std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
     return shape;
   }
   const auto read = [&](auto& part) {
-    refuse_unused(refusal, wire, wire.type, {},
-                  [&](const auto& note) { planning::visit_shape(note, part, wire); });
-    planning::visit_shape(TableReader{refusal}, part, wire);
+    TableReader{refusal}.read_used(
+        wire, wire.type, [&](const auto& visit) { planning::visit_shape(visit, part, wire); });
   };
   std::visit(read, *shape);
   if (wire.type == body_t::CAMERA) shape.reset();
@@ -143,26 +142,6 @@ void refuse_idle(Refusal& refusal, const plan_request_t& wire) {
                        "counts only with has_times; set that, or leave all times 0");
   }
 }
-
-/// Writes members of tables. Infinity means no limit on the wire, too, and an option that is not
-/// set is 0.
-struct TableWriter {
-  template <class Mine, class Wire>
-  void operator()(const FieldSpec&, const Mine& mine, Wire& wire) const {
-    ToWire{}(mine, wire);
-  }
-  void operator()(const FieldSpec&, const OrientationPolicy& mine, orientation_t& wire) const {
-    planning::visit_used(*this, mine, wire);
-    wire.has_max_turn = 1;
-  }
-  void operator()(const FieldSpec&, const std::vector<std::vector<Vec3>>& pieces,
-                  std::vector<std::int32_t>& sizes, Points& points) const {
-    for (const std::vector<Vec3>& piece : pieces) {
-      sizes.push_back(static_cast<std::int32_t>(piece.size()));
-      ToWire{}(piece, points);
-    }
-  }
-};
 
 }  // namespace
 
@@ -194,40 +173,6 @@ base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
     keyframe.is_repaired = false;
   }
   return request;
-}
-
-body_t wire_body(const BodyShape& shape) {
-  body_t wire{};
-  wire.type = static_cast<std::int8_t>(shape.index());
-  std::visit([&](const auto& part) { planning::visit_shape(TableWriter{}, part, wire); }, shape);
-  wire::set_counts(wire);
-  return wire;
-}
-
-plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids) {
-  const ToWire io;
-  plan_request_t wire{};
-  wire.client_id = ids.client_id;
-  wire.request_id = ids.request_id;
-  wire.utime = ids.utime;
-  wire.num_pages = 1;
-  wire.scene = request.scene;
-  // The wire has no near quadrilateral other than the camera's, so one that is given as the body
-  // goes as the camera.
-  const auto* camera = request.body ? std::get_if<motion::Camera>(&*request.body) : nullptr;
-  io(camera == nullptr ? request.camera : *camera, wire.camera);
-  if (request.body) wire.body = wire_body(*request.body);
-  visit_options(TableWriter{}, request.options, wire);
-  wire.correct_nothing = request.options.max_inserted_keyframes == 0 ? 1 : 0;
-  wire.has_times = request.has_times ? 1 : 0;
-  wire.has_frame = request.frame ? 1 : 0;
-  if (request.frame) io(*request.frame, wire.frame);
-  io(request.keyframes, wire.keyframes);
-  for (keyframe_t& keyframe : wire.keyframes) {
-    if (!request.has_times) keyframe.time_s = 0.0;
-  }
-  wire::set_counts(wire);
-  return wire;
 }
 
 }  // namespace camway::messages

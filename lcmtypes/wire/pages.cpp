@@ -132,13 +132,10 @@ std::string page_fault(const Message& page) {
 }
 
 template <class Message>
-bool PageSet<Message>::fits(const Message& page) const {
-  return pages_.empty() || head_ == page_head(page);
-}
-
-template <class Message>
 bool PageSet<Message>::add(Message page) {
-  if (pages_.empty()) head_ = page_head(page);
+  Bytes head = page_head(page);
+  if (head != head_) *this = PageSet();
+  head_ = std::move(head);
   const std::int32_t number = page.page;
   const auto bytes = static_cast<std::size_t>(page.getEncodedSize());
   const bool is_new = pages_.try_emplace(number, std::move(page)).second;

@@ -40,11 +40,9 @@ std::string page_fault(const Message& page);
 template <class Message>
 class PageSet {
  public:
-  /// Whether a page is of the message whose pages are here: whether it differs from them in `page`,
-  /// `utime`, body and lists alone. True where there are none.
-  [[nodiscard]] bool fits(const Message& page) const;
-
-  /// Adds a page; returns whether it is new. Requires one without `page_fault` that fits.
+  /// Adds a page; returns whether it is new. A page that differs from those that are here in more
+  /// than `page`, `utime`, body and lists is of another message, so it replaces them all. Requires
+  /// a page without `page_fault`.
   bool add(Message page);
 
   /// Returns the number of pages that are here.

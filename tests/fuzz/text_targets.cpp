@@ -8,9 +8,9 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/messages/request_on_wire.h"
 #include "tools/camway/replay/session.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 
 namespace camway::testing {
 namespace {

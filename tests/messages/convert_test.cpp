@@ -9,6 +9,7 @@
 
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/messages/request_on_wire.h"
 #include "tests/support/random.h"
 
 namespace camway::messages {

@@ -8,6 +8,7 @@
 #include "daemon/messages/convert.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/messages/request_on_wire.h"
 
 namespace camway::messages {
 namespace {

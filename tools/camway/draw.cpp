@@ -18,7 +18,6 @@
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/side_by_side.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {

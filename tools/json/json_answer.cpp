@@ -3,43 +3,83 @@
 
 #include "daemon/planning/result/members.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 #include "tools/json/json_reader.h"
-#include "tools/json/json_writer.h"
 
 namespace camway::tools {
 
 using planning::PlanResult;
 
+namespace {
+
+/// Reads a list of segments. Each must end after it begins, and begin when the one before ends.
+/// Ignores unknown fields.
+void read_path(const Field& list, motion::Path& path) {
+  std::vector<motion::Segment> segments;
+  read_list(list, segments, [&](const Field& item, motion::Segment& segment) {
+    read_value(item, segment);
+    if (!(segment.t1_s > segment.t0_s)) item.member("t1").fail("must be above t0");
+    if (segments.size() > 1 && segment.t0_s != segments[segments.size() - 2].t1_s) {
+      item.member("t0").fail("must equal t1 of the segment before");
+    }
+  });
+  // A path requires valid segments.
+  if (!list.failed()) path = motion::Path(std::move(segments));
+}
+
+/// Returns the times of given keyframes; none if one has no time.
+std::vector<double> read_keyframe_times(const Field& list) {
+  std::vector<double> times_s;
+  bool all_timed = true;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    const JsonReader io(item);
+    auto origin = motion::KeyframeOrigin::kGiven;
+    std::optional<double> time_s;
+    io.may("origin", true, origin);
+    if (origin == motion::KeyframeOrigin::kInserted) continue;
+    io.may("time", true, time_s);
+    if (time_s) times_s.push_back(*time_s);
+    all_timed = all_timed && time_s;
+  }
+  if (!all_timed) times_s.clear();
+  return times_s;
+}
+
+}  // namespace
+
 void read_value(const Field& root, PlanResult& result) {
   const JsonReader io(root);
   planning::head_members(io, result);
-  std::vector<motion::Segment> segments;
-  if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
-  // A path requires valid segments.
-  if (!root.failed()) result.path = motion::Path(std::move(segments));
+  if (const auto list = root.optional_member("segments")) read_path(*list, result.path);
   io.may("keyframes", true, result.keyframes);
   planning::report_members(io, result);
   io.may("timing_ms", true, result.timing);
 }
 
-base::Result<std::string> write_plan_response(const PlanResult& result,
-                                              const ResponseFormat& format) {
-  std::string out;
-  JsonWriter io(out);
-  io.object(2, [&] {
-    planning::head_members(io, result);
-    io.may("scene", !format.scene.empty(), format.scene);
-    io.may("scene_digest", !format.scene_digest.empty(), format.scene_digest);
-    io.may("warnings", !format.warnings.empty(), format.warnings);
-    io.need("segments", result.path.segments());
-    io.need("keyframes", result.keyframes);
-    planning::report_members(io, result);
-    io.may("timing_ms", format.timing == TimingField::kWritten, result.timing);
-  });
-  out += '\n';
-  if (!io.error().empty()) return base::Failure{io.error()};
-  return out;
+void read_value(const Field& root, PathFile& file) {
+  const Field list = root.member("segments");
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    list.element(i).allow_only({"t0", "t1", "position", "orientation"});
+  }
+  read_path(list, file.path);
+  if (const auto keyframes = root.optional_member("keyframes")) {
+    file.keyframe_times_s = read_keyframe_times(*keyframes);
+  }
+  double time_scale = 1.0;
+  const JsonReader io(root);
+  io.may("scene_digest", true, file.scene_digest);
+  io.may("bounds", true, file.bounds);
+  io.may("time_scale", true, time_scale);
+  io.may("near_scale", true, file.near_scale);
+  file.is_slowed = time_scale != 1.0;
+  if (const auto fault = geometry::fault_in(file.bounds)) {
+    root.member("bounds").fail(fault->field + " " + fault->reason);
+  }
+  if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
+    root.member("near_scale").fail_number("be above 0 and at most 1");
+  }
 }
 
 }  // namespace camway::tools

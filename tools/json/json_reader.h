@@ -134,7 +134,6 @@ class JsonReader {
  public:
   explicit JsonReader(const Field& object) : object_(object) {}
 
-  void line(int) const {}
   template <class Value>
   void need(planning::FileName name, Value&& member) const {
     read(object_.member(name.name, name.old), name.name, member);

@@ -1,53 +1,186 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_writer.h"
-
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <concepts>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/base/named_enum.h"
+#include "daemon/collision/obstacles.h"
+#include "daemon/planning/result/members.h"
+#include "tools/json/json_angle.h"
+#include "tools/json/json_io.h"
+
 namespace camway::tools {
+namespace {
 
-void JsonWriter::begin(std::string_view name) {
-  const int indent = line_ >= 0 ? line_ : indent_;
-  if (!is_first_) out_ += indent >= 0 ? "," : ", ";
-  if (indent >= 0) new_line(indent);
-  is_first_ = false;
-  line_ = -1;
-  out_.append("\"").append(name).append("\": ");
-  path_.push_back(name);
-}
+using planning::FileName;
 
-// Writes the shortest decimal that reads back as the same double, always with a point or an
-// exponent: otherwise readers take -0 for the integer 0 and lose the sign.
-void JsonWriter::value(double number) {
-  if (!std::isfinite(number)) {
-    if (!error_.empty()) return;
-    for (const std::string_view name : path_) {
-      if (!error_.empty() && name != "[]") error_ += '.';
-      error_ += name;
+/// Writes an object. Each small object (a keyframe, an interval) is on one line, so that a person
+/// can read a long path and `diff` can compare two.
+class JsonWriter {
+ public:
+  explicit JsonWriter(std::string& out) : out_(out) {}
+
+  /// Writes the whole object, whose members `write` writes. Each member is on a line of its own
+  /// that begins with `indent` spaces; if `indent` is below 0, all are on one line.
+  template <class Write>
+  void object(int indent, const Write& write) {
+    const int outer = std::exchange(indent_, indent);
+    out_ += '{';
+    is_first_ = true;
+    write();
+    if (indent_ >= 0) new_line(indent_ - 2);
+    out_ += '}';
+    is_first_ = false;
+    indent_ = outer;
+  }
+
+  /// Writes a member (`planning/result/members.h`).
+  template <class Value>
+  void need(FileName name, const Value& member) {
+    begin(name);
+    if constexpr (std::same_as<Value, double>) {
+      value(planning::is_angle(name.name) ? degrees(member) : member);
+    } else {
+      value(member);
     }
-    error_ += ": is not finite";
-    return;
+    path_.pop_back();
   }
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-  const std::string_view text(digits, static_cast<std::size_t>(end - digits));
-  out_ += text;
-  if (text.find_first_of(".e") == std::string_view::npos) out_ += ".0";
-}
-
-void JsonWriter::value(std::string_view text) {
-  out_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-void JsonWriter::value(const geometry::Bounds& bounds) {
-  for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
-    out_ += side == 0 ? "{\"min\": [" : side == 3 ? "], \"max\": [" : ", ";
-    const double limit_m = bounds.limit_m(side);
-    std::isinf(limit_m) ? void(out_ += "null") : value(limit_m);
+  template <class Value>
+  void may(FileName name, bool is_said, const Value& member) {
+    if (is_said) need(name, member);
   }
-  out_ += "]}";
+  template <class List>
+  void group(FileName name, bool is_said, int indent, const List& list) {
+    if (!is_said) return;
+    begin(name);
+    object(indent, [&] { list(*this); });
+    path_.pop_back();
+  }
+  template <class Struct, class List>
+  void optional(FileName name, const std::optional<Struct>& member, const List& list) {
+    group(name, member.has_value(), -1, [&](JsonWriter& io) { list(io, *member); });
+  }
+
+  /// Returns the first member that could not be written, and why: "keyframes[].position: is not
+  /// finite". Empty if there is none.
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  void new_line(int indent) { out_.append("\n").append(static_cast<std::size_t>(indent), ' '); }
+  void begin(FileName name) {
+    const int indent = name.line >= 0 ? name.line : indent_;
+    if (!is_first_) out_ += indent >= 0 ? "," : ", ";
+    if (indent >= 0) new_line(indent);
+    is_first_ = false;
+    out_.append("\"").append(name.name).append("\": ");
+    path_.push_back(name.name);
+  }
+
+  /// Writes the shortest decimal that reads back as the same double, always with a point or an
+  /// exponent: otherwise readers take -0 for the integer 0 and lose the sign.
+  void value(double number) {
+    if (!std::isfinite(number)) {
+      if (!error_.empty()) return;
+      for (const std::string_view name : path_) {
+        if (!error_.empty() && name != "[]") error_ += '.';
+        error_ += name;
+      }
+      error_ += ": is not finite";
+      return;
+    }
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    const std::string_view text(digits, static_cast<std::size_t>(end - digits));
+    out_ += text;
+    if (text.find_first_of(".e") == std::string_view::npos) out_ += ".0";
+  }
+  void value(std::string_view text) {
+    out_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  /// Writes null for a side without a limit.
+  void value(const geometry::Bounds& bounds) {
+    for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
+      out_ += side == 0 ? "{\"min\": [" : side == 3 ? "], \"max\": [" : ", ";
+      const double limit_m = bounds.limit_m(side);
+      std::isinf(limit_m) ? void(out_ += "null") : value(limit_m);
+    }
+    out_ += "]}";
+  }
+  void value(const geometry::Quat& orientation) { array(geometry::wxyz(orientation)); }
+  void value(std::tuple<const double&, const double&> both) {
+    array(std::array{std::get<0>(both), std::get<1>(both)});
+  }
+  template <class Value>
+  void value(const Value& value) {
+    if constexpr (std::same_as<Value, bool>) {
+      out_ += value ? "true" : "false";
+    } else if constexpr (std::same_as<Value, std::uint32_t>) {
+      // The index of a triangle, or a side of the bounds as a number below 0.
+      out_ += std::to_string(collision::Obstacles::signed_number(value));
+    } else if constexpr (std::integral<Value>) {
+      out_ += std::to_string(value);
+    } else if constexpr (base::NamedEnum<Value>) {
+      this->value(base::name_of(value));
+    } else if constexpr (std::convertible_to<Value, std::string_view>) {
+      this->value(std::string_view(value));
+    } else if constexpr (requires { value.has_value(); }) {
+      this->value(*value);
+    } else if constexpr (requires { planning::members(*this, value); }) {
+      object(-1, [&] { planning::members(*this, value); });
+    } else {
+      array(value);
+    }
+  }
+
+  /// Writes numbers and points on one line, and each element of another list on a line.
+  template <class List>
+  void array(const List& list) {
+    using Element = std::remove_cvref_t<decltype(*list.begin())>;
+    constexpr bool kIsInLine = std::is_arithmetic_v<Element> || requires {
+      std::tuple_size<List>::value;
+    };
+    if (!kIsInLine) path_.emplace_back("[]");
+    const char* separator = kIsInLine ? "[" : "[\n    ";
+    for (const auto& element : list) {
+      out_ += std::exchange(separator, kIsInLine ? ", " : ",\n    ");
+      value(element);
+    }
+    out_ += list.size() == 0 ? "[]" : kIsInLine ? "]" : "\n  ]";
+    if (!kIsInLine) path_.pop_back();
+  }
+
+  std::string& out_;
+  std::string error_;
+  std::vector<std::string_view> path_;  ///< names that lead to the value that is being written
+  int indent_ = -1;
+  bool is_first_ = true;
+};
+
+}  // namespace
+
+base::Result<std::string> write_plan_response(const planning::PlanResult& result,
+                                              const ResponseFormat& format) {
+  std::string out;
+  JsonWriter io(out);
+  io.object(2, [&] {
+    planning::head_members(io, result);
+    io.may("scene", !format.scene.empty(), format.scene);
+    io.may("scene_digest", !format.scene_digest.empty(), format.scene_digest);
+    io.may("warnings", !format.warnings.empty(), format.warnings);
+    io.need("segments", result.path.segments());
+    io.need("keyframes", result.keyframes);
+    planning::report_members(io, result);
+    io.may("timing_ms", format.timing == TimingField::kWritten, result.timing);
+  });
+  out += '\n';
+  if (!io.error().empty()) return base::Failure{io.error()};
+  return out;
 }
 
 }  // namespace camway::tools

@@ -24,7 +24,6 @@
 ///    alone; `list(io)` lists them;
 ///  - `optional(name, mine, list, has...)` handles an optional struct, which a message marks by the
 ///    flag `has`; `list(io, *mine)` lists its members;
-///  - `line(indent)` sets on which line of a file the next member stands.
 /// A number whose name contains `_deg` is an angle: in degrees in files, in radians elsewhere. A
 /// pair of numbers (`std::tie`) is an array in files.
 namespace camway::planning {
@@ -37,7 +36,13 @@ struct FileName {
   constexpr FileName(const FieldSpec& spec) : name(spec.file_name()), old(spec.old_file) {}
   std::string_view name;
   std::string_view old;
+  int line = -1;  ///< `indent` of `on_line`; -1: the member begins no line of its own
 };
+/// Returns the name of a member that begins a line of a file, after `indent` spaces.
+constexpr FileName on_line(int indent, FileName name) {
+  name.line = indent;
+  return name;
+}
 
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
@@ -46,10 +51,8 @@ template <class Io, class... Wire>
 void members(Io& io, Is<motion::Segment> auto& segment, Wire&... wire) {
   io.need("t0", segment.t0_s, wire.t0_s...);
   io.need("t1", segment.t1_s, wire.t1_s...);
-  io.line(5);
-  io.need("position", segment.position, wire.position_m...);
-  io.line(5);
-  io.need("orientation", segment.orientation, wire.orientation_wxyz...);
+  io.need(on_line(5, "position"), segment.position, wire.position_m...);
+  io.need(on_line(5, "orientation"), segment.orientation, wire.orientation_wxyz...);
 }
 
 template <class Io, class... Wire>
@@ -71,17 +74,14 @@ void members(Io& io, Is<motion::PathEnd> auto& end, Wire&... wire) {
 template <class Io, class... Wire>
 void members(Io& io, Is<motion::PathFrame> auto& frame, Wire&... wire) {
   io.need("reference", frame.reference, wire.reference_wxyz...);
-  io.line(4);
-  io.need("begin", frame.begin, wire.begin...);
-  io.line(4);
-  io.need("end", frame.end, wire.end...);
+  io.need(on_line(4, "begin"), frame.begin, wire.begin...);
+  io.need(on_line(4, "end"), frame.end, wire.end...);
 }
 
 template <class Io, class... Wire>
 void members(Io& io, Is<NamedCollision> auto& collision, Wire&... wire) {
   io.need("t_begin", collision.interval.t_begin_s, wire.t_begin_s...);
   io.need("t_end", collision.interval.t_end_s, wire.t_end_s...);
-  io.line(5);
   const auto list = [&](auto& object, auto& witness) {
     object.need("time", witness.time_s, wire.witness_time_s...);
     object.need("object", collision.names.object, wire.witness_object...);
@@ -90,7 +90,7 @@ void members(Io& io, Is<NamedCollision> auto& collision, Wire&... wire) {
     object.need({"depth_m", "depth"}, witness.depth_m, wire.witness_depth_m...);
     object.need("point", witness.point_W, wire.witness_point_m...);
   };
-  io.optional("witness", collision.interval.witness, list, wire.has_witness...);
+  io.optional(on_line(5, "witness"), collision.interval.witness, list, wire.has_witness...);
 }
 
 /// Files have the effort only of a collision that was not corrected.
@@ -105,9 +105,8 @@ void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire)
   io.need("turned_deg", correction.turned_rad, wire.turned_rad...);
   io.need("largest_shift_deg", correction.shift.largest_rad, wire.largest_shift_rad...);
   io.need("mean_shift_deg", correction.shift.mean_rad, wire.mean_shift_rad...);
-  io.line(5);
   const bool is_said = correction.kind == correction::CorrectionKind::kNone;
-  io.group("tried", is_said, -1, [&](auto& object) {
+  io.group(on_line(5, "tried"), is_said, -1, [&](auto& object) {
     object.need("directions", correction.tried.directions, wire.tried_directions...);
     object.need("paths", correction.tried.paths, wire.tried_paths...);
     object.need("lattice_points", correction.tried.lattice_points, wire.tried_lattice_points...);
@@ -158,8 +157,7 @@ void members(Io& io, Is<correction::CageBox> auto& cage, Wire&... wire) {
   io.need("orientation", cage.orientation, wire.orientation_wxyz...);
   io.need("min", cage.box.min(), wire.min_m...);
   io.need("max", cage.box.max(), wire.max_m...);
-  io.line(6);
-  io.need("widest_hole_m", cage.widest_hole_m, wire.widest_hole_m...);
+  io.need(on_line(6, "widest_hole_m"), cage.widest_hole_m, wire.widest_hole_m...);
   io.need("shortest_chord_m", cage.shortest_chord_m, wire.shortest_chord_m...);
 }
 
@@ -168,11 +166,9 @@ template <class Io, class... Wire>
 void members(Io& io, Is<Infeasibility> auto& proof, Wire&... wire) {
   io.need("keyframe_inside", proof.keyframe_inside, wire.keyframe_inside...);
   io.need("keyframe_outside", proof.keyframe_outside, wire.keyframe_outside...);
-  io.line(4);
   const auto list = [&](auto& object, auto& cage) { members(object, cage, wire.proof_cage...); };
-  io.optional("cage", proof.cage, list, wire.has_cage...);
-  io.line(4);
-  io.need("triangles", proof.triangles, wire.proof_triangles...);
+  io.optional(on_line(4, "cage"), proof.cage, list, wire.has_cage...);
+  io.need(on_line(4, "triangles"), proof.triangles, wire.proof_triangles...);
 }
 
 template <class Io, class... Wire>

@@ -5,6 +5,7 @@
 
 #include "daemon/messages/convert.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/messages/request_on_wire.h"
 
 namespace camway::service {
 namespace {

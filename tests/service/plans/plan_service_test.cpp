@@ -17,6 +17,7 @@
 
 #include "daemon/messages/convert.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/messages/request_on_wire.h"
 #include "tests/service/running_service.h"
 
 namespace camway::service {

@@ -13,10 +13,10 @@
 
 #include <camway/status_t.hpp>
 
-#include "daemon/messages/convert.h"
 #include "daemon/planning/plan.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/service/service.h"
+#include "tests/messages/request_on_wire.h"
 #include "tests/service/fake_transport.h"
 #include "tests/support/captured_log.h"
 #include "tests/support/scenes.h"

@@ -8,7 +8,6 @@
 
 #include "tests/tools/camway/cli_runner.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 
 namespace camway::tools {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_path.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

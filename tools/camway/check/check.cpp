@@ -13,7 +13,6 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_path.h"
 
 namespace camway::tools {
 namespace {

@@ -57,7 +57,6 @@ class MemberWalk {
       if (member) list(*this, *member);
     });
   }
-  void line(int) {}
 
  private:
   static bool is_left_out(std::string_view name) {

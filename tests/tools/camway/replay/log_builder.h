@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/messages/convert.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 #include "daemon/scene/mesh/mesh.h"
+#include "tests/messages/request_on_wire.h"
 
 namespace camway::tools {
 
