@@ -98,10 +98,8 @@ class OneAnswer final : public Call {
     if (is_late && refusal_) return *refusal_;
     Failure failure = context_.explain(outcome, retry().ever_heard(), {}, fault_);
     if (is_late && is_cancelled_) {
-      const bool was_heard = retry().ever_heard();
-      failure.error = (was_heard ? "cancelled, but the daemon does not say what became of it: "
-                                 : "cancelled: ") +
-                      failure.error;
+      // The request may wait at a daemon that is busy.
+      failure.error = "cancelled, but no daemon says what became of it: " + failure.error;
     }
     return failure;
   }

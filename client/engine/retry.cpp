@@ -80,7 +80,7 @@ void Retry::restart() {
 }
 
 void Retry::restart_within(double patience_s, Clock::time_point now) {
-  constexpr double kWaits = 4.0;  // that fit into the time, so that a lost message is no loss
+  constexpr double kWaits = 4.0;  // so that a lost message is repeated within the time
   restart();
   wait_s_ = std::min(wait_s_, patience_s / kWaits);
   deadline_ = std::min(deadline_, now + duration(patience_s));

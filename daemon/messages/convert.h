@@ -30,8 +30,8 @@ double deadline_of(double wire_s, const DeadlineLimits& limits);
 
 /// Converts a request; `wire` holds the keyframes of all pages. Zeros become the defaults of
 /// `planning::PlanOptions`. Returns an error for a name or number that has no meaning, e.g.
-/// "method: 'magic' is unknown". A value that is not zero but has no effect (a time without
-/// `has_times`, a target without its policy) is an error, since its sender meant it.
+/// "method: 'magic' is unknown; the values are ...". A value that is not zero but has no effect (a
+/// time without `has_times`, a target without its policy) is an error, since its sender meant it.
 base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
                                               const DeadlineLimits& limits = {});
 

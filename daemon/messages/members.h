@@ -71,12 +71,26 @@ template <base::NamedEnum Enum>
 void translate(Enum mine, std::string& wire) {
   wire = base::name_of(mine);
 }
+/// Returns what a receiver of messages says of a name or number that no value has: "'magic' is
+/// unknown; the values are ladder, keyframe_insertion", "9 is unknown; the values are 0 (closest),
+/// 1 (shortest)".
+template <class Wire, class Names>
+std::string unknown_value(const Wire& wire, const Names& names) {
+  constexpr bool kIsName = std::is_same_v<Wire, std::string>;
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list += list.empty() ? "" : ", ";
+    list += kIsName ? std::string(names[i]) : fmt::format("{} ({})", i, names[i]);
+  }
+  return fmt::format(
+      kIsName ? "'{}' is unknown; the values are {}" : "{} is unknown; the values are {}", wire,
+      list);
+}
 /// Reads the number or the name of a value.
 template <class Wire, base::NamedEnum Enum>
 void translate(const Wire& wire, Enum& mine, Refusal& refusal) {
-  constexpr bool kIsName = std::is_same_v<Wire, std::string>;
   const std::optional<Enum> value = base::value_of<Enum>(wire);
-  if (!value) refusal.add(wire, fmt::format(kIsName ? "'{}' is unknown" : "{} is unknown", wire));
+  if (!value) refusal.add(wire, unknown_value(wire, names_of(Enum{})));
   mine = value.value_or(mine);
 }
 /// Reads the index of a keyframe.

@@ -113,7 +113,7 @@ struct TableReader {
 std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
   std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
   if (!shape) {
-    refusal.add(wire.type, fmt::format("{} is unknown", wire.type));
+    refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNames));
     return shape;
   }
   const auto read = [&](auto& part) {

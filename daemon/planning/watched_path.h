@@ -15,8 +15,9 @@
 
 namespace camway::planning {
 
-/// A path, mostly one that was proved free of collision, with all that is needed to tell quickly
-/// whether it still is after a change of its scene. Immutable. Thread-safe.
+/// A path with all that is needed to tell quickly whether it still is free of collision after a
+/// change of its scene, if it was proved free before. Immutable.
+/// Thread-safe.
 ///
 /// Proof: the scene after a change consists of the part that stayed and the part that was added. A
 /// path that was proved free in the earlier scene is free of the part that stayed, since removing

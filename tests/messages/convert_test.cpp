@@ -130,7 +130,9 @@ TEST(WireConvert, DirectionsNeedNotBeOfUnitLength) {
 TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
   plan_request_t wire = minimal_request();
   wire.objective = 4;
-  EXPECT_EQ(from_wire(wire).error, "objective: 4 is unknown");
+  EXPECT_EQ(from_wire(wire).error,
+            "objective: 4 is unknown; the values are 0 (closest), 1 (shortest), 2 (smoothest), 3 "
+            "(safest)");
   wire = minimal_request();
   wire.orientation.policy = -1;
   EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
@@ -551,7 +553,8 @@ TEST(WireConvert, ValuesAreLeftToValidation) {
 TEST(WireConvert, UnknownMethodIsAnErrorThatNamesIt) {
   plan_request_t wire = minimal_request();
   wire.method = "magic";
-  EXPECT_EQ(from_wire(wire).error, "method: 'magic' is unknown");
+  EXPECT_EQ(from_wire(wire).error,
+            "method: 'magic' is unknown; the values are ladder, keyframe_insertion");
 }
 
 TEST(WireConvert, SegmentsThatAreNoPathAreRefused) {

@@ -214,10 +214,11 @@ class Printer {
 /// The end of the watch.
 struct Followed {
   ExitCode code;
-  double farewell_s = 1.0;  ///< how long the daemon may take to say that it heard of the end
+  /// Time for the daemon to say that it heard of the end; nothing if no daemon is there.
+  std::optional<double> farewell_s = 1.0;
 };
 
-/// Time for that where no daemon may be there.
+/// `Followed::farewell_s` where it is not known whether a daemon is there.
 constexpr double kShortFarewell_s = 0.3;
 
 /// Says that the watch ended before a path was answered, and what the last event said of that.
@@ -226,7 +227,8 @@ ExitCode report_no_answer(const WatchFlags& flags, const std::optional<WatchEven
       flags.for_s > 0.0 ? fmt::format("within {:g} s", flags.for_s) : std::string("before the end");
   print_error("no answer came " + end + ": " +
               (unheard ? unheard->error
-                       : std::string("the path is still being planned, or no daemon is there")));
+                       : std::string("the path is still being planned, or no daemon is there that "
+                                     "has the same keys and answers")));
   return ExitCode::kNoDaemon;
 }
 
@@ -248,7 +250,7 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
     const Clock::time_point now = Clock::now();
     if (interruption.came() || now >= until) break;
     if (unheard && now >= wait_until) {
-      return {report_failure(unheard->status, unheard->error, flags.key_file), 0.0};
+      return {report_failure(unheard->status, unheard->error, flags.key_file), std::nullopt};
     }
     const std::optional<WatchEvent> event = events.take(std::min(until, now + kLook));
     if (event && event->kind == WatchEvent::Kind::kEnded) {
@@ -308,9 +310,9 @@ ExitCode run_watch(WatchFlags flags) {
   };
   const std::int64_t id = client.watch(to_client_request(*request, flags.scene), take);
   const auto [code, farewell_s] = follow(flags, interruption, events);
-  if (farewell_s == 0.0) return code;
+  if (!farewell_s) return code;
   // Otherwise the daemon would watch and plan again until the lease is over.
-  if (!client.unwatch(id, farewell_s) && code == ExitCode::kSuccess) {
+  if (!client.unwatch(id, *farewell_s) && code == ExitCode::kSuccess) {
     print_error("the daemon did not say that it heard of the end; it watches on until --lease-s");
   }
   return code;

@@ -29,8 +29,9 @@ constexpr int kMostSwingSteps = 40;
 
 class Search {
  public:
-  Search(FreeSpace& space, const motion::Pose& pose, double margin_m, const PoseRule& will_do)
-      : space_(space), pose_(pose), margin_m_(margin_m), will_do_(will_do) {}
+  Search(FreeSpace& space, const motion::Pose& pose, double margin_m, const PoseRule& will_do,
+         const base::Deadline& deadline)
+      : space_(space), pose_(pose), margin_m_(margin_m), will_do_(will_do), deadline_(deadline) {}
 
   std::optional<FreePose> run() {
     std::vector<Move> found = on_shells(directions());
@@ -58,6 +59,7 @@ class Search {
   }
 
   bool will_do(const Vec3& direction_W, double by_m) {
+    if (deadline_.passed()) return false;
     const motion::Pose there = moved(direction_W, by_m);
     return space_.is_free(there, margin_m_) && will_do_(there);
   }
@@ -152,18 +154,20 @@ class Search {
   const motion::Pose& pose_;
   const double margin_m_;
   const PoseRule& will_do_;
+  const base::Deadline& deadline_;
 };
 
 }  // namespace
 
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
-                                          double margin_m, const PoseRule& will_do) {
+                                          double margin_m, const PoseRule& will_do,
+                                          const base::Deadline& deadline) {
   // From beyond the bounds the way back is straight, however long.
   const motion::Pose inside = space.within_bounds(pose, (1.0 + kFreePosePrecision) * margin_m);
   const double moved_m = (inside.position - pose.position).norm();
   if (moved_m > 0.0 && space.is_free(inside, margin_m) && will_do(inside))
     return FreePose{inside, moved_m};
-  std::optional<FreePose> found = Search(space, inside, margin_m, will_do).run();
+  std::optional<FreePose> found = Search(space, inside, margin_m, will_do, deadline).run();
   if (found && moved_m > 0.0) found->moved_m = (found->pose.position - pose.position).norm();
   return found;
 }

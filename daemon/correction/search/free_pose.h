@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "daemon/base/deadline.h"
 #include "daemon/correction/path/free_space.h"
 
 namespace camway::correction {
@@ -26,10 +27,13 @@ using PoseRule = std::function<bool(const motion::Pose&)>;
 /// is taken. A pose beyond the bounds is first moved straight to within them, however far; if it is
 /// not free there, the shells grow from there.
 ///
+/// Once the deadline has passed, no further pose is looked at, and the best so far is the result.
+///
 /// Returns nothing if no shell within `kFreePoseReach` radii of the ball about the body holds such
 /// a pose. Local search: it may miss a free region that is narrower than the spacing of the shells.
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
-                                          double margin_m, const PoseRule& will_do);
+                                          double margin_m, const PoseRule& will_do,
+                                          const base::Deadline& deadline = base::Deadline::never());
 
 inline constexpr double kFreePosePrecision = 0.02;  ///< share of the translation
 inline constexpr double kFreePoseReach = 20.0;      ///< radii of the ball about the body

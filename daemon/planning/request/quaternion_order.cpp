@@ -57,9 +57,10 @@ std::optional<std::string> quaternion_order_warning(const PlanRequest& request,
   constexpr std::string_view kXyzw = "x, y, z, w";
   const bool is_wxyz = as_read == QuaternionOrder::kWxyz;
   return fmt::format(
-      "{}: all cameras look rolled by more than 60 degrees, and would be upright if the "
+      "{}{}: all cameras look rolled by more than 60 degrees, and would be upright if the "
       "quaternions were in the order {}; they are read as {}",
-      request.name_of("keyframes[].orientation"), is_wxyz ? kXyzw : kWxyz, is_wxyz ? kWxyz : kXyzw);
+      request.name_of("keyframes[].orientation"), is_wxyz ? "" : "_xyzw", is_wxyz ? kXyzw : kWxyz,
+      is_wxyz ? kWxyz : kXyzw);
 }
 
 }  // namespace camway::planning

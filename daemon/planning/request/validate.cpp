@@ -25,8 +25,8 @@ InvalidRequest invalid(std::string field, std::string_view reason,
   return {std::move(field), keyframe, std::string(reason), {}};
 }
 
-/// Returns the unit of angles in the sender's names: `cone_rad` is in radians, all others in
-/// degrees.
+/// Returns the unit of angles in the sender's names: radians where the name says so, as in
+/// "cone_rad" and "turn_rate_rad_per_s", else degrees.
 AngleUnit unit_of(const PlanRequest& request, std::string_view field) {
   const bool is_in_radians = request.name_of(field).find("_rad") != std::string::npos;
   return is_in_radians ? AngleUnit::kRadians : AngleUnit::kDegrees;
@@ -43,8 +43,9 @@ Fault check_number(const PlanRequest& request, const std::string& group, const F
   const std::string said =
       std::is_integral_v<Number> ? fmt::format("{}", value) : spec.value_text(number, unit);
   const std::string range = spec.range_text(unit);
-  return invalid(field, fmt::format("is {}; it must {} {}", said,
-                                    range.starts_with("between") ? "lie" : "be", range));
+  return invalid(field, fmt::format("is {}; it must {} {}{}{}", said,
+                                    range.starts_with("between") ? "lie" : "be", range,
+                                    spec.unit.empty() ? "" : " ", spec.unit));
 }
 
 /// Returns whether a quaternion of this length is that of a rotation.
@@ -89,8 +90,8 @@ Fault check_step(const std::vector<Keyframe>& keyframes, std::size_t index, doub
       kLeastTimeStep_s, kLeastRelativeTimeStep * std::max(std::abs(time_s), std::abs(previous_s)));
   if (step_s < least_step_s) {
     return invalid_in(index, "time",
-                      fmt::format("is only {:.2g} s after keyframe {}; at such times it must be "
-                                  "{:.2g} s or more",
+                      fmt::format("is only {:.4g} s after keyframe {}; times of that size must be "
+                                  "{:.4g} s apart or more, for the precision of doubles",
                                   step_s, index - 1, least_step_s));
   }
   if (step_s < kLeastTimeStepOfPath * duration_s) {

@@ -16,6 +16,13 @@ std::string notes(const Outcomes& plan, const PlanResult& result) {
          note_of_tolerance(plan.request, plan.query.body) + note_of_method(plan.request);
 }
 
+/// Returns ", 0.12 m or more from the scene", rounded down; nothing where there was no time to find
+/// out.
+std::string note_of_clearance(double clearance_m) {
+  return clearance_m > 0.0 ? fmt::format(", {} m or more from the scene", rounded_down(clearance_m))
+                           : "";
+}
+
 void conclude_free(const Outcomes& plan, PlanResult& result) {
   if (plan.slowed.breach) {
     // It is proved free, and the certificate says so; it is not what was asked for.
@@ -29,8 +36,8 @@ void conclude_free(const Outcomes& plan, PlanResult& result) {
   } else {
     result.status = Status::kOk;
     result.message =
-        fmt::format("{}; the path is proved free of collision, {} m or more from the scene{}",
-                    what_was_done(result), rounded_down(result.certificate.clearance_lower_bound_m),
+        fmt::format("{}; the path is proved free of collision{}{}", what_was_done(result),
+                    note_of_clearance(result.certificate.clearance_lower_bound_m),
                     plan.query.obstacles.bounds.any() ? ", and within bounds" : "") +
         note_of_times(result, plan.slowed.is_everywhere) + notes(plan, result);
   }

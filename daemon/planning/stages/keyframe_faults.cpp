@@ -69,6 +69,7 @@ class Search {
         return;
       const Pose& pose = keyframes_[checked_].pose;
       if (space_.gap_m(pose, space_.detect().tolerance_m) > 0.0) continue;
+      if (deadline_.passed()) return;  // a contact takes longer to find than a gap
       const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
       faults_.push_back({checked_, contact ? contact->depth_m : 0.0, std::nullopt});
       faults_.back().leaves_bounds = contact && collision::Obstacles::is_side(contact->triangle);
@@ -160,7 +161,8 @@ class Search {
   }
 
   std::optional<FreePose> nearest(std::size_t keyframe, const correction::PoseRule& will_do) {
-    return correction::nearest_free_pose(space_, keyframes_[keyframe].pose, margin_m_, will_do);
+    return correction::nearest_free_pose(space_, keyframes_[keyframe].pose, margin_m_, will_do,
+                                         deadline_);
   }
 
   const scene::Snapshot& snapshot_;

@@ -29,9 +29,9 @@ void refuse(std::string message, std::optional<std::size_t> keyframe, PlanResult
 }
 
 // Ends with a timeout and without a path.
-void give_up(std::string_view before, const PlanRequest& request, PlanResult& result) {
+void give_up(std::string why, PlanResult& result) {
   result.status = Status::kTimeout;
-  result.message = fmt::format("{} before {}; no path was made", deadline_reached(request), before);
+  result.message = std::move(why) + "; no path was made";
   result.keyframes.clear();
   result.keyframe_faults.clear();
 }
@@ -73,7 +73,9 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
     result.keyframes[fault.keyframe].pose = *fault.free_pose;
     result.keyframes[fault.keyframe].is_repaired = true;
   }
-  if (!found.complete) give_up("all keyframes were looked at", request, result);
+  if (!found.complete) {
+    give_up(deadline_reached(request) + " before all keyframes were looked at", result);
+  }
   return found.complete;
 }
 
@@ -100,7 +102,9 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
   if (!accept_keyframes(std::move(faults), request, deadline, result)) return std::nullopt;
   const auto count = static_cast<double>(result.keyframes.size());
   if (leaves_too_little(deadline, kInterpolating_s_per_keyframe * count)) {
-    give_up("the path was interpolated", request, result);
+    give_up(fmt::format("the deadline of {} s is too short to interpolate {} keyframes",
+                        request.options.deadline_s, result.keyframes.size()),
+            result);
     return std::nullopt;
   }
   motion::CubicPath interpolated = interpolated_path(request, result.keyframes, prepared.origin);

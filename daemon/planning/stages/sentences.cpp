@@ -228,8 +228,12 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
     message += timed_out ? deadline_reached(request) + " before a free pose was found"
                          : "no free pose was found near it";
   }
-  if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());
-  if (faults.size() >= kMostKeyframeFaults && may_repair) message += ", too many to be repaired";
+  const bool are_all = faults.size() < kMostKeyframeFaults;
+  if (faults.size() > 1) {
+    message +=
+        fmt::format("; {}{} keyframes are at fault", are_all ? "" : "at least ", faults.size());
+  }
+  if (!are_all && may_repair) message += ", too many to be repaired";
   return message;
 }
 

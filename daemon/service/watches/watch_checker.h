@@ -51,8 +51,9 @@ class WatchChecker {
   WatchChecker(const WatchChecker&) = delete;
   WatchChecker& operator=(const WatchChecker&) = delete;
 
-  /// Watches a path, which is proved free in `proved_in`, a revision of its scene; in none if it is
-  /// null. Its first verdict follows soon. An id is used only once.
+  /// Watches a path, which is proved free in `proved_in`, a revision of its scene. If `proved_in`
+  /// is null, nothing is known of the path. Its first verdict follows soon. An id is used only
+  /// once.
   void watch(Id id, std::string scene, std::shared_ptr<const planning::WatchedPath> path,
              std::shared_ptr<const scene::Snapshot> proved_in);
 

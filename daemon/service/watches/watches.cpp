@@ -23,8 +23,8 @@ constexpr milliseconds kPlanAgainIn{500};
 /// Pause after a change before a better path is looked for, in case another change follows.
 constexpr milliseconds kSettle{100};
 constexpr milliseconds kLongestImprovePause{30'000};
-/// Number of former paths that are kept for each watched path.
-constexpr std::size_t kFormers = 3;
+/// Number of former answers whose paths are kept for each watched path.
+constexpr std::size_t kFormers = 2;
 
 std::chrono::steady_clock::duration lease_of(double lease_s, milliseconds most) {
   const std::chrono::duration<double> asked(lease_s);
@@ -93,6 +93,7 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
   }
   set_answer(position->second, answer, bytes);
   if (is_new) keep_interpolated(position->second);
+  position->second.answer.interpolated.reset();
   make_news(position->second, now);
   core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
   return true;
@@ -357,15 +358,14 @@ void Watches::make_room(Watch& watch, std::size_t bytes) {
 /// Has the path as interpolated checked, too, if it collides. A better one may be found when it
 /// collides less.
 void Watches::keep_interpolated(Watch& watch) {
-  const WatchableAnswer& answer = watch.answer;
-  if (!answer.interpolated) return;
-  const std::size_t bytes = answer.interpolated->memory_bytes();
-  if (bytes_ + bytes > limits_.bytes) return;
+  // The checker shares the path from now on.
+  const auto path = std::exchange(watch.answer.interpolated, nullptr);
+  if (!path || bytes_ + path->memory_bytes() > limits_.bytes) return;
   const WatchChecker::Id id = next_id_++;
-  keys_.emplace(id, answer.key);
-  watch.formers.push_back({id, bytes, answer.colliding_s});
-  bytes_ += bytes;
-  checker_.watch(id, answer.request->scene, answer.interpolated, nullptr);
+  keys_.emplace(id, watch.answer.key);
+  watch.formers.push_back({id, true, path->memory_bytes(), watch.answer.colliding_s});
+  bytes_ += path->memory_bytes();
+  checker_.watch(id, watch.answer.request->scene, path, nullptr);
 }
 
 /// Keeps the present path of `watch` in the checker, although one of `next_bytes` replaces it, if
@@ -381,8 +381,9 @@ void Watches::keep_former(Watch& watch, std::size_t next_bytes) {
     keys_.erase(watch.id);
     return;
   }
-  if (watch.formers.size() == kFormers) forget_former(watch, kFormers - 1);
-  watch.formers.push_back({watch.id, bytes, length_s(watch.collisions)});
+  const auto answers = std::ranges::count(watch.formers, false, &Former::is_interpolated);
+  if (std::cmp_equal(answers, kFormers)) forget_former(watch, watch.formers.size() - 1);
+  watch.formers.push_back({watch.id, false, bytes, length_s(watch.collisions)});
   bytes_ += bytes;
 }
 

@@ -116,6 +116,7 @@ class Watches {
   /// A path that was watched before, or that collided from the beginning.
   struct Former {
     WatchChecker::Id id = 0;
+    bool is_interpolated = false;
     std::size_t bytes = 0;
     double colliding_s = 0.0;  ///< total time during which it collides
   };

@@ -114,7 +114,7 @@ TEST_F(AskSceneTest, WaitsNotLongForADaemonThatSaysNothingOfACancel) {
   const auto begin = std::chrono::steady_clock::now();
   const SceneAnswer answer = called_off(client, asked);
   EXPECT_EQ(answer.status, Status::kNoAnswer);
-  EXPECT_THAT(answer.error, HasSubstr("does not say what became of it"));
+  EXPECT_THAT(answer.error, HasSubstr("no daemon says what became of it"));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 

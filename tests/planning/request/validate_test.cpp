@@ -293,8 +293,8 @@ TEST(Validate, SaysValuesInTheUnitsOfTheSender) {
        "camera.fov_x_deg: is 180 degrees; it must be above 0 and below 180 degrees",
        "camera.fov_x_rad: is 3.141592653589793 rad; it must be above 0 and below 3.14159 rad"},
       {[](PlanRequest& r) { r.camera.near_m = 2e9; },
-       "camera.near: is 2000000000 m; it must be above 0 and at most 1e+09",
-       "camera.near_m: is 2000000000 m; it must be above 0 and at most 1e+09"},
+       "camera.near: is 2000000000 m; it must be above 0 and at most 1e+09 m",
+       "camera.near_m: is 2000000000 m; it must be above 0 and at most 1e+09 m"},
       {[=](PlanRequest& r) { r.options.limits.turn_rate_rad_per_s = -degree; },
        "options.limits.turn_rate_deg_per_s: is -1; it must be above 0",
        "options.limits.turn_rate_rad_per_s: is -0.017453292519943295; it must be above 0"},
@@ -330,7 +330,7 @@ TEST(Validate, TakesTimesAsCloseAsDoublesAllow) {
     const std::optional<InvalidRequest> found = validate(request);
     ASSERT_TRUE(found) << first_s;
     EXPECT_THAT(found->message,
-                ::testing::HasSubstr("s after keyframe 0; at such times it must be"));
+                ::testing::HasSubstr("s after keyframe 0; times of that size must be"));
     set_gap(0.0);
     EXPECT_THAT(validate(request)->message, ::testing::HasSubstr("times must increase"));
   }
@@ -352,7 +352,7 @@ TEST(Validate, SaysWhatABodyMustBe) {
   PlanRequest request = good_request();
   request.body = motion::BoxShape{geometry::Vec3::Zero(), {1.0, -1.0, 1.0}};
   EXPECT_EQ(validate(request)->message,
-            "body.size[1]: is -1 m; it must be above 0 and at most 1e+09");
+            "body.size[1]: is -1 m; it must be above 0 and at most 1e+09 m");
 }
 
 TEST(Validate, AQuaternionNeedNotBeOfUnitLength) {

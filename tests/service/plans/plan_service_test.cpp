@@ -188,7 +188,8 @@ TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
   plan_request_t unknown_method = request_with(2);
   unknown_method.method = "magic";
   daemon.send(unknown_method);
-  EXPECT_EQ(daemon.answer_to(unknown_method)->message, "method: 'magic' is unknown");
+  EXPECT_EQ(daemon.answer_to(unknown_method)->message,
+            "method: 'magic' is unknown; the values are ladder, keyframe_insertion");
 
   plan_request_t negative = request_with(3);
   negative.clearance_m = -1.0;
@@ -578,7 +579,9 @@ TEST(PlanService, ABodyThatCannotBeIsInvalidByName) {
   const std::optional<plan_response_t> answer = daemon.answer_to(request);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
-  EXPECT_EQ(answer->message, "body.type: 77 is unknown");
+  EXPECT_EQ(answer->message,
+            "body.type: 77 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
+            "4 (mesh)");
 }
 
 }  // namespace

@@ -22,8 +22,9 @@ class Interruption {
     const timespec wait{.tv_sec = 0, .tv_nsec = milliseconds * 1'000'000};
     return sigtimedwait(&signals_, nullptr, &wait) > 0;
   }
-  /// Ends this process by SIGINT, as if it had not been blocked.
+  /// Ends this process by SIGINT, as if it had been neither blocked nor ignored.
   void end_process() const {
+    std::signal(SIGINT, SIG_DFL);
     pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
     raise(SIGINT);
   }

@@ -239,9 +239,9 @@ std::vector<Finding> diagnose(const HostFacts& facts) {
   }
   if (facts.config_file.empty()) return findings;
   for (const std::string& fault : facts.config_faults) {
-    findings.push_back(
-        {"configuration", Severity::kProblem, fault,
-         facts.config_is_readable ? "mend that line of the file" : "name a file that can be read"});
+    findings.push_back({"configuration", Severity::kProblem, fault,
+                        facts.config_is_readable ? "mend that line of the file"
+                                                 : "name a file with settings that can be read"});
   }
   if (facts.config_faults.empty()) {
     findings.push_back({"configuration", Severity::kGood, facts.config_file + " is right"});

@@ -196,7 +196,10 @@ void look_at_config(const std::string& file, HostFacts& facts) {
   facts.config_file = file;
   if (file.empty()) return;
   process::DaemonOptions options = process::default_options();
-  facts.config_is_readable = ::access(file.c_str(), R_OK) == 0;
+  std::error_code unreadable;
+  facts.config_is_readable = std::filesystem::is_regular_file(file, unreadable) &&
+                             std::filesystem::file_size(file, unreadable) > 0 &&
+                             ::access(file.c_str(), R_OK) == 0;
   facts.config_faults = process::read_config_file(file, options);
   if (!facts.config_faults.empty()) return;
   for (const process::SceneArgument& scene : options.scenes) {

@@ -112,7 +112,8 @@ std::vector<Illness> illnesses() {
          facts.config_is_readable = false;
          facts.config_faults = {"c.toml: cannot be opened"};
        },
-       "configuration", Severity::kProblem, "c.toml: cannot be opened", "name a file"},
+       "configuration", Severity::kProblem, "c.toml: cannot be opened",
+       "name a file with settings"},
       {[](HostFacts& facts) { facts.scene_files[0].exists = false; }, "scene files",
        Severity::kProblem, "'room': /room.obj does not exist", "mend `file`"},
       {[](HostFacts& facts) { facts.scene_files[0].readable = false; }, "scene files",
