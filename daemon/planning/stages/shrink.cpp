@@ -94,7 +94,8 @@ class Shrinking {
     UnsentResult found = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
     if (found.result.status == Status::kTimeout) cut_off_ = true;
-    is_shut_in_ = !found.result.shut_in.empty();
+    // Where a search ended at its limit, there may be a way that it did not find.
+    is_shut_in_ = std::ranges::any_of(found.result.shut_in, &correction::ShutIn::is_complete);
     if (found.result.status != Status::kOk) return false;
     found.result.near_scale = scales_[index];
     best_ = std::move(found);
