@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "daemon/planning/plan.h"
 #include "tests/planning/plan_fixture.h"
@@ -214,6 +216,82 @@ TEST(PlanWithoutAWay, NamesAKeyframeBetweenTheSkinsOfAWall) {
   for (const correction::Correction& correction : result.corrections)
     points += correction.tried.lattice_points;
   EXPECT_LT(points, 500'000);
+}
+
+/// Returns the most places that searches for a way round looked at for one collision.
+std::int32_t most_points(const PlanResult& result) {
+  std::int32_t most = 0;
+  for (const correction::Correction& correction : result.corrections)
+    most = std::max(most, correction.tried.lattice_points);
+  return most;
+}
+
+constexpr double kRoom_m = 4.0;         // from the middle of one hollow wall to the next
+constexpr double kHalfCavity_m = 0.08;  // of the cavity in a wall
+constexpr double kSheet_m = 0.01;
+
+/// Adds the part of a hollow wall between two others: four boards on either side, with joints, and
+/// studs that leave gaps between them and the boards. `axis`: the one across the wall.
+void add_hollow_wall(Mesh& mesh, int axis, double at_m, double from_m, double joint_m) {
+  constexpr double kBoard_m = (kRoom_m - 2.0 * (kHalfCavity_m + kSheet_m)) / 4.0;
+  const auto add_box = [&](double across_m, double half_m, double along_m, double width_m,
+                           double top_m) {
+    Vec3 low(across_m - half_m, along_m, 0.0);
+    Vec3 high(across_m + half_m, along_m + width_m, top_m);
+    if (axis == 1) std::swap(low.x(), low.y());
+    if (axis == 1) std::swap(high.x(), high.y());
+    testing::add_cuboid(mesh, low, high);
+  };
+  for (int board = 0; board < 4; ++board) {
+    const double begin_m = from_m + kHalfCavity_m + kSheet_m + board * kBoard_m;
+    for (const double side : {-1.0, 1.0}) {
+      const double middle_m = at_m + side * (kHalfCavity_m + 0.5 * kSheet_m);
+      add_box(middle_m, 0.5 * kSheet_m, begin_m, kBoard_m - joint_m, 3.0);
+    }
+    add_box(at_m, 0.03, begin_m - 0.02, 0.04, 2.9);
+  }
+}
+
+/// A building of rooms between hollow walls, which all hold one cavity. Above the ceilings of the
+/// rooms is an attic to which the cavity is open.
+Mesh building_of_hollow_walls(int rooms, double joint_m) {
+  const double length_m = kRoom_m * rooms;
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-1, -1, -0.1}, {length_m + 1, length_m + 1, 0});
+  testing::add_cuboid(mesh, {-1, -1, 3.2}, {length_m + 1, length_m + 1, 3.3});
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int wall = 0; wall <= rooms; ++wall) {
+      for (int room = 0; room < rooms; ++room)
+        add_hollow_wall(mesh, axis, kRoom_m * wall, kRoom_m * room, joint_m);
+    }
+  }
+  for (int x = 0; x < rooms; ++x) {
+    for (int y = 0; y < rooms; ++y) {
+      testing::add_cuboid(mesh, {kRoom_m * x + 0.095, kRoom_m * y + 0.095, 2.6},
+                          {kRoom_m * (x + 1) - 0.095, kRoom_m * (y + 1) - 0.095, 2.62});
+    }
+  }
+  return mesh;
+}
+
+// The cavity reaches through the whole building, so the search of it ends before all of it was
+// looked at. The ball of the search fits through joints of 6 mm, and not through those of 3 mm; the
+// camera fits through none.
+TEST(PlanWithoutAWay, NamesAKeyframeInACavityThatIsTooLargeToBeSearched) {
+  PlanRequest request;
+  request.camera = {.fov_x_rad = 1.4, .fov_y_rad = 1.0, .near_m = 0.05};
+  for (const Vec3& at : {Vec3(2, 2, 1.5), Vec3(4.0, 5.6, 1.3), Vec3(6, 6, 1.5)})
+    request.keyframes.push_back({0.0, {at, testing::looking_along(Vec3::UnitY())}});
+  for (const double joint_m : {0.003, 0.006}) {
+    SCOPED_TRACE(joint_m);
+    const PlanResult result = planned(*snapshot_of(building_of_hollow_walls(3, joint_m)), request);
+    EXPECT_EQ(result.status, Status::kPartial) << result.message;
+    EXPECT_EQ(result.keyframe, 1U);
+    EXPECT_FALSE(result.deadline_reached);
+    EXPECT_THAT(result.message, ::testing::HasSubstr(
+                                    "no search found a way out of the place where keyframe 1 is;"));
+    EXPECT_LT(most_points(result), 800'000);
+  }
 }
 
 }  // namespace

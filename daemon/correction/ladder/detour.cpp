@@ -28,9 +28,14 @@ using motion::SignedPose;
 constexpr double kLeastMargin = 0.02;                        // share of the ball's radius
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
-constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
-constexpr std::size_t kFewCells = 12'000;      // in place of a lattice that costs as much
-constexpr double kAlike = 1.6;                 // cost of another way, relative to the first
+constexpr std::size_t kMostCells = 2'000'000;          // some 50 bytes each at most
+constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
+// An end is in a narrow place if no ball of so many radii fits anywhere near it.
+constexpr double kNarrow = 3.0;
+// About a second. No way of the scenes of the measurement was lost; one from a room took 1'100'000
+// cells.
+constexpr std::size_t kMostCellsIfNarrow = 400'000;
+constexpr double kAlike = 1.6;       // cost of another way, relative to the first
 constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...
 constexpr double kApart = 0.7;       // ... or as a share of the apex's distance from the path
 constexpr double kFarther = 1.4;     // a way whose apex is so much farther off was never worth it
@@ -55,11 +60,20 @@ class Detour {
   DetourResult run(Search search) {
     result_.candidate = search == Search::kTurning ? with_turns()
                         : space_.may_turn()        ? with_ball(Lattices::kAllButFinest)
-                                                   : with_ball(Lattices::kAll);
+                                                   : without_turns();
     return std::move(result_);
   }
 
  private:
+  // Where there is none, looks whether an end is shut in.
+  std::optional<Candidate> without_turns() {
+    std::optional<Candidate> found = with_ball(Lattices::kAll);
+    if (!found && !deadline_.passed()) {
+      result_.pocket = cells_for_ball(kBallShares.front() * radius_m_, kFewCells).pocket;
+    }
+    return found;
+  }
+
   // Detours with room for every orientation: the cheaper one of two on different sides.
   std::optional<Candidate> with_ball(Lattices lattices) {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
@@ -88,7 +102,9 @@ class Detour {
     const auto is_done = [&] {
       if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
       // The pocket is no proof, and other corrections may follow: it only ends this search.
-      const bool is_shut_in = std::exchange(result_.pocket, std::nullopt) && !has_escaped;
+      const bool is_complete = has_complete_pocket();
+      if (is_complete) result_.pocket.reset();
+      const bool is_shut_in = is_complete && !has_escaped;
       return threaded || is_shut_in || (!deadline_.passed() && proofs_.is_caged());
     };
     search_ways(ball, lattices, about_W, {use, proofs_.is_separated, is_done});
@@ -96,6 +112,10 @@ class Detour {
     std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
     const bool is_better = second && cost(*second) < cost(*first);
     return std::move(is_better ? second : first);
+  }
+
+  [[nodiscard]] bool has_complete_pocket() const {
+    return result_.pocket && result_.pocket->is_complete;
   }
 
   using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
@@ -148,7 +168,7 @@ class Detour {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
       std::optional<Candidate> found = along_small_ball(share, kMostCells);
-      if (found || result_.pocket) return found;
+      if (found || has_complete_pocket()) return found;
       if (small_way_W_.empty()) break;
       found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_));
       if (found) return found;
@@ -204,7 +224,12 @@ class Detour {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
-    const CellOptions options{ball_radius_m, kSmallestCell * radius_m_, max_cells, radius_m_};
+    const CellOptions options{ball_radius_m,
+                              kSmallestCell * radius_m_,
+                              max_cells,
+                              /*comfort_m=*/radius_m_,
+                              /*narrow_m=*/kNarrow * radius_m_ - ball_radius_m,
+                              kMostCellsIfNarrow};
     CellResult found = cell_way(space_, center_W(*begin), center_W(*end), options, deadline_);
     count_points(found.cells);
     if (found.way_W.empty()) return found;

@@ -27,7 +27,7 @@ struct ProofsOfNoWay {
 struct DetourResult {
   std::optional<Candidate> candidate;  ///< nothing if no detour was found
   Effort effort;                       ///< effort spent
-  /// The region that shuts in one end of the interval, if a search found one.
+  /// The region about one end of the interval out of which no search found a way, if there is one.
   std::optional<Pocket> pocket;
 };
 

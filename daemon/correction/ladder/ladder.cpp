@@ -63,7 +63,7 @@ class Ladder {
     }
     result.separation = prover_.separation();
     result.cage = prover_.cage();
-    result.shut_in = std::move(shut_in_);
+    result.shut_in = all_shut_in();
     result.inserted_s = corrected_.inserted_s();
     result.closeness = space_.closeness();
     result.path = std::move(corrected_).release();
@@ -100,7 +100,8 @@ class Ladder {
       if (search == Search::kWithRoom) {
         turn_or_replace(i, has_no_way);
       } else if (!has_no_way[leg]) {
-        has_no_way[leg] = !replace_leg(i, search);
+        has_no_way[leg] = is_worthless(leg) || !replace_leg(i, search);
+        mark_searched(leg);
       }
     }
   }
@@ -189,7 +190,7 @@ class Ladder {
     };
     const DetourResult found =
         go_round(problem, search, budget_, space_, options_.seed, proofs, deadline());
-    if (found.pocket) add_shut_in(leg + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
+    if (found.pocket) note_pocket(leg, *found.pocket);
     for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
     if (found.candidate && cost(index, *found.candidate) > most_cost) return true;
     return accept(same_leg, CorrectionKind::kGoRound, found.candidate);
@@ -220,10 +221,43 @@ class Ladder {
     });
   }
 
-  void add_shut_in(std::size_t keyframe, const Pocket& pocket) {
-    const auto same = std::ranges::find(shut_in_, keyframe, &ShutIn::keyframe);
-    if (same != shut_in_.end()) return;
-    shut_in_.push_back({keyframe, pocket.reached_W, pocket.unsure_m});
+  void note_pocket(std::size_t leg, const Pocket& pocket) {
+    const ShutIn shut_in{leg + (pocket.is_at_end ? 1 : 0), pocket.reached_W, pocket.unsure_m,
+                         pocket.is_complete};
+    if (pocket.is_complete) {
+      add_shut_in(shut_in, shut_in_);
+      return;
+    }
+    std::erase_if(not_left_, [&](const NotLeft& known) { return known.leg == leg; });
+    not_left_.push_back({leg, shut_in, pocket.is_narrow});
+  }
+
+  static void add_shut_in(const ShutIn& found, std::vector<ShutIn>& list) {
+    const auto same = std::ranges::find(list, found.keyframe, &ShutIn::keyframe);
+    if (same == list.end()) list.push_back(found);
+  }
+
+  // Whether a costly search of another interval found no way out of the narrow place from which a
+  // cheap search of this one found none. The answer will be partial, whatever this search finds.
+  [[nodiscard]] bool is_worthless(std::size_t leg) const {
+    return std::ranges::any_of(not_left_, [&](const NotLeft& own) {
+      return own.leg == leg && own.is_narrow &&
+             std::ranges::any_of(not_left_, [&](const NotLeft& other) {
+               return other.is_searched && other.shut_in.keyframe == own.shut_in.keyframe;
+             });
+    });
+  }
+
+  void mark_searched(std::size_t leg) {
+    for (NotLeft& known : not_left_) known.is_searched |= known.leg == leg;
+  }
+
+  [[nodiscard]] std::vector<ShutIn> all_shut_in() const {
+    std::vector<ShutIn> all = shut_in_;
+    for (const NotLeft& known : not_left_) {
+      if (!collisions_.open_in(known.leg).empty()) add_shut_in(known.shut_in, all);
+    }
+    return all;
   }
 
   // Centre of the body at a keyframe.
@@ -239,7 +273,16 @@ class Ladder {
   CollisionList collisions_;
   Prover prover_;
   base::Budget budget_;  ///< steps of the relaxation of detours, and then of polishing
-  std::vector<ShutIn> shut_in_;
+  /// A keyframe from which a search ended at its limit without a way out.
+  struct NotLeft {
+    std::size_t leg = 0;  ///< the interval that was searched
+    ShutIn shut_in;
+    bool is_narrow = false;
+    bool is_searched = false;  ///< for ways that need turning, too
+  };
+
+  std::vector<ShutIn> shut_in_;  ///< of which all that is reachable was searched
+  std::vector<NotLeft> not_left_;
   bool timed_out_ = false;
 };
 

@@ -47,8 +47,10 @@ struct LadderResult {
   /// where the cheap methods fail.
   std::optional<Separation> separation;
   std::optional<Cage> cage;
-  std::vector<ShutIn> shut_in;  ///< keyframes found to be shut in, in the order of discovery
-  Closeness closeness;          ///< the scale by which corrections were compared
+  /// Keyframes found to be shut in, in the order of discovery; first those of which everything that
+  /// is reachable was searched.
+  std::vector<ShutIn> shut_in;
+  Closeness closeness;  ///< the scale by which corrections were compared
   bool timed_out = false;
   /// If the limit was exceeded: the number of inserted keyframes that all corrections found would
   /// need.

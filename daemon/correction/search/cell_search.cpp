@@ -28,6 +28,8 @@ constexpr double kMostNear = 8.0;      // times its length that a way without ro
 constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
 constexpr double kRoomInFront = 2.5;   // sides of a cell, from its middle, of a wall that is bare
 constexpr std::size_t kLooksPerClock = 64;  // looks at a cell for each reading of the clock
+// Of the volume reached from the other end with as many cells: less is called much less.
+constexpr double kMuchLess = 0.125;
 
 enum class State : std::uint8_t { kFree, kMixed, kBlocked };
 
@@ -78,6 +80,11 @@ class CellTree {
     const geometry::Box box(center_W.array() - reach_m, center_W.array() + reach_m);
     const Vec3 from_W = this->center_W(beside).cwiseMax(box.min()).cwiseMin(box.max());
     return closed_corner(space_.obstacles(), box, from_W, keep_m);
+  }
+
+  /// Gap of the ball in the middle of a cell, as far as it is less than `horizon_m`.
+  [[nodiscard]] double gap_m(const OctreeCell& cell, double horizon_m) const {
+    return space_.ball_gap_m(center_W(cell), options_.ball_radius_m, horizon_m);
   }
 
   /// The first of the new cells.
@@ -193,8 +200,12 @@ class CellSearch {
     result.exhausted = search();
     if (has_met_) {
       result.way_W = way();
+      if (!is_narrow_) find_narrow_ends();
+      result.pocket = pocket_so_far();
     } else if (result.exhausted) {
       result.pocket = pocket();
+    } else if (!is_late_) {
+      result.pocket = pocket_so_far();
     }
     result.cells = tree_.size();
     return result;
@@ -232,12 +243,34 @@ class CellSearch {
     reach(start_, 0);
     reach(goal_, 1);
     for (std::size_t turn = 0; !has_met_; ++turn) {
-      if (tree_.size() >= options_.max_cells || is_late()) return false;
+      if (!is_narrow_ && tree_.size() >= kCellsBeforeNarrow) find_narrow_ends();
+      if (tree_.size() >= most_cells() || is_late()) return false;
       const std::optional<std::uint32_t> cell = next(turn % kEnds.size());
       if (!cell) return !is_late_;
       divide(*cell);
     }
     return false;
+  }
+
+  void find_narrow_ends() {
+    is_narrow_.emplace();
+    for (std::size_t end = 0; end < kEnds.size(); ++end) {
+      bool has_room = !(options_.narrow_m > 0.0);
+      for (std::uint32_t i = 0; i < tree_.size() && !has_room; ++i) {
+        const OctreeCell& cell = tree_[i];
+        if (cell.children != kNone || (cell.reached & kEnds[end]) == 0) continue;
+        has_room = tree_.gap_m(cell, options_.narrow_m) >= options_.narrow_m;
+      }
+      (*is_narrow_)[end] = !has_room;
+    }
+  }
+
+  [[nodiscard]] bool is_narrow(std::size_t end) const { return is_narrow_ && (*is_narrow_)[end]; }
+
+  [[nodiscard]] std::size_t most_cells() const {
+    const bool any_is_narrow = is_narrow(0) || is_narrow(1);
+    return any_is_narrow ? std::min(options_.max_cells, options_.max_cells_if_narrow)
+                         : options_.max_cells;
   }
 
   bool is_late() {
@@ -289,7 +322,11 @@ class CellSearch {
     std::vector<std::uint32_t> open;
     const auto add = [&](std::uint32_t cell) {
       if ((tree_[cell].reached & kEnds[end]) != 0) return;
-      has_met_ = has_met_ || tree_[cell].reached != 0;
+      if (tree_[cell].reached != 0) {
+        // The rest of the region of the other end is known.
+        has_met_ = true;
+        return;
+      }
       tree_[cell].reached |= kEnds[end];
       open.push_back(cell);
     };
@@ -331,11 +368,15 @@ class CellSearch {
     }
   }
 
-  /// The end from which less can be reached. Where all was looked at from the other one, there is
-  /// no way out of this one either.
-  [[nodiscard]] Pocket pocket() const {
-    std::array<geometry::Box, 2> boxes;
-    std::array<double, 2> unsure_m = {0.0, 0.0};
+  /// What was reached from an end.
+  struct Region {
+    geometry::Box box_W;
+    double unsure_m = 0.0;
+    double volume_m3 = 0.0;
+  };
+
+  [[nodiscard]] std::array<Region, 2> regions() const {
+    std::array<Region, 2> regions;
     for (std::uint32_t i = 0; i < tree_.size(); ++i) {
       const OctreeCell& cell = tree_[i];
       if (cell.children != kNone || cell.reached == 0) continue;
@@ -351,12 +392,35 @@ class CellSearch {
       });
       for (std::size_t end = 0; end < kEnds.size(); ++end) {
         if ((cell.reached & kEnds[end]) == 0) continue;
-        boxes[end].extend(box);
-        unsure_m[end] = std::max(unsure_m[end], wall_m);
+        regions[end].box_W.extend(box);
+        regions[end].unsure_m = std::max(regions[end].unsure_m, wall_m);
+        regions[end].volume_m3 += std::pow(2.0 * half_m, 3);
       }
     }
-    const bool is_at_end = boxes[1].diagonal().norm() < boxes[0].diagonal().norm();
-    return {is_at_end, boxes[is_at_end ? 1 : 0], unsure_m[is_at_end ? 1 : 0]};
+    return regions;
+  }
+
+  /// The end from which less can be reached. Where all was looked at from the other one, there is
+  /// no way out of this one either.
+  [[nodiscard]] Pocket pocket() const {
+    const std::array<Region, 2> found = regions();
+    const bool is_at_end = found[1].box_W.diagonal().norm() < found[0].box_W.diagonal().norm();
+    const std::size_t end = is_at_end ? 1 : 0;
+    return {is_at_end, found[end].box_W, found[end].unsure_m, true, is_narrow(end)};
+  }
+
+  /// The end in a narrow place, or else, if there is no way, the one from which much less was
+  /// reached so far. The two were given about as many cells.
+  [[nodiscard]] std::optional<Pocket> pocket_so_far() const {
+    if (start_ == kNone) return std::nullopt;
+    const std::array<Region, 2> found = regions();
+    const bool is_at_end =
+        is_narrow(0) != is_narrow(1) ? is_narrow(1) : found[1].volume_m3 < found[0].volume_m3;
+    const std::size_t end = is_at_end ? 1 : 0;
+    const bool is_less = found[end].volume_m3 < kMuchLess * found[1 - end].volume_m3;
+    const bool is_known = found[end].volume_m3 > 0.0 && (is_narrow(end) || (is_less && !has_met_));
+    if (!is_known) return std::nullopt;
+    return Pocket{is_at_end, found[end].box_W, found[end].unsure_m, false, is_narrow(end)};
   }
 
   [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {
@@ -410,6 +474,8 @@ class CellSearch {
   std::uint32_t goal_ = kNone;
   /// Mixed cells next to what was reached, by end.
   std::array<std::priority_queue<Waiting>, kEnds.size()> waiting_;
+  /// By end; nothing while it is not known.
+  std::optional<std::array<bool, kEnds.size()>> is_narrow_;
   bool has_met_ = false;
   std::size_t looks_ = 0;
   bool is_late_ = false;  ///< whether the deadline had passed when the clock was read last

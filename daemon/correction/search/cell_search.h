@@ -10,6 +10,9 @@
 
 namespace camway::correction {
 
+/// Number of cells after which a search tells whether its ends are in narrow places.
+inline constexpr std::size_t kCellsBeforeNarrow = 12'000;
+
 struct CellOptions {
   double ball_radius_m = 0.0;
   /// Side of the smallest cells. [Limit: value > 0]
@@ -17,6 +20,11 @@ struct CellOptions {
   std::size_t max_cells = 200'000;
   /// Gap above which more room does not make a way better. [Limit: value > 0]
   double comfort_m = 0.1;
+  /// An end is in a narrow place if no cell reached from it among the first `kCellsBeforeNarrow`
+  /// has a middle with this gap of the ball. 0 takes no place for narrow. [Limit: value >= 0]
+  double narrow_m = 0.0;
+  /// Limit of cells where an end is in a narrow place, beside `max_cells`.
+  std::size_t max_cells_if_narrow = 200'000;
 };
 
 struct CellResult {
@@ -25,8 +33,12 @@ struct CellResult {
   /// Whether everything reachable from one end through cells of the smallest size was looked at,
   /// without the other end in it.
   bool exhausted = false;
-  std::optional<Pocket> pocket;  ///< the region that shuts in one end, if `exhausted`
-  std::size_t cells = 0;         ///< number of cells looked at
+  /// The region that shuts in one end, if `exhausted`. If the cells ran out, the region that was
+  /// reached from an end in a narrow place, or from one with much less space than the other. If
+  /// there is a way, the region that was reached from an end in a narrow place before the way out
+  /// of it was found: the body may be too large for that. Else nothing.
+  std::optional<Pocket> pocket;
+  std::size_t cells = 0;  ///< number of cells looked at
 };
 
 /// Finds a way for a ball by approximate cell decomposition (Brooks & Lozano-Pérez 1985; lazily, as
@@ -41,6 +53,9 @@ struct CellResult {
 /// is known, however large the rest is. A cell at a wall or in a corner that is closed
 /// (`closed_corner.h`) is not divided: its free part leads nowhere that its neighbours do not, so a
 /// bare wall costs the length of its edges and not its area.
+///
+/// A narrow place, such as the inside of a hollow wall, may extend through a whole building. Its
+/// walls are then too many to be searched for small holes, so the search of it ends sooner.
 ///
 /// The way is the cheapest one through the free cells that are known at the end of the search; room
 /// lowers the cost. It connects the centres of adjacent free cells, so it is free as far as

@@ -7,16 +7,19 @@
 
 namespace camway::correction {
 
-/// A keyframe from which a search found no way out, even for a ball much smaller than the body. The
-/// search looked at everything that the ball can reach; it is not a proof.
+/// A keyframe from which a search found no way out, even for a ball much smaller than the body. It
+/// is not a proof.
 struct ShutIn {
   std::size_t keyframe = 0;
   geometry::Box region_W;  ///< about all points that the body's centre can reach
   double unsure_m = 0.0;   ///< how much too small the region may be
+  /// Whether the search looked at everything that the ball can reach. If not, the region has only
+  /// what was reached before the search ended at its limit.
+  bool is_complete = true;
 
-  /// False only for points outside of the region.
+  /// Returns false only for points outside of a region that is complete.
   [[nodiscard]] bool may_hold(const geometry::Vec3& point_W) const {
-    return region_W.exteriorDistance(point_W) <= unsure_m;
+    return !is_complete || region_W.exteriorDistance(point_W) <= unsure_m;
   }
 };
 

@@ -38,6 +38,35 @@ void add(std::string& list, std::string_view item) {
   list += item;
 }
 
+/// "1, 4, 7 and 2 more", from the keyframe of index `first` on.
+std::string listed(const std::vector<ShutIn>& shut_in, std::size_t first) {
+  std::string list;
+  for (std::size_t i = first; i < shut_in.size() && i < kMostNamed; ++i)
+    add(list, std::to_string(shut_in[i].keyframe));
+  if (shut_in.size() > kMostNamed) list += fmt::format(" and {} more", shut_in.size() - kMostNamed);
+  return list;
+}
+
+std::string note_of_complete(const std::vector<ShutIn>& shut_in, bool is_bounded) {
+  if (shut_in.empty()) return {};
+  const geometry::Vec3 sizes_m = shut_in.front().region_W.sizes();
+  std::string note = fmt::format(
+      "; keyframe {} seems shut in: no way out of a region of {:.2g} x {:.2g} x {:.2g} m about it "
+      "was found{}",
+      shut_in.front().keyframe, sizes_m.x(), sizes_m.y(), sizes_m.z(),
+      is_bounded ? " within the bounds" : "");
+  if (shut_in.size() > 1) note += "; and so do " + listed(shut_in, 1);
+  return note;
+}
+
+std::string note_of_not_left(const std::vector<ShutIn>& shut_in) {
+  if (shut_in.empty()) return {};
+  const bool is_one = shut_in.size() == 1;
+  return fmt::format("; no search found a way out of the place{} where keyframe{} {} {}",
+                     is_one ? "" : "s", is_one ? "" : "s", listed(shut_in, 0),
+                     is_one ? "is" : "are");
+}
+
 }  // namespace
 
 std::string counted(std::size_t count, std::string_view noun) {
@@ -84,19 +113,11 @@ std::string note_of_effort(const std::vector<Correction>& corrections) {
 }
 
 std::string note_of_shut_in(const std::vector<ShutIn>& shut_in, bool is_bounded) {
-  if (shut_in.empty()) return {};
-  const geometry::Vec3 sizes_m = shut_in.front().region_W.sizes();
-  std::string note = fmt::format(
-      "; keyframe {} seems shut in: no way out of a region of {:.2g} x {:.2g} x {:.2g} m about it "
-      "was found{}",
-      shut_in.front().keyframe, sizes_m.x(), sizes_m.y(), sizes_m.z(),
-      is_bounded ? " within the bounds" : "");
-  std::string others;
-  for (std::size_t i = 1; i < shut_in.size() && i < kMostNamed; ++i)
-    add(others, std::to_string(shut_in[i].keyframe));
-  if (!others.empty()) note += "; and so do " + others;
-  if (shut_in.size() > kMostNamed) note += fmt::format(" and {} more", shut_in.size() - kMostNamed);
-  return note;
+  std::vector<ShutIn> complete = shut_in;
+  const auto others = std::ranges::stable_partition(complete, &ShutIn::is_complete);
+  const std::vector<ShutIn> not_left(others.begin(), others.end());
+  complete.erase(others.begin(), others.end());
+  return note_of_complete(complete, is_bounded) + note_of_not_left(not_left);
 }
 
 std::string note_of_method(const PlanRequest& request) {

@@ -35,8 +35,10 @@ std::string effort_text(const correction::Effort& effort);
 /// if nothing was tried.
 std::string note_of_effort(const std::vector<correction::Correction>& corrections);
 
-/// "; keyframe 2 seems shut in: ...", with the size of the region that was searched; empty if no
-/// keyframe is. `is_bounded`: whether bounds are a part of what shuts it in.
+/// "; keyframe 2 seems shut in: ...", with the size of the region that was searched, for the
+/// keyframes of which everything reachable was searched, and "; no search found a way out of the
+/// place where keyframe 2 is" for the others; empty if there is no keyframe. `is_bounded`: whether
+/// bounds are a part of what shuts it in.
 std::string note_of_shut_in(const std::vector<correction::ShutIn>& shut_in, bool is_bounded);
 
 /// "; note: ..." about options that the request's method ignores; empty if there are none.

@@ -96,6 +96,8 @@ class Shrinking {
     tried_.push_back(scales_[index]);
     if (found.result.status == Status::kTimeout) cut_off_ = true;
     shut_in_ = std::move(found.result.shut_in);
+    // Where a search ended at its limit, there may be a way that it did not find.
+    std::erase_if(shut_in_, [](const correction::ShutIn& known) { return !known.is_complete; });
     if (found.result.status != Status::kOk) return false;
     found.result.near_scale = scales_[index];
     best_ = std::move(found);
@@ -149,7 +151,8 @@ class Shrinking {
   std::vector<double> tried_;
   std::optional<UnsentResult> best_;
   bool cut_off_ = false;
-  std::vector<correction::ShutIn> shut_in_;  ///< keyframes, for the camera that was tried last
+  /// Keyframes of which everything reachable was searched, for the camera that was tried last.
+  std::vector<correction::ShutIn> shut_in_;
 };
 
 }  // namespace

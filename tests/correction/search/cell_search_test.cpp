@@ -276,6 +276,60 @@ TEST(CellWay, IsOverWhenTheSmallerEndWasLookedAt) {
   }
 }
 
+/// A cavity of 3.2 x 2.4 x 0.2 m between two sheets of boards, whose joints of 3 cm are narrower
+/// than the ball, and a room of 3 m in front of it.
+SearchScene cavity_beside_a_room() {
+  scene::Mesh mesh;
+  for (const double z_m : {0.0, 0.21}) {
+    for (int board = 0; board < 16; ++board) {
+      const double x_m = -1.6 + 0.2 * board;
+      testing::add_cuboid(mesh, {x_m, -1.2, z_m}, {x_m + 0.17, 1.2, z_m + 0.01});
+    }
+  }
+  testing::add_cuboid(mesh, {-1.7, -1.3, -3.0}, {-1.6, 1.3, 0.22});
+  testing::add_cuboid(mesh, {1.57, -1.3, -3.0}, {1.67, 1.3, 0.22});
+  testing::add_cuboid(mesh, {-1.7, -1.3, -3.0}, {1.67, -1.2, 0.22});
+  testing::add_cuboid(mesh, {-1.7, 1.2, -3.0}, {1.67, 1.3, 0.22});
+  testing::add_cuboid(mesh, {-1.7, -1.3, -3.1}, {1.67, 1.3, -3.0});
+  return SearchScene(mesh);
+}
+
+// From whichever end. A larger camera would find the cavity narrow, a smaller one would not.
+TEST(CellWay, EndsSoonerWhereAnEndIsInANarrowPlace) {
+  const SearchScene scene = cavity_beside_a_room();
+  const Vec3 cavity_W(0.13, 0.2, 0.1);
+  const Vec3 room_W(-0.2, 0.1, -1.5);
+  CellOptions options = options_of(0.02 * kBall_m, 80'000);
+  options.max_cells_if_narrow = 30'000;
+  for (const bool is_at_end : {false, true}) {
+    for (const double narrow_m : {0.0, 0.05, 0.3}) {
+      SCOPED_TRACE(narrow_m);
+      options.narrow_m = narrow_m;
+      const CellResult result = cell_way(scene.space(), is_at_end ? room_W : cavity_W,
+                                         is_at_end ? cavity_W : room_W, options, Deadline::never());
+      EXPECT_TRUE(result.way_W.empty());
+      EXPECT_FALSE(result.exhausted);
+      const bool is_narrow = narrow_m > 0.1;
+      EXPECT_EQ(result.cells < 31'000, is_narrow) << result.cells;
+      ASSERT_TRUE(result.pocket);
+      EXPECT_EQ(result.pocket->is_at_end, is_at_end);
+      EXPECT_EQ(result.pocket->is_narrow, is_narrow);
+      EXPECT_FALSE(result.pocket->is_complete);
+      EXPECT_TRUE(result.pocket->reached_W.contains(cavity_W));
+      EXPECT_FALSE(result.pocket->reached_W.contains(room_W));
+    }
+  }
+}
+
+// Neither half of a room is narrow, or much smaller than the other.
+TEST(CellWay, BlamesNoEndOfTwoAlike) {
+  CellOptions options = options_of(0.02 * kBall_m, 30'000);
+  options.narrow_m = 0.2;
+  const CellResult result = RoomCase({{0.1, 0.2, 0.9 * kBall_m}}).way(options);
+  EXPECT_TRUE(result.way_W.empty());
+  EXPECT_FALSE(result.pocket);
+}
+
 // Fewer cells than the small hole would take.
 TEST(CellWay, LeadsThroughTheWiderHole) {
   const Vec3 small_W(-0.6, 0.1, 0.0);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/support/random.h"
 
@@ -38,6 +39,22 @@ TEST(EffortText, NamesWhatWasTriedByWhatItWasFor) {
             "14 directions to move or turn in, 1 changed path, 20000 places on a way round, 3000 "
             "poses on a way round that turns");
   EXPECT_EQ(effort_text({}), "");
+}
+
+TEST(EffortText, NamesKeyframesWithoutAWayOut) {
+  using correction::ShutIn;
+  EXPECT_EQ(note_of_shut_in({}, false), "");
+  const ShutIn complete{1, {geometry::Vec3(0, 0, 0), geometry::Vec3(1, 2, 3)}, 0.0, true};
+  const ShutIn cut_off{2, complete.region_W, 0.0, false};
+  const std::string of_complete =
+      "; keyframe 1 seems shut in: no way out of a region of 1 x 2 x 3 m about it was found";
+  const std::string of_cut_off = "; no search found a way out of the place where keyframe 2 is";
+  EXPECT_EQ(note_of_shut_in({complete}, false), of_complete);
+  EXPECT_EQ(note_of_shut_in({cut_off}, false), of_cut_off);
+  EXPECT_EQ(note_of_shut_in({complete, cut_off}, false), of_complete + of_cut_off);
+  EXPECT_EQ(note_of_shut_in(std::vector<ShutIn>(6, cut_off), false),
+            "; no search found a way out of the places where keyframes 2, 2, 2, 2, 2 and 1 more "
+            "are");
 }
 
 TEST(EffortText, SaysWhyThereIsNoPath) {

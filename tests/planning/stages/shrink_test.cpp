@@ -116,6 +116,25 @@ TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {
   EXPECT_THAT(result.message, HasSubstr("keyframe 1 seems shut in"));
 }
 
+// A search that ended at its limit does not show that a larger camera has no way out.
+TEST(PlanWithShrinking, TriesOnWhereTheSearchOfTheSmallestEndedAtItsLimit) {
+  const auto tried_sizes = [](bool is_complete) {
+    PlanRequest request;
+    request.camera.near_m = 1.0;
+    request.options.max_shrink = 0.5;
+    std::size_t tried = 0;
+    plan_within(request, Deadline::never(), [&](const PlanRequest&, const Deadline&) {
+      ++tried;
+      UnsentResult shut_in = ended(Status::kPartial);
+      shut_in.result.shut_in = {{.keyframe = 1, .region_W = {}, .is_complete = is_complete}};
+      return shut_in;
+    });
+    return tried;
+  };
+  EXPECT_EQ(tried_sizes(true), 2U);
+  EXPECT_GT(tried_sizes(false), 2U);
+}
+
 // The collisions are those of the camera that was asked for, at the times of the answered path,
 // whichever of the two paths had to be slowed.
 TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
