@@ -135,7 +135,9 @@ TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
             "(safest)");
   wire = minimal_request();
   wire.orientation.policy = -1;
-  EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
+  EXPECT_EQ(from_wire(wire).error,
+            "orientation.policy: -1 is unknown; the values are 0 (free), 1 (keep), 2 (level), 3 "
+            "(target)");
 }
 
 // A program that does not know an option leaves it zero.
@@ -317,8 +319,12 @@ TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
     return from_wire(wire).error;
   };
   EXPECT_EQ(error_of([](body_t&) {}), "");
-  EXPECT_EQ(error_of([](body_t& b) { b.type = 9; }), "body.type: 9 is unknown");
-  EXPECT_EQ(error_of([](body_t& b) { b.type = -1; }), "body.type: -1 is unknown");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = 9; }),
+            "body.type: 9 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
+            "4 (mesh)");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = -1; }),
+            "body.type: -1 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
+            "4 (mesh)");
   EXPECT_EQ(error_of([](body_t& b) { b.piece_sizes = {1}; }),
             "body.piece_sizes: 2 points belong to no piece");
   EXPECT_EQ(error_of([](body_t& b) {
@@ -461,9 +467,10 @@ TEST(WireConvert, ReportsThatMakeNoSenseAreErrors) {
   };
   EXPECT_EQ(error_of([](plan_response_t&) {}), "");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.corrections[2].method = 5; }),
-            "corrections[2].method: 5 is unknown");
+            "corrections[2].method: 5 is unknown; the values are 0 (none), 1 (move), 2 (turn), 3 "
+            "(go_round), 4 (shrink)");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframes[1].origin = 2; }),
-            "keyframes[1].origin: 2 is unknown");
+            "keyframes[1].origin: 2 is unknown; the values are 0 (given), 1 (inserted)");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_faults[1].keyframe = -1; }),
             "keyframe_faults[1].keyframe: is -1; it must be at least 0");
   EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_outside = -1; }),

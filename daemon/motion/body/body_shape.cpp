@@ -18,7 +18,7 @@ bool is_size(double value) { return value > 0.0 && value <= kMaxBodyCoordinate_m
 
 Fault fault_in_size(std::string field, double value_m) {
   if (is_size(value_m)) return std::nullopt;
-  return ShapeFault{std::move(field), fmt::format("is {} m; it must be above 0 and at most {:g}",
+  return ShapeFault{std::move(field), fmt::format("is {} m; it must be above 0 and at most {:g} m",
                                                   value_m, kMaxBodyCoordinate_m)};
 }
 

@@ -69,8 +69,10 @@ class Search {
         return;
       const Pose& pose = keyframes_[checked_].pose;
       if (space_.gap_m(pose, space_.detect().tolerance_m) > 0.0) continue;
-      if (deadline_.passed()) return;  // a contact takes longer to find than a gap
-      const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
+      // A contact takes longer to find than a gap. Late, the first one will do for the message.
+      const bool is_late = !faults_.empty() && deadline_.passed();
+      const std::optional<collision::Witness> contact =
+          is_late ? std::nullopt : space_.contact(pose, 0.0);
       faults_.push_back({checked_, contact ? contact->depth_m : 0.0, std::nullopt});
       faults_.back().leaves_bounds = contact && collision::Obstacles::is_side(contact->triangle);
     }

@@ -130,8 +130,8 @@ class Shrinking {
     full.message += tried_.empty()
                         ? "; the deadline left no time to make the near distance smaller"
                         : "; nor was there a free path with the near distance times " + list;
-    // A keyframe without a way out at the smallest size has none at the full one, however long the
-    // search is.
+    // Where a search of everything reachable found no way out at the smallest size, a longer one at
+    // the full size finds none either.
     if (!shut_in_.empty()) {
       full.status = Status::kPartial;
       if (!full.shut_in.empty()) return;

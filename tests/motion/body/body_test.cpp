@@ -218,7 +218,7 @@ TEST(Body, RefusesShapesAndNamesTheFieldAtFault) {
     return BodyShape(shape);
   };
   const std::pair<std::string, BodyShape> cases[] = {
-      {"size[1]: is -1 m; it must be above 0 and at most 1e+09",
+      {"size[1]: is -1 m; it must be above 0 and at most 1e+09 m",
        edited(box, [](auto& b) { b.size_m.y() = -1.0; })},
       {"size[2]: is 0 m", edited(box, [](auto& b) { b.size_m.z() = 0.0; })},
       {"size[0]: is nan m", edited(box, [](auto& b) { b.size_m.x() = kNaN; })},
