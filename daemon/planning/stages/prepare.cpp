@@ -65,8 +65,8 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
   const bool may_repair =
       request.options.repair_keyframes && all_free && faults.size() < kMostKeyframeFaults;
   if (!faults.empty() && !may_repair) {
-    refuse(why_refused(faults, request, deadline.passed()), fault_to_name(faults, request).keyframe,
-           result);
+    refuse(why_refused(faults, request, deadline.passed(), found.complete),
+           fault_to_name(faults, request).keyframe, result);
     return false;
   }
   for (const KeyframeFault& fault : faults) {

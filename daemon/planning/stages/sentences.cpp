@@ -226,7 +226,7 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
 }
 
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
-                        bool timed_out) {
+                        bool timed_out, bool are_all) {
   const KeyframeFault& first = fault_to_name(faults, request);
   const double clearance_m = request.options.clearance_m;
   const std::string rule =
@@ -249,12 +249,12 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
     message += timed_out ? deadline_reached(request) + " before a free pose was found"
                          : "no free pose was found near it";
   }
-  const bool are_all = faults.size() < kMostKeyframeFaults;
+  const bool are_too_many = faults.size() >= kMostKeyframeFaults;
   if (faults.size() > 1) {
-    message +=
-        fmt::format("; {}{} keyframes are at fault", are_all ? "" : "at least ", faults.size());
+    message += fmt::format("; {}{} keyframes are at fault",
+                           are_all && !are_too_many ? "" : "at least ", faults.size());
   }
-  if (!are_all && may_repair) message += ", too many to be repaired";
+  if (are_too_many && may_repair) message += ", too many to be repaired";
   return message;
 }
 

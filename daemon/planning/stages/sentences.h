@@ -87,9 +87,10 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
 std::string deadline_reached(const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for
-/// `fault_to_name`. `timed_out`: the deadline passed before free poses were found.
+/// `fault_to_name`. `timed_out`: the deadline passed before free poses were found. `are_all`: all
+/// keyframes were looked at.
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
-                        bool timed_out);
+                        bool timed_out, bool are_all);
 
 /// "no path exists: ..." by this proof; with `may_shrink` for the smallest camera that is allowed.
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink);

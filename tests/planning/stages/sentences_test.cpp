@@ -97,5 +97,14 @@ TEST(NoteOfTolerance, TellsTheSizeOfAnyBody) {
   EXPECT_THAT(note_of(1e-320), HasSubstr("the body is 1.4e-320 m large"));
 }
 
+TEST(WhyRefused, CountsTheFaultsThatAreKnown) {
+  const std::vector<KeyframeFault> few(3);
+  const std::vector<KeyframeFault> many(kMostKeyframeFaults);
+  const PlanRequest request;
+  EXPECT_THAT(why_refused(few, request, false, true), HasSubstr("; 3 keyframes are at fault"));
+  EXPECT_THAT(why_refused(few, request, true, false), HasSubstr("; at least 3 keyframes are"));
+  EXPECT_THAT(why_refused(many, request, false, true), HasSubstr("; at least 100 keyframes are"));
+}
+
 }  // namespace
 }  // namespace camway::planning
