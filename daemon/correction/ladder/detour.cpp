@@ -32,8 +32,8 @@ constexpr std::size_t kMostCells = 2'000'000;          // some 50 bytes each at 
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
 // An end is in a narrow place if no ball of so many radii fits anywhere near it.
 constexpr double kNarrow = 3.0;
-// About a second. No way of the scenes of the measurement was lost; one from a room took 1'100'000
-// cells.
+// About a second. No way out of a narrow place of the measured scenes takes more. Ways between
+// rooms take up to 1'100'000 cells, and have `kMostCells`.
 constexpr std::size_t kMostCellsIfNarrow = 400'000;
 constexpr double kAlike = 1.6;       // cost of another way, relative to the first
 constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...

@@ -281,7 +281,7 @@ class Ladder {
     bool is_searched = false;  ///< for ways that need turning, too
   };
 
-  std::vector<ShutIn> shut_in_;  ///< of which all that is reachable was searched
+  std::vector<ShutIn> shut_in_;  ///< keyframes about which all that is reachable was searched
   std::vector<NotLeft> not_left_;
   bool timed_out_ = false;
 };

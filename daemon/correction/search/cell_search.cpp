@@ -28,7 +28,8 @@ constexpr double kMostNear = 8.0;      // times its length that a way without ro
 constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
 constexpr double kRoomInFront = 2.5;   // sides of a cell, from its middle, of a wall that is bare
 constexpr std::size_t kLooksPerClock = 64;  // looks at a cell for each reading of the clock
-// Of the volume reached from the other end with as many cells: less is called much less.
+// An end reaches much less than the other if its volume is below this share of the other's, with as
+// many cells.
 constexpr double kMuchLess = 0.125;
 
 enum class State : std::uint8_t { kFree, kMixed, kBlocked };
@@ -368,7 +369,7 @@ class CellSearch {
     }
   }
 
-  /// What was reached from an end.
+  /// The region that was reached from an end.
   struct Region {
     geometry::Box box_W;
     double unsure_m = 0.0;

@@ -75,8 +75,8 @@ std::optional<InvalidRequest> validate(const PlanRequest& request);
 /// Largest numbers that a request may hold.
 inline constexpr std::size_t kMaxKeyframes = 100'000;
 inline constexpr double kMaxTime_s = 1e10;  ///< large enough for seconds since 1970
-/// Least difference of consecutive times, as a share of their size: 64 times as much as doubles
-/// resolve, so that a correction finds room for four knots between them, 16 steps apart
+/// Least difference of consecutive times, as a share of their size: at least 64 times the distance
+/// of doubles there, so that a correction finds room for four knots between them, 16 steps apart
 /// (`motion::kLeastTimesAStep`). For seconds since 1970 that is 25 microseconds.
 inline constexpr double kLeastRelativeTimeStep = 64 * 2.220446049250313e-16;
 /// Least difference of consecutive times, as a share of the duration of the path. A smaller one

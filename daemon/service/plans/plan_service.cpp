@@ -351,6 +351,7 @@ void PlanService::run_again(const Replan& replan) {
   }
   done->answered =
       answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
+  done->answered.interpolated.reset();  // watched since the first answer
   done->pages = encode_answer(done->answered.wire, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
