@@ -62,7 +62,7 @@ CubicPath from_json(const json& value) {
 /// Whether the path was found for these keyframes.
 bool fits(const CubicPath& path, const Shot& shot) {
   const CubicPath& interpolated = shot.interpolated();
-  const bool is_comparable = !path.pieces.empty() && path.reference == interpolated.reference &&
+  const bool is_comparable = !path.pieces.empty() && (path.reference - interpolated.reference).norm() <= kSame &&
                              path.begin_s() == interpolated.begin_s() &&
                              path.end_s() == interpolated.end_s();
   return is_comparable &&
