@@ -108,7 +108,8 @@ class Ladder {
 
   // Moves the camera aside for a group of collisions, or else for its first one.
   bool move_away(std::size_t index) {
-    const std::vector<std::size_t> group = group_from(index);
+    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
+    const std::vector<std::size_t> group = collisions_.open_near(index, near_s);
     if (group.size() > 1 && accept(group, CorrectionKind::kMove, nudged(group, NudgeKind::kMove))) {
       return true;
     }
@@ -146,21 +147,6 @@ class Ladder {
     return problem;
   }
   [[nodiscard]] Problem problem(std::size_t index) const { return problem({&index, 1}); }
-
-  // The open collisions from `index` on that are too near to one another for bumps of their own.
-  [[nodiscard]] std::vector<std::size_t> group_from(std::size_t index) const {
-    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
-    std::vector<std::size_t> group = {index};
-    for (std::size_t i = index + 1; i < collisions_.size(); ++i) {
-      const ListedCollision& last = collisions_[group.back()];
-      const ListedCollision& next = collisions_[i];
-      const double between_s =
-          next.correction.interval.t_begin_s - last.correction.interval.t_end_s;
-      if (!next.is_open() || next.leg != last.leg || between_s > near_s) break;
-      group.push_back(i);
-    }
-    return group;
-  }
 
   std::optional<Candidate> nudged(std::span<const std::size_t> group, NudgeKind nudge_kind) {
     std::vector<CollisionInterval> intervals;
