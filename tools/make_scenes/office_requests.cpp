@@ -17,6 +17,44 @@ Point at(int storey, std::int64_t x, std::int64_t above_floor, std::int64_t z) {
   return {mm(x), floor_y(storey) + mm(above_floor), mm(z)};
 }
 
+Request way_up_the_stairs() {
+  std::vector<Point> stairs{
+      at(0, 14000, 1600, 7800), at(0, 14000, 1700, 6300), at(0, 14000, 2500, 4600),
+      at(0, 14000, 3350, 2700), at(0, 14500, 3450, 1800), at(0, 15500, 3450, 1800),
+      at(0, 16000, 3500, 2700), at(0, 16000, 4350, 4600), at(1, 16000, 1600, 6400),
+      at(1, 16000, 1600, 7800), at(1, 15400, 1600, 9400)};
+  return {"office-free-stairs",
+          "up the stairs from the ground floor to the first",
+          {70, 55, mm(100)},
+          along(stairs),
+          {}};
+}
+
+Request spiral_in_the_atrium() {
+  std::vector<Point> spiral;
+  for (int k = 0; k < 12; ++k) {
+    const Point ring = on_circle(mm(1000), 2 * k);
+    spiral.push_back({mm(15000) + ring[0], mm(1500) + mm(420) * k, mm(15850) + ring[2]});
+  }
+  return {"office-free-atrium",
+          "a full turn upwards in the atrium, twelve keyframes",
+          {80, 60, mm(150)},
+          along(spiral),
+          {}};
+}
+
+Request turn_on_the_spot() {
+  const Point centre = at(2, 21000, 1500, 12900);
+  return {"office-free-turn",
+          "turns on the spot in steps of a quarter turn",
+          {80, 60, mm(300)},
+          {{centre, look_along(kNorth)},
+           {centre, look_along(kEast)},
+           {centre, look_along(kSouth)},
+           {centre, look_along(kWest)}},
+          {}};
+}
+
 std::vector<Request> free_requests() {
   std::vector<Request> r;
   r.push_back({"office-free-corridor",
@@ -42,26 +80,8 @@ std::vector<Request> free_requests() {
        along({at(1, 21000, 1500, 10300), at(1, 21000, 1500, 11500), at(1, 21900, 1500, 12700),
               at(1, 24000, 1500, 12900), at(1, 26000, 1500, 13500)}),
        {}});
-  std::vector<Point> stairs{
-      at(0, 14000, 1600, 7800), at(0, 14000, 1700, 6300), at(0, 14000, 2500, 4600),
-      at(0, 14000, 3350, 2700), at(0, 14500, 3450, 1800), at(0, 15500, 3450, 1800),
-      at(0, 16000, 3500, 2700), at(0, 16000, 4350, 4600), at(1, 16000, 1600, 6400),
-      at(1, 16000, 1600, 7800), at(1, 15400, 1600, 9400)};
-  r.push_back({"office-free-stairs",
-               "up the stairs from the ground floor to the first",
-               {70, 55, mm(100)},
-               along(stairs),
-               {}});
-  std::vector<Point> spiral;
-  for (int k = 0; k < 12; ++k) {
-    const Point ring = on_circle(mm(1000), 2 * k);
-    spiral.push_back({mm(15000) + ring[0], mm(1500) + mm(420) * k, mm(15850) + ring[2]});
-  }
-  r.push_back({"office-free-atrium",
-               "a full turn upwards in the atrium, twelve keyframes",
-               {80, 60, mm(150)},
-               along(spiral),
-               {}});
+  r.push_back(way_up_the_stairs());
+  r.push_back(spiral_in_the_atrium());
   r.push_back({"office-free-timed",
                "uneven times, looking sideways",
                {85, 60, mm(250)},
@@ -69,15 +89,7 @@ std::vector<Request> free_requests() {
                        at(1, 24000, 1600, 10000)},
                       {1, 0, -0.75}),
                {0, 2500, 3800, 11000}});
-  const Point centre = at(2, 21000, 1500, 12900);
-  r.push_back({"office-free-turn",
-               "turns on the spot in steps of a quarter turn",
-               {80, 60, mm(300)},
-               {{centre, look_along(kNorth)},
-                {centre, look_along(kEast)},
-                {centre, look_along(kSouth)},
-                {centre, look_along(kWest)}},
-               {}});
+  r.push_back(turn_on_the_spot());
   return r;
 }
 

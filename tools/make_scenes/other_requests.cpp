@@ -48,7 +48,7 @@ Point exhibit(Um x, std::int64_t dx, std::int64_t y, std::int64_t z) {
   return {x + mm(dx), mm(y), mm(z)};
 }
 
-std::vector<Request> exhibits_in_the_middle() {
+std::vector<Request> ways_past_exhibits() {
   using namespace gallery;
   std::vector<Request> r;
   r.push_back({"gallery-free-aisle",
@@ -62,6 +62,12 @@ std::vector<Request> exhibits_in_the_middle() {
                {70, 60, mm(150)},
                along({exhibit(kRingX, -2000, 1600, 2000), exhibit(kRingX, 1500, 1600, 2000)}),
                {}});
+  return r;
+}
+
+std::vector<Request> exhibits_in_the_middle() {
+  using namespace gallery;
+  std::vector<Request> r;
   r.push_back({"gallery-graze-cube",
                "the swept tube encloses the cube, no side of it touches",
                {90, 70, mm(400)},
@@ -119,6 +125,12 @@ std::vector<Request> exhibits_at_the_end() {
                {75, 55, mm(150)},
                along({exhibit(kLouvreX, -1500, 1600, 1100), exhibit(kLouvreX, 1500, 1600, 1100)}),
                {}});
+  return r;
+}
+
+std::vector<Request> ways_through_the_slot() {
+  using namespace gallery;
+  std::vector<Request> r;
   const Direction east{1, 0, 0};
   r.push_back(
       {"gallery-wall-slot",
@@ -171,9 +183,11 @@ std::vector<Request> maze_requests() {
 }
 
 std::vector<Request> gallery_requests() {
-  std::vector<Request> all = exhibits_in_the_middle();
-  const std::vector<Request> more = exhibits_at_the_end();
-  all.insert(all.end(), more.begin(), more.end());
+  std::vector<Request> all = ways_past_exhibits();
+  for (const auto& more :
+       {exhibits_in_the_middle(), exhibits_at_the_end(), ways_through_the_slot()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 

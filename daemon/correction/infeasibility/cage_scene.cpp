@@ -34,6 +34,10 @@ constexpr double kPlaneShare = 0.1;
 /// that; the rest is for the rounding of sums with the margin itself.
 constexpr double kTurnRounding = 32.0;
 
+std::optional<double> first_or(const std::optional<double>& a, const std::optional<double>& b) {
+  return a ? a : b;
+}
+
 struct Turn {
   int axis = 2;
   double angle_rad = 0.0;  ///< 0 <= value < pi / 2: more is the same frame with other names
@@ -273,9 +277,6 @@ std::vector<Box> CageBoxes::around(const Vec3& center) const {
     const Sides planes = nearest_planes(center, share);
     const auto of = [](const Sides& sides, int axis, int side) {
       return sides[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-    };
-    const auto first_or = [](const std::optional<double>& a, const std::optional<double>& b) {
-      return a ? a : b;
     };
     add([&](int axis, int side) {
       return first_or(of(planes, axis, side), of(flats, axis, side));

@@ -78,6 +78,18 @@ std::vector<std::size_t> CollisionList::open_in(std::size_t leg) const {
   return open;
 }
 
+std::vector<std::size_t> CollisionList::open_near(std::size_t index, double near_s) const {
+  std::vector<std::size_t> group = {index};
+  for (std::size_t i = index + 1; i < size(); ++i) {
+    const ListedCollision& last = list_[group.back()];
+    const ListedCollision& next = list_[i];
+    const double between_s = next.correction.interval.t_begin_s - last.correction.interval.t_end_s;
+    if (!next.is_open() || next.leg != last.leg || between_s > near_s) break;
+    group.push_back(i);
+  }
+  return group;
+}
+
 std::size_t CollisionList::count_legs() const {
   std::set<std::size_t> legs;
   for (const ListedCollision& listed : list_) legs.insert(listed.leg);

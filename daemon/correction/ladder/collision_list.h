@@ -38,6 +38,10 @@ class CollisionList {
   [[nodiscard]] bool any_without_way() const;
   /// Returns the indices of the open collisions in an interval between keyframes.
   [[nodiscard]] std::vector<std::size_t> open_in(std::size_t leg) const;
+  /// Returns `index` and the indices of the collisions after it that are too near for a correction
+  /// of their own: open, in the same interval between keyframes, and at most `near_s` after the one
+  /// before.
+  [[nodiscard]] std::vector<std::size_t> open_near(std::size_t index, double near_s) const;
   /// Returns how many intervals between keyframes have a collision.
   [[nodiscard]] std::size_t count_legs() const;
 

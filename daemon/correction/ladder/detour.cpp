@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,11 @@
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/correction/search/ball_escape.h"
 #include "daemon/correction/search/cell_search.h"
 #include "daemon/correction/search/lattice_ways.h"
+#include "daemon/correction/search/other_side.h"
+#include "daemon/correction/search/small_ball_way.h"
 #include "daemon/correction/search/threaded_guide.h"
 #include "daemon/correction/search/tree_search.h"
 
@@ -27,19 +31,8 @@ using motion::SignedPose;
 // Chosen by measurement; none changes what is proved.
 constexpr double kLeastMargin = 0.02;                        // share of the ball's radius
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
-constexpr double kSmallestCell = 0.02;
-constexpr std::size_t kMostCells = 2'000'000;          // some 50 bytes each at most
+constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
-// An end is in a narrow place if no ball of so many radii fits anywhere near it.
-constexpr double kNarrow = 3.0;
-// About a second. No way out of a narrow place of the measured scenes takes more. Ways between
-// rooms take up to 1'100'000 cells, and have `kMostCells`.
-constexpr std::size_t kMostCellsIfNarrow = 400'000;
-constexpr double kAlike = 1.6;       // cost of another way, relative to the first
-constexpr double kLeastApart = 1.5;  // of another way from the apex of the first, in radii, ...
-constexpr double kApart = 0.7;       // ... or as a share of the apex's distance from the path
-constexpr double kFarther = 1.4;     // a way whose apex is so much farther off was never worth it
-constexpr std::size_t kMorePoints = 8;    // of the search of another way, relative to the first
 constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
@@ -69,15 +62,15 @@ class Detour {
   std::optional<Candidate> without_turns() {
     std::optional<Candidate> found = with_ball(Lattices::kAll);
     if (!found && !deadline_.passed()) {
-      result_.pocket = cells_for_ball(kBallShares.front() * radius_m_, kFewCells).pocket;
+      result_.pocket = way_of_small_ball(kBallShares.front(), kFewCells).pocket;
     }
     return found;
   }
 
   // Detours with room for every orientation: the cheaper one of two on different sides.
   std::optional<Candidate> with_ball(Lattices lattices) {
-    const std::optional<SignedPose> begin = escape(from_, radius_m_);
-    const std::optional<SignedPose> end = escape(to_, radius_m_);
+    const std::optional<SignedPose> begin = ball_escape(space_, from_, radius_m_);
+    const std::optional<SignedPose> end = ball_escape(space_, to_, radius_m_);
     if (!begin || !end) return std::nullopt;
     const BallMotion ball{
         .radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
@@ -121,19 +114,16 @@ class Detour {
   using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
 
   // A way that avoids the apex of `first`; nothing if it leads much farther off.
-  std::optional<Candidate> on_another_side(BallMotion ball, const LatticeResult& first,
+  std::optional<Candidate> on_another_side(const BallMotion& ball, const LatticeResult& first,
                                            const std::vector<Vec3>& about_W, const Draw& draw) {
-    const Apex apex = apex_of(first.way_W, about_W);
-    ball.avoided = {{apex.place_W, std::max(kLeastApart * radius_m_, kApart * apex.away_m)}};
-    ball.max_cost_m = kAlike * first.cost_m;
-    ball.max_points = kMorePoints * first.points;
+    const OtherSide other_side(first, about_W);
     std::optional<Candidate> second;
     const auto use = [&](const LatticeResult& found) {
-      const bool is_farther = apex_of(found.way_W, about_W).away_m > kFarther * apex.away_m;
-      if (!is_farther) second = draw(found);
-      return is_farther || second.has_value();
+      const bool is_too_far = other_side.is_too_far(found);
+      if (!is_too_far) second = draw(found);
+      return is_too_far || second.has_value();
     };
-    search_ways(ball, Lattices::kCoarse, about_W, {.use = use});
+    search_ways(other_side.limited(ball), Lattices::kCoarse, about_W, {.use = use});
     return second;
   }
 
@@ -144,22 +134,6 @@ class Detour {
 
   [[nodiscard]] double cost(const Candidate& candidate) const {
     return closeness_cost(candidate.path, problem_.original, space_.closeness());
-  }
-
-  /// The place of a way that is farthest from the path as interpolated.
-  struct Apex {
-    Vec3 place_W = Vec3::Zero();
-    double away_m = 0.0;
-  };
-  [[nodiscard]] static Apex apex_of(const std::vector<Vec3>& way_W,
-                                    const std::vector<Vec3>& about_W) {
-    Apex apex;
-    for (const Vec3& place_W : way_W) {
-      double away_m = std::numeric_limits<double>::infinity();
-      for (const Vec3& other_W : about_W) away_m = std::min(away_m, (place_W - other_W).norm());
-      if (away_m > apex.away_m) apex = {place_W, away_m};
-    }
-    return apex;
   }
 
   // Detours on which the body must turn: narrow passages and trees along the way of a smaller ball.
@@ -180,7 +154,7 @@ class Detour {
   // A detour through the narrow places on the way of a small ball. Keeps that way, and the pocket
   // that shuts in one end of the smallest ball.
   std::optional<Candidate> along_small_ball(double share, std::size_t max_cells) {
-    CellResult ball = cells_for_ball(share * radius_m_, max_cells);
+    CellResult ball = way_of_small_ball(share, max_cells);
     if (share == kBallShares.front()) result_.pocket = std::move(ball.pocket);
     small_way_W_ = std::move(ball.way_W);
     if (small_way_W_.empty()) return std::nullopt;
@@ -220,21 +194,9 @@ class Detour {
     return poses;
   }
 
-  CellResult cells_for_ball(double ball_radius_m, std::size_t max_cells) {
-    const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
-    const std::optional<SignedPose> end = escape(to_, ball_radius_m);
-    if (!begin || !end) return {};
-    const CellOptions options{ball_radius_m,
-                              kSmallestCell * radius_m_,
-                              max_cells,
-                              /*comfort_m=*/radius_m_,
-                              /*narrow_m=*/kNarrow * radius_m_ - ball_radius_m,
-                              kMostCellsIfNarrow};
-    CellResult found = cell_way(space_, center_W(*begin), center_W(*end), options, deadline_);
+  CellResult way_of_small_ball(double share, std::size_t max_cells) {
+    CellResult found = small_ball_way(space_, from_, to_, share, max_cells, deadline_);
     count_points(found.cells);
-    if (found.way_W.empty()) return found;
-    found.way_W.insert(found.way_W.begin(), center_W(from_));
-    found.way_W.push_back(center_W(to_));
     return found;
   }
 
@@ -244,25 +206,6 @@ class Detour {
 
   [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {
     return space_.center_W(motion::unsigned_pose(pose));
-  }
-
-  /// Returns a pose with the same orientation, reached by a free straight motion, at which the ball
-  /// is free.
-  std::optional<SignedPose> escape(const SignedPose& pose, double ball_radius_m) {
-    const Vec3 middle_W = center_W(pose);
-    const double comfort_m = 0.1 * radius_m_;
-    if (space_.ball_gap_m(middle_W, ball_radius_m, comfort_m) > 0.0) return pose;
-    for (const double share : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
-      for (int code = 0; code < 27; ++code) {
-        if (code == 13) continue;
-        const Vec3 step =
-            Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() * (share * radius_m_);
-        if (!(space_.ball_gap_m(middle_W + step, ball_radius_m, comfort_m) > 0.0)) continue;
-        const SignedPose there{pose.position + step, pose.orientation};
-        if (!space_.first_hit(pose, there, 0.0)) return there;
-      }
-    }
-    return std::nullopt;
   }
 
   /// Gives `way_W` the path's orientations at equal shares of the way and of the time.

@@ -15,6 +15,7 @@
 #include "daemon/correction/ladder/nudge.h"
 #include "daemon/correction/ladder/polish.h"
 #include "daemon/correction/ladder/redraw.h"
+#include "daemon/correction/ladder/shut_in_list.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/viewing_distance.h"
 
@@ -63,7 +64,8 @@ class Ladder {
     }
     result.separation = prover_.separation();
     result.cage = prover_.cage();
-    result.shut_in = all_shut_in();
+    result.shut_in =
+        shut_in_.all([this](std::size_t leg) { return !collisions_.open_in(leg).empty(); });
     result.inserted_s = corrected_.inserted_s();
     result.closeness = space_.closeness();
     result.path = std::move(corrected_).release();
@@ -94,21 +96,20 @@ class Ladder {
       if (search == Search::kWithRoom && (move_away(i) || collision.is_beyond_limit)) continue;
       const std::size_t leg = collision.leg;
       // A detour replaces the whole interval between keyframes: do not search it twice.
-      if (is_shut_off(leg) || prover_.is_caged_off(center_W(leg), center_W(leg + 1))) {
-        has_no_way[leg] = true;
-      }
+      if (is_cut_off(leg)) has_no_way[leg] = true;
       if (search == Search::kWithRoom) {
         turn_or_replace(i, has_no_way);
       } else if (!has_no_way[leg]) {
-        has_no_way[leg] = is_worthless(leg) || !replace_leg(i, search);
-        mark_searched(leg);
+        has_no_way[leg] = shut_in_.is_worthless(leg) || !replace_leg(i, search);
+        shut_in_.mark_searched(leg);
       }
     }
   }
 
   // Moves the camera aside for a group of collisions, or else for its first one.
   bool move_away(std::size_t index) {
-    const std::vector<std::size_t> group = group_from(index);
+    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
+    const std::vector<std::size_t> group = collisions_.open_near(index, near_s);
     if (group.size() > 1 && accept(group, CorrectionKind::kMove, nudged(group, NudgeKind::kMove))) {
       return true;
     }
@@ -147,21 +148,6 @@ class Ladder {
   }
   [[nodiscard]] Problem problem(std::size_t index) const { return problem({&index, 1}); }
 
-  // The open collisions from `index` on that are too near to one another for bumps of their own.
-  [[nodiscard]] std::vector<std::size_t> group_from(std::size_t index) const {
-    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
-    std::vector<std::size_t> group = {index};
-    for (std::size_t i = index + 1; i < collisions_.size(); ++i) {
-      const ListedCollision& last = collisions_[group.back()];
-      const ListedCollision& next = collisions_[i];
-      const double between_s =
-          next.correction.interval.t_begin_s - last.correction.interval.t_end_s;
-      if (!next.is_open() || next.leg != last.leg || between_s > near_s) break;
-      group.push_back(i);
-    }
-    return group;
-  }
-
   std::optional<Candidate> nudged(std::span<const std::size_t> group, NudgeKind nudge_kind) {
     std::vector<CollisionInterval> intervals;
     for (const std::size_t i : group) intervals.push_back(collisions_[i].correction.interval);
@@ -190,7 +176,7 @@ class Ladder {
     };
     const DetourResult found =
         go_round(problem, search, budget_, space_, options_.seed, proofs, deadline());
-    if (found.pocket) note_pocket(leg, *found.pocket);
+    if (found.pocket) shut_in_.add(leg, *found.pocket);
     for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
     if (found.candidate && cost(index, *found.candidate) > most_cost) return true;
     return accept(same_leg, CorrectionKind::kGoRound, found.candidate);
@@ -213,51 +199,11 @@ class Ladder {
     return true;
   }
 
-  // Whether an earlier search found that one end is shut in and cannot reach the other.
-  [[nodiscard]] bool is_shut_off(std::size_t leg) const {
-    return std::ranges::any_of(shut_in_, [&](const ShutIn& known) {
-      return (known.keyframe == leg && !known.may_hold(center_W(leg + 1))) ||
-             (known.keyframe == leg + 1 && !known.may_hold(center_W(leg)));
-    });
-  }
-
-  void note_pocket(std::size_t leg, const Pocket& pocket) {
-    const ShutIn shut_in{leg + (pocket.is_at_end ? 1 : 0), pocket.reached_W, pocket.unsure_m,
-                         pocket.is_complete};
-    if (pocket.is_complete) {
-      add_shut_in(shut_in, shut_in_);
-      return;
-    }
-    std::erase_if(not_left_, [&](const NotLeft& known) { return known.leg == leg; });
-    not_left_.push_back({leg, shut_in, pocket.is_narrow});
-  }
-
-  static void add_shut_in(const ShutIn& found, std::vector<ShutIn>& list) {
-    const auto same = std::ranges::find(list, found.keyframe, &ShutIn::keyframe);
-    if (same == list.end()) list.push_back(found);
-  }
-
-  // Whether a costly search of another interval found no way out of the narrow place from which a
-  // cheap search of this one found none. The answer will be partial, whatever this search finds.
-  [[nodiscard]] bool is_worthless(std::size_t leg) const {
-    return std::ranges::any_of(not_left_, [&](const NotLeft& own) {
-      return own.leg == leg && own.is_narrow &&
-             std::ranges::any_of(not_left_, [&](const NotLeft& other) {
-               return other.is_searched && other.shut_in.keyframe == own.shut_in.keyframe;
-             });
-    });
-  }
-
-  void mark_searched(std::size_t leg) {
-    for (NotLeft& known : not_left_) known.is_searched |= known.leg == leg;
-  }
-
-  [[nodiscard]] std::vector<ShutIn> all_shut_in() const {
-    std::vector<ShutIn> all = shut_in_;
-    for (const NotLeft& known : not_left_) {
-      if (!collisions_.open_in(known.leg).empty()) add_shut_in(known.shut_in, all);
-    }
-    return all;
+  // Whether earlier searches or cages show that no way joins the ends of an interval.
+  [[nodiscard]] bool is_cut_off(std::size_t leg) const {
+    const geometry::Vec3 begin_W = center_W(leg);
+    const geometry::Vec3 end_W = center_W(leg + 1);
+    return shut_in_.is_shut_off(leg, begin_W, end_W) || prover_.is_caged_off(begin_W, end_W);
   }
 
   // Centre of the body at a keyframe.
@@ -273,16 +219,7 @@ class Ladder {
   CollisionList collisions_;
   Prover prover_;
   base::Budget budget_;  ///< steps of the relaxation of detours, and then of polishing
-  /// A keyframe from which a search ended at its limit without a way out.
-  struct NotLeft {
-    std::size_t leg = 0;  ///< the interval that was searched
-    ShutIn shut_in;
-    bool is_narrow = false;
-    bool is_searched = false;  ///< for ways that need turning, too
-  };
-
-  std::vector<ShutIn> shut_in_;  ///< keyframes about which all that is reachable was searched
-  std::vector<NotLeft> not_left_;
+  ShutInList shut_in_;
   bool timed_out_ = false;
 };
 

@@ -57,6 +57,19 @@ TEST(CollisionList, KnowsWhatIsOpenAndWhy) {
   EXPECT_FALSE(list.any_without_way());
 }
 
+TEST(CollisionList, GroupsOpenCollisionsThatAreNear) {
+  using Group = std::vector<std::size_t>;
+  // The distances are 0.25, 0.5 and 0.25 seconds; a keyframe is between the last two.
+  CollisionList list({{0.25, 0.5}, {0.75, 1.0}, {1.5, 1.875}, {2.125, 2.25}}, kKeyframes_s);
+  EXPECT_EQ(list.open_near(0, 0.125), Group{0});
+  EXPECT_EQ(list.open_near(0, 0.25), (Group{0, 1})) << "just near enough";
+  EXPECT_EQ(list.open_near(0, 10.0), (Group{0, 1, 2})) << "those before the keyframe";
+  EXPECT_EQ(list.open_near(1, 10.0), (Group{1, 2})) << "none before it";
+  EXPECT_EQ(list.open_near(3, 10.0), Group{3});
+  correct(list[1], 0.7, 1.1);
+  EXPECT_EQ(list.open_near(0, 10.0), Group{0}) << "ends at one that is corrected";
+}
+
 TEST(CollisionList, AddsTheOpenCollisionsOfAPartAndNoOthers) {
   const motion::CubicPath path = path_along_x();
   CollisionList list({{0.5, 1.0}, {1.2, 1.4}, {4.5, 5.0}}, kKeyframes_s);

@@ -8,6 +8,10 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
+
+#include "daemon/base/result.h"
 
 namespace camway::tools {
 namespace {
@@ -49,6 +53,22 @@ class MemoryWatch {
 /// ones.
 double memory_period_s(double seconds) { return std::clamp(seconds / 200.0, 0.05, 5.0); }
 
+using Clients = std::vector<std::unique_ptr<Client>>;
+
+/// Returns the clients that ask, or the error of the first one that is of no use.
+base::Result<Clients> make_clients(const LoadOptions& options) {
+  Clients clients;
+  for (int i = 0; i < options.clients; ++i) {
+    ClientOptions client;
+    client.url = options.url;
+    client.prefix = options.prefix;
+    client.authentication = options.authentication;
+    clients.push_back(std::make_unique<Client>(client));
+    if (!clients.back()->good()) return base::Failure{clients.back()->error()};
+  }
+  return clients;
+}
+
 }  // namespace
 
 LoadFault fault_of_daemon(Client& client, const LoadScene& scene) {
@@ -68,18 +88,12 @@ LoadFault fault_of_daemon(Client& client, const LoadScene& scene) {
 LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& questions,
                     const LoadOptions& options) {
   LoadResult result;
-  std::vector<std::unique_ptr<Client>> clients;
-  for (int i = 0; i < options.clients; ++i) {
-    ClientOptions client;
-    client.url = options.url;
-    client.prefix = options.prefix;
-    client.authentication = options.authentication;
-    clients.push_back(std::make_unique<Client>(client));
-    if (!clients.back()->good()) {
-      result.error = clients.back()->error();
-      return result;
-    }
+  base::Result<Clients> made = make_clients(options);
+  if (!made) {
+    result.error = std::move(made.error);
+    return result;
   }
+  const Clients& clients = *made;
   if (LoadFault fault = fault_of_daemon(*clients.front(), scene); fault.status != Status::kOk) {
     result.error = std::move(fault.error);
     result.status = fault.status;

@@ -82,6 +82,18 @@ std::vector<std::string> warnings_of(const RequestFile& request) {
                       request.says_xyzw ? "orientation" : "orientation_xyzw")};
 }
 
+/// Plans a request that is valid, and sets what the answer says of it and of its scene.
+void answer_in_scene(const scene::Snapshot& snapshot, const RequestFile& request, Answer& answer) {
+  answer.scene_digest = snapshot.digest;
+  answer.mesh = snapshot.mesh.share();
+  const planning::PlanOptions& options = request.options;
+  answer.scene_warnings = scene::import_warnings(
+      snapshot.report, scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
+  answer.request_warnings = warnings_of(request);
+  answer.result = planning::plan(snapshot, request);
+  planning::name_witnesses(snapshot.mesh, request, answer.result);
+}
+
 Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {
   Answer answer;
   base::Result<RequestFile> request = read_as<RequestFile>(file);
@@ -107,15 +119,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedSce
     answer.result = invalid(scene.result.error);
     return answer;
   }
-  answer.scene_digest = scene.result.snapshot->digest;
-  answer.mesh = scene.result.snapshot->mesh.share();
-  const planning::PlanOptions& options = request->options;
-  answer.scene_warnings = scene::import_warnings(
-      scene.result.snapshot->report,
-      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
-  answer.request_warnings = warnings_of(*request);
-  answer.result = planning::plan(*scene.result.snapshot, *request);
-  planning::name_witnesses(scene.result.snapshot->mesh, *request, answer.result);
+  answer_in_scene(*scene.result.snapshot, *request, answer);
   answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
     answer.result.message = source + ": " + answer.result.message;
