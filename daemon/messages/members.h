@@ -125,21 +125,13 @@ class Converter {
     }
   }
 
-  /// Converts a row of a field table.
+  /// Converts a member of a list, or of a field table.
   template <class Mine, class Wire>
-  void operator()(const planning::FieldSpec&, Mine& mine, Wire& wire) const {
-    (*this)(mine, wire);
-  }
-  template <class Mine, class Wire>
-  void need(planning::FileName, Mine&& mine, Wire&& wire) const {
-    (*this)(mine, wire);
-  }
-  template <class Mine, class Wire>
-  void may(planning::FileName, bool, Mine&& mine, Wire&& wire) const {
+  void operator()(planning::FileName, Mine&& mine, Wire&& wire) const {
     (*this)(mine, wire);
   }
   template <class List>
-  void group(planning::FileName, bool, int, const List& list) const {
+  void group(planning::FileName, int, const List& list) const {
     list(*this);
   }
   template <class Mine, class List>

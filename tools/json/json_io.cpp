@@ -18,32 +18,19 @@ using correction::OrientationRule;
 using geometry::Vec3;
 using motion::Keyframe;
 using planning::FieldSpec;
-
-/// Reads the camera. Requires all members.
-void read_camera(const Field& field, motion::Camera& camera) {
-  allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
-  const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
-    io.need(spec, member);
-  };
-  planning::visit_camera(need, camera);
-}
+using planning::may_lack;
 
 /// Reads the members of a body.
-struct ShapeReader {
-  const Field& body;
+struct ShapeReader : JsonReader {
+  using JsonReader::JsonReader;
+  using JsonReader::operator();
 
-  template <class Value>
-  void operator()(const FieldSpec& spec, Value& member) const {
-    const JsonReader io(body);
-    if (spec.name == planning::body::kCenter.name) return io(spec, member);
-    io.need(spec, member);
-  }
   /// Reads a list of points for each piece, or `points` for a single piece.
   void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
-    const auto points = body.optional_member(planning::body::kPoints.name);
-    const auto lists = body.optional_member(spec.name);
+    const auto points = object().optional_member(planning::body::kPoints.name);
+    const auto lists = object().optional_member(spec.name);
     if (points.has_value() == lists.has_value()) {
-      body.fail("must have either points or pieces");
+      object().fail("must have either points or pieces");
     } else if (points) {
       read_value(*points, pieces.emplace_back());
     } else {
@@ -77,7 +64,7 @@ std::optional<motion::BodyShape> read_body(const Field& field) {
     std::vector<std::string_view> names = {"type"};
     if constexpr (requires { part.pieces_C; }) names.push_back(planning::body::kPoints.name);
     allow_only(field, names, [&](const auto& visit) { planning::visit_shape(visit, part); });
-    planning::visit_shape(ShapeReader{field}, part);
+    planning::visit_shape(ShapeReader(field), part);
   };
   std::visit(read, *shape);
   if (std::holds_alternative<motion::Camera>(*shape)) shape.reset();
@@ -140,9 +127,9 @@ void read_keyframes(const Field& list, RequestFile& request) {
     Keyframe keyframe;
     read_time(item, i, request, keyframe);
     const JsonReader io(item);
-    io.need("position", keyframe.pose.position);
+    io("position", keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
-    io.may("image", true, keyframe.image);
+    io(may_lack("image"), keyframe.image);
     request.keyframes.push_back(keyframe);
   }
 }
@@ -171,6 +158,10 @@ SceneReading read_reading(const Field& root) {
 }
 
 }  // namespace
+
+void read_value(const Field& field, motion::Camera& camera) {
+  read_table(field, [&](const auto& visit) { planning::visit_camera(visit, camera); });
+}
 
 void read_value(const Field& field, correction::MotionLimits& limits) {
   read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
@@ -205,15 +196,15 @@ void read_value(const Field& root, RequestFile& request) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
   const JsonReader io(root);
-  io.may("scene", true, request.scene);
+  io(may_lack("scene"), request.scene);
   request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
   if (!request.body || root.optional_member("camera")) {
-    read_camera(root.member("camera"), request.camera);
+    read_value(root.member("camera"), request.camera);
   }
   read_keyframes(root.member("keyframes"), request);
   if (const auto frame = root.optional_member("frame")) request.frame = read_frame(*frame);
-  io.may("options", true, request.options);
+  io(may_lack("options"), request.options);
   request.spelling = json_spelling(root.notes());
 }
 

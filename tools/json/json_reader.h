@@ -135,16 +135,13 @@ class JsonReader {
   explicit JsonReader(const Field& object) : object_(object) {}
 
   template <class Value>
-  void need(planning::FileName name, Value&& member) const {
-    read(object_.member(name.name, name.old), name.name, member);
-  }
-  template <class Value>
-  void may(planning::FileName name, bool, Value&& member) const {
+  void operator()(planning::FileName name, Value&& member) const {
+    if (name.is_needed) return read(object_.member(name.name, name.old), name.name, member);
     const auto field = object_.optional_member(name.name, name.old);
     if (field) read(*field, name.name, member);
   }
   template <class List>
-  void group(planning::FileName name, bool, int, const List& list) const {
+  void group(planning::FileName name, int, const List& list) const {
     const auto field = object_.optional_member(name.name);
     if (!field) return;
     const JsonReader object(*field);
@@ -152,20 +149,18 @@ class JsonReader {
   }
   template <class Struct, class List>
   void optional(planning::FileName name, std::optional<Struct>& member, const List& list) const {
-    group(name, true, 0, [&](const JsonReader& object) { list(object, member.emplace()); });
+    group(name, 0, [&](const JsonReader& object) { list(object, member.emplace()); });
   }
 
-  /// Reads a member of a table if the object has it.
-  template <class Value>
-  void operator()(const planning::FieldSpec& spec, Value& member) const {
-    may(spec, true, member);
-  }
   /// Reads a whole number of any size, from the least of its range.
   void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {
     const auto field = object_.optional_member(spec.file_name());
     const auto least = static_cast<std::int64_t>(spec.range.least);
     if (field) read_integer(*field, least, std::numeric_limits<std::int64_t>::max(), number);
   }
+
+ protected:
+  [[nodiscard]] const Field& object() const { return object_; }
 
  private:
   template <class Value>

@@ -62,15 +62,11 @@ bool has_same_bits(const std::tuple<Member&, Member&>& then,
 class MessageComparer {
  public:
   template <class Mine, class Member>
-  void need(FileName name, const Mine& mine, const Member& then, const Member& now) {
+  void operator()(FileName name, const Mine& mine, const Member& then, const Member& now) {
     inside(name, [&] { compare(mine, then, now); });
   }
-  template <class Mine, class Member>
-  void may(FileName name, bool, const Mine& mine, const Member& then, const Member& now) {
-    need(name, mine, then, now);
-  }
   template <class List>
-  void group(FileName name, bool, int, const List& list) {
+  void group(FileName name, int, const List& list) {
     inside(name, [&] { list(*this); });
   }
   template <class Mine, class List>
@@ -129,7 +125,7 @@ class MessageComparer {
 bool has_same_path(const plan_response_t& recorded, const PlanResult& now,
                    const plan_response_t& message) {
   MessageComparer io;
-  io.need("segments", now.path.segments(), recorded.segments, message.segments);
+  io("segments", now.path.segments(), recorded.segments, message.segments);
   return io.difference().empty();
 }
 
@@ -138,8 +134,8 @@ std::string first_difference(const plan_response_t& recorded, const PlanResult& 
                              const plan_response_t& message) {
   MessageComparer io;
   planning::head_members(io, now, recorded, message);
-  io.need("keyframes", now.keyframes, recorded.keyframes, message.keyframes);
-  io.need("segments", now.path.segments(), recorded.segments, message.segments);
+  io("keyframes", now.keyframes, recorded.keyframes, message.keyframes);
+  io("segments", now.path.segments(), recorded.segments, message.segments);
   planning::report_members(io, now, recorded, message);
   return io.difference();
 }
