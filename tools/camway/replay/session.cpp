@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
-#include "daemon/messages/pages.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/page_assembly.h"
 #include "lcmtypes/wire/path_fault.h"
 #include "tools/camway/replay/signed_event.h"
 
@@ -51,7 +51,7 @@ class SessionBuilder {
 
  private:
   template <typename Message, typename UseWhole>
-  void add_page(const LogEvent& event, messages::PageAssembly<Message>& pages, UseWhole use_whole) {
+  void add_page(const LogEvent& event, wire::PageAssembly<Message>& pages, UseWhole use_whole) {
     wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
     if (!decoded.message) {
       ++session_.malformed;
@@ -103,8 +103,8 @@ class SessionBuilder {
   const wire::MessageKeys* keys_;
   std::string request_channel_;
   std::string response_channels_;
-  messages::PageAssembly<plan_request_t> request_pages_;
-  messages::PageAssembly<plan_response_t> response_pages_;
+  wire::PageAssembly<plan_request_t> request_pages_;
+  wire::PageAssembly<plan_response_t> response_pages_;
   std::map<Key, std::size_t> index_;
   std::vector<wire::Bytes> contents_;
   std::map<Key, RecordedAnswer> answers_;
