@@ -71,19 +71,6 @@ std::optional<motion::BodyShape> read_body(const Field& field) {
   return shape;
 }
 
-/// Returns the unit quaternion in the direction of `wxyz`. Divides by the largest coefficient
-/// first, so that squares neither overflow nor underflow.
-geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
-  const double largest = wxyz.cwiseAbs().maxCoeff();
-  if (largest == 0.0) {
-    field.fail("has length zero, which is no orientation");
-    return geometry::Quat::Identity();
-  }
-  if (std::abs(wxyz.squaredNorm() - 1.0) <= kUnitQuaternionError) return geometry::from_wxyz(wxyz);
-  const geometry::Vec4 scaled = wxyz / largest;
-  return geometry::from_wxyz(scaled / scaled.norm());
-}
-
 /// Reads the time of keyframe `index`, which must have one exactly if the first keyframe has one.
 void read_time(const Field& item, std::size_t index, RequestFile& request, Keyframe& keyframe) {
   const std::optional<Field> time = item.optional_member("time");
@@ -95,20 +82,19 @@ void read_time(const Field& item, std::size_t index, RequestFile& request, Keyfr
             ": time stands in all keyframes or in none");
 }
 
-/// Reads the quaternion, in either order of its numbers.
+/// Reads the quaternion, in either order of its numbers, and brings it to unit length.
 geometry::Quat read_orientation(const Field& item, RequestFile& request) {
-  geometry::Vec4 numbers = geometry::Vec4::Zero();
-  if (const auto xyzw = item.optional_member("orientation_xyzw")) {
-    if (item.optional_member("orientation")) {
-      item.fail("has both orientation and orientation_xyzw; leave one out");
-    }
-    request.says_xyzw = true;
-    read_value(*xyzw, numbers);
-    return unit_quaternion(*xyzw, {numbers[3], numbers[0], numbers[1], numbers[2]});
+  const auto xyzw = item.optional_member("orientation_xyzw");
+  if (xyzw && item.optional_member("orientation")) {
+    item.fail("has both orientation and orientation_xyzw; leave one out");
   }
-  const Field wxyz = item.member("orientation");
-  read_value(wxyz, numbers);
-  return unit_quaternion(wxyz, numbers);
+  if (xyzw) request.says_xyzw = true;
+  const Field field = xyzw ? *xyzw : item.member("orientation");
+  geometry::Vec4 numbers = geometry::Vec4::Zero();
+  read_value(field, numbers);
+  if (numbers.isZero(0.0)) field.fail("has length zero, which is no orientation");
+  if (xyzw) numbers = {numbers[3], numbers[0], numbers[1], numbers[2]};
+  return geometry::from_wxyz(planning::direction_of(numbers));
 }
 
 void read_keyframes(const Field& list, RequestFile& request) {
@@ -146,14 +132,11 @@ motion::PathFrame read_frame(const Field& field) {
 
 SceneReading read_reading(const Field& root) {
   SceneReading reading;
-  if (const auto scale = root.optional_member("scale")) {
-    reading.scale = scale->number();
-    if (!(*reading.scale > 0.0)) scale->fail_number("be above 0");
-  }
-  if (const auto up = root.optional_member("up")) reading.up = named(*up, scene::kUpAxes);
-  if (const auto unknown = root.optional_member("unknown")) {
-    reading.unknown = named(*unknown, scene::kUnknownSpaces);
-  }
+  const JsonReader io(root);
+  io(may_lack("scale"), reading.scale);
+  if (reading.scale && !(*reading.scale > 0.0)) root.member("scale").fail_number("be above 0");
+  io(may_lack("up"), reading.up);
+  io(may_lack("unknown"), reading.unknown);
   return reading;
 }
 
