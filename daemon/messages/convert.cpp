@@ -83,16 +83,12 @@ plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header) {
   plan_response_t wire{};
-  wire.client_id = header.ids.client_id;
-  wire.request_id = header.ids.request_id;
-  wire.utime = header.ids.utime;
+  wire::convert_common(ToWire{}, header.ids, wire);
+  wire::convert_common(ToWire{}, header, wire);
   wire.num_pages = 1;
   wire.status = status;
   wire.message = message;
   wire.keyframe = -1;
-  wire.scene = header.scene;
-  wire.scene_revision = header.scene_revision;
-  wire.scene_digest = header.scene_digest;
   wire.near_scale = 1.0;
   wire.time_scale = 1.0;
   wire.keyframe_inside = -1;
