@@ -14,19 +14,6 @@ namespace camway::messages {
 
 using planning::PlanResult;
 
-namespace {
-
-/// Converts the members of an answer other than its path.
-template <class Io, class Result, class Wire>
-void convert_report(const Io& io, Result& result, Wire& wire) {
-  planning::head_members(io, result, wire);
-  io(result.keyframes, wire.keyframes);
-  planning::report_members(io, result, wire);
-  planning::members(io, result.timing, wire);
-}
-
-}  // namespace
-
 std::string_view status_name(std::int32_t wire_status) {
   if (const auto status = base::value_of<planning::Status>(wire_status)) {
     return planning::to_string(*status);
@@ -71,29 +58,23 @@ geometry::Bounds from_wire(const bounds_t& wire) {
   return bounds;
 }
 
-base::Result<PlanResult> from_wire(const plan_response_t& wire) {
-  if (!base::value_of<planning::Status>(wire.status)) {
-    return base::Failure{std::string(status_name(wire.status)) + ": " + wire.message};
-  }
-  std::string fault = wire::path_fault(wire.segments);
+base::Result<motion::Path> path_of(const std::vector<segment_t>& wire) {
+  std::string fault = wire::path_fault(wire);
   if (!fault.empty()) return base::Failure{std::move(fault)};
-
-  Refusal refusal(wire);
-  const FromWire io(refusal);
-  PlanResult result;
-  convert_report(io, result, wire);
-  if (!refusal.error().empty()) return base::Failure{refusal.error()};
+  if (wire.empty()) return motion::Path();
   std::vector<motion::Segment> segments;
-  io(segments, wire.segments);
-  if (!segments.empty()) result.path = motion::Path(std::move(segments));
-  return result;
+  FromWire{}(segments, wire);
+  return motion::Path(std::move(segments));
 }
 
 plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
   const ToWire io;
   plan_response_t wire = plain_answer(0, "", header);
-  convert_report(io, result, wire);
+  planning::head_members(io, result, wire);
   io(result.path.segments(), wire.segments);
+  io(result.keyframes, wire.keyframes);
+  planning::report_members(io, result, wire);
+  planning::members(io, result.timing, wire);
   clip_texts(wire);
   wire::set_counts(wire);
   return wire;
@@ -102,16 +83,12 @@ plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header) {
   plan_response_t wire{};
-  wire.client_id = header.ids.client_id;
-  wire.request_id = header.ids.request_id;
-  wire.utime = header.ids.utime;
+  wire::convert_common(ToWire{}, header.ids, wire);
+  wire::convert_common(ToWire{}, header, wire);
   wire.num_pages = 1;
   wire.status = status;
   wire.message = message;
   wire.keyframe = -1;
-  wire.scene = header.scene;
-  wire.scene_revision = header.scene_revision;
-  wire.scene_digest = header.scene_digest;
   wire.near_scale = 1.0;
   wire.time_scale = 1.0;
   wire.keyframe_inside = -1;

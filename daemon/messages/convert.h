@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
@@ -47,12 +48,9 @@ struct RequestIds {
 bounds_t to_wire(const geometry::Bounds& bounds);
 geometry::Bounds from_wire(const bounds_t& wire);
 
-/// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
-/// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a
-/// correction's collision) stay 0 or empty. Returns an error for a status that planning does not
-/// have (overloaded, malformed, cancelled, limit), for segments that are no path, and for numbers
-/// that have no meaning.
-base::Result<planning::PlanResult> from_wire(const plan_response_t& wire);
+/// Reads the path of an answer from the segments of all its pages. Returns an error for segments
+/// that are no path.
+base::Result<motion::Path> path_of(const std::vector<segment_t>& segments);
 
 /// The members of an answer that are not in the result.
 struct AnswerHeader {

@@ -23,15 +23,11 @@
 /// no list, and other values follow from their types (`wire::convert`).
 namespace camway::messages {
 
-/// The first fault of a message that is read. It names the member as the message does.
+/// The first fault of a request that is read. It names the member as the message does.
 class Refusal {
  public:
   /// Keeps a reference to the message.
-  template <wire::Described Message>
-  explicit Refusal(const Message& message)
-      : path_of_([&message](const void* part, std::size_t size) {
-          return *wire::path_of(part, size, message);
-        }) {}
+  explicit Refusal(const plan_request_t& message) : message_(message) {}
 
   /// Refuses a part of the message, e.g. "bounds.min_m[1]: " and the reason.
   template <class Part>
@@ -41,12 +37,12 @@ class Refusal {
   /// Returns the path of a part of the message.
   template <class Part>
   [[nodiscard]] std::string path_of(const Part& part) const {
-    return path_of_(&part, sizeof part);
+    return *wire::path_of(&part, sizeof part, message_);
   }
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
-  std::function<std::string(const void*, std::size_t)> path_of_;
+  const plan_request_t& message_;
   std::string error_;
 };
 
@@ -63,9 +59,6 @@ inline void translate(const bounds_t& wire, geometry::Bounds& mine) { mine = fro
 inline void translate(const std::same_as<std::optional<std::size_t>> auto& mine,
                       std::int32_t& wire) {
   wire = mine ? static_cast<std::int32_t>(*mine) : -1;
-}
-inline void translate(std::int32_t wire, std::optional<std::size_t>& mine) {
-  if (wire >= 0) mine = static_cast<std::size_t>(wire);
 }
 template <base::NamedEnum Enum>
 void translate(Enum mine, std::string& wire) {
@@ -93,22 +86,11 @@ void translate(const Wire& wire, Enum& mine, Refusal& refusal) {
   if (!value) refusal.add(wire, unknown_value(wire, names_of(Enum{})));
   mine = value.value_or(mine);
 }
-/// Reads the index of a keyframe.
+/// Reads the index of a vertex.
 template <std::same_as<std::int32_t> Wire>
-void translate(const Wire& wire, std::size_t& mine, Refusal& refusal) {
+void translate(const Wire& wire, std::uint32_t& mine, Refusal& refusal) {
   if (wire < 0) refusal.add(wire, fmt::format("is {}; it must be at least 0", wire));
-  mine = static_cast<std::size_t>(std::max(wire, 0));
-}
-/// Reads indices of triangles, or of the vertices of one.
-template <class Indices>
-requires std::same_as<typename Indices::value_type, std::uint32_t>
-void translate(const std::vector<std::int32_t>& wire, Indices& mine, Refusal& refusal) {
-  if constexpr (requires { mine.resize(0); }) mine.resize(wire.size());
-  for (std::size_t i = 0; i < std::min(wire.size(), mine.size()); ++i) {
-    std::size_t index = 0;
-    translate(wire[i], index, refusal);
-    mine[i] = static_cast<std::uint32_t>(index);
-  }
+  mine = static_cast<std::uint32_t>(std::max(wire, 0));
 }
 
 /// Cuts the texts of a message to its limits.
@@ -127,7 +109,8 @@ void clip_texts(Wire& wire) {
 template <bool kWrites>
 class Converter {
  public:
-  Converter() requires kWrites = default;
+  Converter() = default;
+  /// For values that may be refused.
   explicit Converter(Refusal& refusal) requires(!kWrites) : refusal_(&refusal) {}
 
   template <class Mine, class Wire>
@@ -142,30 +125,18 @@ class Converter {
     }
   }
 
-  /// Converts a row of a field table.
+  /// Converts a member of a list, or of a field table.
   template <class Mine, class Wire>
-  void operator()(const planning::FieldSpec&, Mine& mine, Wire& wire) const {
-    (*this)(mine, wire);
-  }
-  template <class Mine, class Wire>
-  void need(planning::FileName, Mine&& mine, Wire&& wire) const {
-    (*this)(mine, wire);
-  }
-  template <class Mine, class Wire>
-  void may(planning::FileName, bool, Mine&& mine, Wire&& wire) const {
+  void operator()(planning::FileName, Mine&& mine, Wire&& wire) const {
     (*this)(mine, wire);
   }
   template <class List>
-  void group(planning::FileName, bool, int, const List& list) const {
+  void group(planning::FileName, int, const List& list) const {
     list(*this);
   }
-  template <class Mine, class List, class Has>
-  void optional(planning::FileName, Mine& mine, const List& list, Has& has) const {
-    if constexpr (kWrites) {
-      has = mine ? 1 : 0;
-    } else if (has != 0) {
-      mine.emplace();
-    }
+  template <class Mine, class List>
+  void optional(planning::FileName, const Mine& mine, const List& list, std::int8_t& has) const {
+    has = mine ? 1 : 0;
     if (mine) list(*this, *mine);
   }
 

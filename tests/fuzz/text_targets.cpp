@@ -2,10 +2,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "daemon/messages/pages.h"
 #include "daemon/planning/plan.h"
 #include "daemon/process/settings/config_file.h"
 #include "daemon/scene/snapshot/snapshot.h"
+#include "lcmtypes/wire/pages.h"
 #include "tests/fuzz/targets.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/messages/pages.h"
 #include "daemon/service/transport/transport.h"
+#include "lcmtypes/wire/pages.h"
 
 namespace camway::testing {
 

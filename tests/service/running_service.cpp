@@ -98,7 +98,7 @@ void RunningService::send_on(const std::string& channel, wire::Bytes bytes) {
 std::optional<plan_response_t> RunningService::answer_to(const plan_request_t& request,
                                                          std::size_t skip_pages) {
   const std::string channel = channels.plan_response(request.client_id);
-  messages::PageAssembly<plan_response_t> assembly;
+  wire::PageAssembly<plan_response_t> assembly;
   for (std::size_t seen = skip_pages;; ++seen) {
     const std::optional<wire::Bytes> bytes = transport.message_on(channel, seen);
     if (!bytes) return std::nullopt;

@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
-#include "daemon/messages/pages.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/service.h"
+#include "lcmtypes/wire/page_assembly.h"
 #include "tests/service/fake_transport.h"
 #include "tests/support/captured_log.h"
 

@@ -7,6 +7,7 @@
 
 namespace camway::tools {
 
+using planning::may_lack;
 using planning::PlanResult;
 
 namespace {
@@ -36,9 +37,9 @@ std::vector<double> read_keyframe_times(const Field& list) {
     const JsonReader io(item);
     auto origin = motion::KeyframeOrigin::kGiven;
     std::optional<double> time_s;
-    io.may("origin", true, origin);
+    io(may_lack("origin"), origin);
     if (origin == motion::KeyframeOrigin::kInserted) continue;
-    io.may("time", true, time_s);
+    io(may_lack("time"), time_s);
     if (time_s) times_s.push_back(*time_s);
     all_timed = all_timed && time_s;
   }
@@ -52,9 +53,9 @@ void read_value(const Field& root, PlanResult& result) {
   const JsonReader io(root);
   planning::head_members(io, result);
   if (const auto list = root.optional_member("segments")) read_path(*list, result.path);
-  io.may("keyframes", true, result.keyframes);
+  io(may_lack("keyframes"), result.keyframes);
   planning::report_members(io, result);
-  io.may("timing_ms", true, result.timing);
+  io(may_lack("timing_ms"), result.timing);
 }
 
 void read_value(const Field& root, PathFile& file) {
@@ -69,10 +70,10 @@ void read_value(const Field& root, PathFile& file) {
   }
   double time_scale = 1.0;
   const JsonReader io(root);
-  io.may("scene_digest", true, file.scene_digest);
-  io.may("bounds", true, file.bounds);
-  io.may("time_scale", true, time_scale);
-  io.may("near_scale", true, file.near_scale);
+  io(may_lack("scene_digest"), file.scene_digest);
+  io(may_lack("bounds"), file.bounds);
+  io(may_lack("time_scale"), time_scale);
+  io(may_lack("near_scale"), file.near_scale);
   file.is_slowed = time_scale != 1.0;
   if (const auto fault = geometry::fault_in(file.bounds)) {
     root.member("bounds").fail(fault->field + " " + fault->reason);

@@ -18,32 +18,19 @@ using correction::OrientationRule;
 using geometry::Vec3;
 using motion::Keyframe;
 using planning::FieldSpec;
-
-/// Reads the camera. Requires all members.
-void read_camera(const Field& field, motion::Camera& camera) {
-  allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
-  const auto need = [io = JsonReader(field)](const FieldSpec& spec, double& member) {
-    io.need(spec, member);
-  };
-  planning::visit_camera(need, camera);
-}
+using planning::may_lack;
 
 /// Reads the members of a body.
-struct ShapeReader {
-  const Field& body;
+struct ShapeReader : JsonReader {
+  using JsonReader::JsonReader;
+  using JsonReader::operator();
 
-  template <class Value>
-  void operator()(const FieldSpec& spec, Value& member) const {
-    const JsonReader io(body);
-    if (spec.name == planning::body::kCenter.name) return io(spec, member);
-    io.need(spec, member);
-  }
   /// Reads a list of points for each piece, or `points` for a single piece.
   void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
-    const auto points = body.optional_member(planning::body::kPoints.name);
-    const auto lists = body.optional_member(spec.name);
+    const auto points = object().optional_member(planning::body::kPoints.name);
+    const auto lists = object().optional_member(spec.name);
     if (points.has_value() == lists.has_value()) {
-      body.fail("must have either points or pieces");
+      object().fail("must have either points or pieces");
     } else if (points) {
       read_value(*points, pieces.emplace_back());
     } else {
@@ -77,24 +64,11 @@ std::optional<motion::BodyShape> read_body(const Field& field) {
     std::vector<std::string_view> names = {"type"};
     if constexpr (requires { part.pieces_C; }) names.push_back(planning::body::kPoints.name);
     allow_only(field, names, [&](const auto& visit) { planning::visit_shape(visit, part); });
-    planning::visit_shape(ShapeReader{field}, part);
+    planning::visit_shape(ShapeReader(field), part);
   };
   std::visit(read, *shape);
   if (std::holds_alternative<motion::Camera>(*shape)) shape.reset();
   return shape;
-}
-
-/// Returns the unit quaternion in the direction of `wxyz`. Divides by the largest coefficient
-/// first, so that squares neither overflow nor underflow.
-geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
-  const double largest = wxyz.cwiseAbs().maxCoeff();
-  if (largest == 0.0) {
-    field.fail("has length zero, which is no orientation");
-    return geometry::Quat::Identity();
-  }
-  if (std::abs(wxyz.squaredNorm() - 1.0) <= kUnitQuaternionError) return geometry::from_wxyz(wxyz);
-  const geometry::Vec4 scaled = wxyz / largest;
-  return geometry::from_wxyz(scaled / scaled.norm());
 }
 
 /// Reads the time of keyframe `index`, which must have one exactly if the first keyframe has one.
@@ -108,20 +82,19 @@ void read_time(const Field& item, std::size_t index, RequestFile& request, Keyfr
             ": time stands in all keyframes or in none");
 }
 
-/// Reads the quaternion, in either order of its numbers.
+/// Reads the quaternion, in either order of its numbers, and brings it to unit length.
 geometry::Quat read_orientation(const Field& item, RequestFile& request) {
-  geometry::Vec4 numbers = geometry::Vec4::Zero();
-  if (const auto xyzw = item.optional_member("orientation_xyzw")) {
-    if (item.optional_member("orientation")) {
-      item.fail("has both orientation and orientation_xyzw; leave one out");
-    }
-    request.says_xyzw = true;
-    read_value(*xyzw, numbers);
-    return unit_quaternion(*xyzw, {numbers[3], numbers[0], numbers[1], numbers[2]});
+  const auto xyzw = item.optional_member("orientation_xyzw");
+  if (xyzw && item.optional_member("orientation")) {
+    item.fail("has both orientation and orientation_xyzw; leave one out");
   }
-  const Field wxyz = item.member("orientation");
-  read_value(wxyz, numbers);
-  return unit_quaternion(wxyz, numbers);
+  if (xyzw) request.says_xyzw = true;
+  const Field field = xyzw ? *xyzw : item.member("orientation");
+  geometry::Vec4 numbers = geometry::Vec4::Zero();
+  read_value(field, numbers);
+  if (numbers.isZero(0.0)) field.fail("has length zero, which is no orientation");
+  if (xyzw) numbers = {numbers[3], numbers[0], numbers[1], numbers[2]};
+  return geometry::from_wxyz(planning::direction_of(numbers));
 }
 
 void read_keyframes(const Field& list, RequestFile& request) {
@@ -140,9 +113,9 @@ void read_keyframes(const Field& list, RequestFile& request) {
     Keyframe keyframe;
     read_time(item, i, request, keyframe);
     const JsonReader io(item);
-    io.need("position", keyframe.pose.position);
+    io("position", keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
-    io.may("image", true, keyframe.image);
+    io(may_lack("image"), keyframe.image);
     request.keyframes.push_back(keyframe);
   }
 }
@@ -159,18 +132,19 @@ motion::PathFrame read_frame(const Field& field) {
 
 SceneReading read_reading(const Field& root) {
   SceneReading reading;
-  if (const auto scale = root.optional_member("scale")) {
-    reading.scale = scale->number();
-    if (!(*reading.scale > 0.0)) scale->fail_number("be above 0");
-  }
-  if (const auto up = root.optional_member("up")) reading.up = named(*up, scene::kUpAxes);
-  if (const auto unknown = root.optional_member("unknown")) {
-    reading.unknown = named(*unknown, scene::kUnknownSpaces);
-  }
+  const JsonReader io(root);
+  io(may_lack("scale"), reading.scale);
+  if (reading.scale && !(*reading.scale > 0.0)) root.member("scale").fail_number("be above 0");
+  io(may_lack("up"), reading.up);
+  io(may_lack("unknown"), reading.unknown);
   return reading;
 }
 
 }  // namespace
+
+void read_value(const Field& field, motion::Camera& camera) {
+  read_table(field, [&](const auto& visit) { planning::visit_camera(visit, camera); });
+}
 
 void read_value(const Field& field, correction::MotionLimits& limits) {
   read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
@@ -205,15 +179,15 @@ void read_value(const Field& root, RequestFile& request) {
   root.allow_only(
       {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
   const JsonReader io(root);
-  io.may("scene", true, request.scene);
+  io(may_lack("scene"), request.scene);
   request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
   if (!request.body || root.optional_member("camera")) {
-    read_camera(root.member("camera"), request.camera);
+    read_value(root.member("camera"), request.camera);
   }
   read_keyframes(root.member("keyframes"), request);
   if (const auto frame = root.optional_member("frame")) request.frame = read_frame(*frame);
-  io.may("options", true, request.options);
+  io(may_lack("options"), request.options);
   request.spelling = json_spelling(root.notes());
 }
 

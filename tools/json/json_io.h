@@ -15,12 +15,6 @@
 /// are degrees in files and radians in memory; all other units are the same.
 namespace camway::tools {
 
-/// Largest difference between 1 and the computed squared length of a unit quaternion. Rounding the
-/// four coefficients changes the squared length by at most 2 eps, and computing it (four squares,
-/// three sums) by at most 2.5 eps. A quaternion within this bound keeps its bits when it is read;
-/// any other is normalised.
-inline constexpr double kUnitQuaternionError = 5 * 2.220446049250313e-16;
-
 /// Options for reading the scene's file. Unset ones have the default of `scene::ImportOptions`.
 struct SceneReading {
   std::optional<double> scale;  ///< metres per unit of the file [Limit: 0 < value]

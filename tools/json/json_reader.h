@@ -31,9 +31,6 @@ template <std::integral Number>
 void read_integer(const Field& field, std::int64_t least, std::int64_t most, Number& number) {
   number = static_cast<Number>(field.integer(least, most));
 }
-inline void read_value(const Field& field, double& number) { number = field.number(); }
-inline void read_value(const Field& field, bool& flag) { flag = field.boolean(); }
-inline void read_value(const Field& field, std::string& text) { text = field.text(); }
 /// Reads a number that counts something.
 inline void read_value(const Field& field, std::int32_t& count) {
   read_integer(field, 0, std::numeric_limits<std::int32_t>::max(), count);
@@ -46,60 +43,27 @@ inline void read_value(const Field& field, std::uint32_t& triangle_or_side) {
 inline void read_value(const Field& field, std::size_t& keyframe) {
   read_integer(field, 0, planning::kMaxKeyframes, keyframe);
 }
-template <base::NamedEnum Enum>
-void read_value(const Field& field, Enum& value) {
-  value = named(field, base::named_values<Enum>());
-}
 inline void read_value(const Field& field, std::tuple<double&, double&> both) {
   double numbers[2] = {};
   field.numbers(numbers, 2);
   both = std::tuple(numbers[0], numbers[1]);
 }
-template <int kSize>
-void read_value(const Field& field, Eigen::Matrix<double, kSize, 1>& vector) {
-  field.numbers(vector.data(), kSize);
-}
-/// Reads numbers in the order w, x, y, z, as they are.
-inline void read_value(const Field& field, geometry::Quat& orientation) {
-  geometry::Vec4 wxyz = geometry::Vec4::Zero();
-  read_value(field, wxyz);
-  orientation = geometry::from_wxyz(wxyz);
-}
-template <class Value>
-void read_value(const Field& field, std::optional<Value>& value) {
-  read_value(field, value.emplace());
-}
 
 /// Reads an array of any length, or of that of `elements`, each element by `read(field, element)`.
 template <class List, class Read>
 void read_list(const Field& field, List& elements, const Read& read) {
+  constexpr bool kGrows = requires { elements.emplace_back(); };
   const std::size_t count = field.size();
-  if constexpr (!requires { elements.emplace_back(); }) {
-    if (!field.failed() && count != elements.size()) {
-      field.fail("must be an array of " + std::to_string(elements.size()) + ", not of " +
-                 std::to_string(count));
-    }
+  if (!kGrows && !field.failed() && count != elements.size()) {
+    field.fail("must be an array of " + std::to_string(elements.size()) + ", not of " +
+               std::to_string(count));
   }
   for (std::size_t i = 0; i < count && !field.failed(); ++i) {
-    if constexpr (requires { elements.emplace_back(); }) elements.emplace_back();
+    if constexpr (kGrows) elements.emplace_back();
     read(field.element(i), elements[i]);
   }
 }
-template <class List>
-requires requires(List& list) {
-  list[0];
-  typename List::value_type;
-}
-void read_value(const Field& field, List& list) {
-  using Element = typename List::value_type;
-  read_list(field, list, [](const Field& item, Element& element) {
-    if constexpr (std::same_as<Element, std::uint32_t>) {
-      read_integer(item, 0, kMaxIndex, element);
-    } else {
-      read_value(item, element);
-    }
-  });
-}
+
 /// Reads `{"min": [...], "max": [...]}`. Either corner may be left out, and null is no limit.
 inline void read_value(const Field& field, geometry::Bounds& bounds) {
   field.allow_only({"min", "max"});
@@ -135,16 +99,13 @@ class JsonReader {
   explicit JsonReader(const Field& object) : object_(object) {}
 
   template <class Value>
-  void need(planning::FileName name, Value&& member) const {
-    read(object_.member(name.name, name.old), name.name, member);
-  }
-  template <class Value>
-  void may(planning::FileName name, bool, Value&& member) const {
+  void operator()(planning::FileName name, Value&& member) const {
+    if (name.is_needed) return read(object_.member(name.name, name.old), name.name, member);
     const auto field = object_.optional_member(name.name, name.old);
     if (field) read(*field, name.name, member);
   }
   template <class List>
-  void group(planning::FileName name, bool, int, const List& list) const {
+  void group(planning::FileName name, int, const List& list) const {
     const auto field = object_.optional_member(name.name);
     if (!field) return;
     const JsonReader object(*field);
@@ -152,20 +113,18 @@ class JsonReader {
   }
   template <class Struct, class List>
   void optional(planning::FileName name, std::optional<Struct>& member, const List& list) const {
-    group(name, true, 0, [&](const JsonReader& object) { list(object, member.emplace()); });
+    group(name, 0, [&](const JsonReader& object) { list(object, member.emplace()); });
   }
 
-  /// Reads a member of a table if the object has it.
-  template <class Value>
-  void operator()(const planning::FieldSpec& spec, Value& member) const {
-    may(spec, true, member);
-  }
   /// Reads a whole number of any size, from the least of its range.
   void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {
     const auto field = object_.optional_member(spec.file_name());
     const auto least = static_cast<std::int64_t>(spec.range.least);
     if (field) read_integer(*field, least, std::numeric_limits<std::int64_t>::max(), number);
   }
+
+ protected:
+  [[nodiscard]] const Field& object() const { return object_; }
 
  private:
   template <class Value>
@@ -179,19 +138,45 @@ class JsonReader {
   const Field& object_;
 };
 
-/// Reads an object that has members of a table alone; any may be missing.
-/// `visit_table(visit)` visits the table with the members that are read.
+/// Reads an object that has members of a table alone. `visit_table(visit)` visits the table with
+/// the members that are read.
 template <class VisitTable>
 void read_table(const Field& field, const VisitTable& visit_table) {
   allow_only(field, {}, visit_table);
   visit_table(JsonReader(field));
 }
 
-template <class Struct>
-requires requires(const JsonReader& io, Struct& value) { planning::members(io, value); }
-void read_value(const Field& field, Struct& object) {
-  const JsonReader reader(field);
-  planning::members(reader, object);
+/// Reads a value of any other type: a number, a text, a name, a list, or a struct with a list of
+/// members.
+template <class Value>
+void read_value(const Field& field, Value& value) {
+  if constexpr (std::same_as<Value, double>) {
+    value = field.number();
+  } else if constexpr (std::same_as<Value, bool>) {
+    value = field.boolean();
+  } else if constexpr (std::same_as<Value, std::string>) {
+    value = field.text();
+  } else if constexpr (base::NamedEnum<Value>) {
+    value = named(field, base::named_values<Value>());
+  } else if constexpr (std::same_as<Value, geometry::Quat>) {
+    geometry::Vec4 wxyz = geometry::Vec4::Zero();
+    read_value(field, wxyz);
+    value = geometry::from_wxyz(wxyz);  // of any length
+  } else if constexpr (requires { Value::SizeAtCompileTime; }) {
+    field.numbers(value.data(), Value::SizeAtCompileTime);
+  } else if constexpr (requires { value.has_value(); }) {
+    read_value(field, value.emplace());
+  } else if constexpr (requires(const JsonReader& io) { planning::members(io, value); }) {
+    const JsonReader io(field);
+    planning::members(io, value);
+  } else if constexpr (std::same_as<typename Value::value_type, std::uint32_t>) {
+    const auto read = [](const Field& item, std::uint32_t& index) {
+      read_integer(item, 0, kMaxIndex, index);
+    };
+    read_list(field, value, read);
+  } else {
+    read_list(field, value, [](const Field& item, auto& element) { read_value(item, element); });
+  }
 }
 
 }  // namespace camway::tools

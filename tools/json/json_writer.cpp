@@ -19,6 +19,7 @@ namespace camway::tools {
 namespace {
 
 using planning::FileName;
+using planning::may_lack;
 
 /// Writes an object. Each small object (a keyframe, an interval) is on one line, so that a person
 /// can read a long path and `diff` can compare two.
@@ -42,7 +43,8 @@ class JsonWriter {
 
   /// Writes a member (`planning/result/members.h`).
   template <class Value>
-  void need(FileName name, const Value& member) {
+  void operator()(FileName name, const Value& member) {
+    if (!name.is_written) return;
     begin(name);
     if constexpr (std::same_as<Value, double>) {
       value(planning::is_angle(name.name) ? degrees(member) : member);
@@ -51,20 +53,16 @@ class JsonWriter {
     }
     path_.pop_back();
   }
-  template <class Value>
-  void may(FileName name, bool is_said, const Value& member) {
-    if (is_said) need(name, member);
-  }
   template <class List>
-  void group(FileName name, bool is_said, int indent, const List& list) {
-    if (!is_said) return;
+  void group(FileName name, int indent, const List& list) {
+    if (!name.is_written) return;
     begin(name);
     object(indent, [&] { list(*this); });
     path_.pop_back();
   }
   template <class Struct, class List>
   void optional(FileName name, const std::optional<Struct>& member, const List& list) {
-    group(name, member.has_value(), -1, [&](JsonWriter& io) { list(io, *member); });
+    group(may_lack(name, member.has_value()), -1, [&](JsonWriter& io) { list(io, *member); });
   }
 
   /// Returns the first member that could not be written, and why: "keyframes[].position: is not
@@ -170,13 +168,13 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
   JsonWriter io(out);
   io.object(2, [&] {
     planning::head_members(io, result);
-    io.may("scene", !format.scene.empty(), format.scene);
-    io.may("scene_digest", !format.scene_digest.empty(), format.scene_digest);
-    io.may("warnings", !format.warnings.empty(), format.warnings);
-    io.need("segments", result.path.segments());
-    io.need("keyframes", result.keyframes);
+    io(may_lack("scene", !format.scene.empty()), format.scene);
+    io(may_lack("scene_digest", !format.scene_digest.empty()), format.scene_digest);
+    io(may_lack("warnings", !format.warnings.empty()), format.warnings);
+    io("segments", result.path.segments());
+    io("keyframes", result.keyframes);
     planning::report_members(io, result);
-    io.may("timing_ms", format.timing == TimingField::kWritten, result.timing);
+    io(may_lack("timing_ms", format.timing == TimingField::kWritten), result.timing);
   });
   out += '\n';
   if (!io.error().empty()) return base::Failure{io.error()};

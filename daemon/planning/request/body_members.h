@@ -30,13 +30,13 @@ inline std::optional<motion::BodyShape> blank_shape(std::size_t number) {
 
 namespace body {
 
-inline constexpr FieldSpec kSize{.name = "size", .wire = "size_m"};
-inline constexpr FieldSpec kRadius{.name = "radius_m", .old_file = "radius"};
-inline constexpr FieldSpec kCenter{.name = "center", .wire = "center_m"};  ///< files may omit it
+inline constexpr FieldSpec kSize{.name = "size", .wire = "size_m", .is_needed = true};
+inline constexpr FieldSpec kRadius{.name = "radius_m", .old_file = "radius", .is_needed = true};
+inline constexpr FieldSpec kCenter{.name = "center", .wire = "center_m"};
 inline constexpr FieldSpec kPieces{.name = "pieces", .wire = "piece_sizes"};
 inline constexpr FieldSpec kPoints{.name = "points", .wire = "points_m"};  ///< of a single piece
-inline constexpr FieldSpec kVertices{.name = "vertices", .wire = "points_m"};
-inline constexpr FieldSpec kTriangles{.name = "triangles"};
+inline constexpr FieldSpec kVertices{.name = "vertices", .wire = "points_m", .is_needed = true};
+inline constexpr FieldSpec kTriangles{.name = "triangles", .is_needed = true};
 
 }  // namespace body
 

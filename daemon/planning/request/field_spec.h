@@ -44,6 +44,7 @@ struct FieldSpec {
   std::string_view old_file = {};  ///< old name in request files, which is still read
   std::string_view unit = {};      ///< unit in messages about a value
   Range range = {};
+  bool is_needed = false;  ///< a request file has to have the member if it has the struct
   /// Text of the default in documents, if it is not the initial value of the member.
   std::string_view unset = {};
   std::string_view help = {};  ///< meaning, as a cell of a Markdown table

@@ -243,12 +243,22 @@ void visit_camera(const Visit& visit, Camera&... camera) {
   constexpr Range kAngle{
       .least = 0.0, .most = std::numbers::pi, .excludes_least = true, .excludes_most = true};
   constexpr Range kDistance{.least = 0.0, .most = kMaxCoordinate_m, .excludes_least = true};
-  visit(FieldSpec{.name = "fov_x", .wire = "fov_x_rad", .file = "fov_x_deg", .range = kAngle},
+  visit(FieldSpec{.name = "fov_x",
+                  .wire = "fov_x_rad",
+                  .file = "fov_x_deg",
+                  .range = kAngle,
+                  .is_needed = true},
         camera.fov_x_rad...);
-  visit(FieldSpec{.name = "fov_y", .wire = "fov_y_rad", .file = "fov_y_deg", .range = kAngle},
+  visit(FieldSpec{.name = "fov_y",
+                  .wire = "fov_y_rad",
+                  .file = "fov_y_deg",
+                  .range = kAngle,
+                  .is_needed = true},
         camera.fov_y_rad...);
-  visit(FieldSpec{.name = "near", .wire = "near_m", .unit = "m", .range = kDistance},
-        camera.near_m...);
+  visit(
+      FieldSpec{
+          .name = "near", .wire = "near_m", .unit = "m", .range = kDistance, .is_needed = true},
+      camera.near_m...);
 }
 
 /// Visits those members of a frame whose names differ, without their values.

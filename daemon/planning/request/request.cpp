@@ -10,6 +10,20 @@
 #include "daemon/planning/request/body_members.h"
 
 namespace camway::planning {
+namespace {
+
+/// `direction_of` for a vector of any size.
+template <class Vector>
+Vector unit_of(const Vector& vector) {
+  // Scaled first, so that squares neither overflow nor vanish.
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (!vector.allFinite() || largest == 0.0) return vector;
+  if (std::abs(vector.squaredNorm() - 1.0) <= kUnitLengthError) return vector;
+  const Vector scaled = vector / largest;
+  return scaled / scaled.norm();
+}
+
+}  // namespace
 
 const motion::Camera* moving_camera(const PlanRequest& request) {
   return request.body ? std::get_if<motion::Camera>(&*request.body) : &request.camera;
@@ -37,14 +51,9 @@ std::string PlanRequest::name_of(std::string_view path) const {
   return spelling ? spelling(path) : std::string(path);
 }
 
-geometry::Vec3 direction_of(const geometry::Vec3& vector) {
-  // Scaled first, so that squares neither overflow nor vanish.
-  const double largest = vector.cwiseAbs().maxCoeff();
-  if (!vector.allFinite() || largest == 0.0) return vector;
-  if (std::abs(vector.squaredNorm() - 1.0) <= kUnitLengthError) return vector;
-  const geometry::Vec3 scaled = vector / largest;
-  return scaled / scaled.norm();
-}
+geometry::Vec3 direction_of(const geometry::Vec3& vector) { return unit_of(vector); }
+
+geometry::Vec4 direction_of(const geometry::Vec4& wxyz) { return unit_of(wxyz); }
 
 std::string spell(std::string_view path, Spelling spelling) {
   const std::size_t dot = path.rfind('.');

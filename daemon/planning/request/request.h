@@ -54,10 +54,15 @@ bool may_shrink(const PlanRequest& request);
 /// squared length is 1 within `kUnitLengthError` is returned bit for bit, and so is one that is
 /// zero or not finite, which `validate` refuses.
 geometry::Vec3 direction_of(const geometry::Vec3& vector);
+/// Returns the unit quaternion, w, x, y, z, in the direction of `wxyz` in the same way.
+geometry::Vec4 direction_of(const geometry::Vec4& wxyz);
 
 /// Largest difference between 1 and the computed squared length of a unit vector. With u = eps / 2:
 /// a computed squared length is off by 3 u (three squares, two sums), its root by 2.5 u, so a
 /// normalised vector is off by 3.5 u, its square by 7 u, and computing that square adds 3 u.
+/// Rounding the four coefficients of a unit quaternion changes the squared length by at most 2 eps,
+/// and computing it (four squares, three sums) by at most 2.5 eps, so the bound holds for that,
+/// too.
 inline constexpr double kUnitLengthError = 5 * 2.220446049250313e-16;
 
 /// Why a request cannot be planned at all.

@@ -18,9 +18,11 @@
 
 #include <toml++/toml.h>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/messages/scene_names.h"
 #include "daemon/process/settings/bounds_text.h"
 #include "daemon/process/settings/daemon_settings.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "daemon/scene/voxels/voxel_grid.h"
 
 namespace camway::process {
@@ -156,12 +158,12 @@ std::string apply_to_scene(std::string_view key, const toml::node& node, SceneAr
     return scene.file.empty() ? "must name a file" : std::string();
   }
   if (key == "unknown") {
-    const std::optional<scene::UnknownSpace> unknown = unknown_space_named(text->get());
+    const auto unknown = base::value_of<scene::UnknownSpace>(text->get());
     if (!unknown) return "must be free or occupied";
     scene.options.import.unknown = *unknown;
     return {};
   }
-  const std::optional<scene::UpAxis> up = up_axis_named(text->get());
+  const auto up = base::value_of<scene::UpAxis>(text->get());
   if (!up) return "must be as-in-file, z-to-y or y-to-z";
   scene.options.import.up = *up;
   return {};

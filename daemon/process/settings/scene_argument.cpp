@@ -7,6 +7,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/messages/scene_names.h"
 #include "daemon/process/settings/bounds_text.h"
 #include "daemon/scene/import/record/import_words.h"
@@ -29,7 +30,7 @@ std::optional<double> positive_number(std::string_view text) {
 /// Applies one `key=value`. Returns an error or an empty text.
 std::string apply_option(std::string_view key, std::string_view value, SceneArgument& scene) {
   if (key == "up") {
-    const std::optional<scene::UpAxis> up = up_axis_named(value);
+    const auto up = base::value_of<scene::UpAxis>(value);
     if (!up) return "up=" + std::string(value) + ": must be as-in-file, z-to-y or y-to-z";
     scene.options.import.up = *up;
     return {};
@@ -42,7 +43,7 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     return {};
   }
   if (key == "unknown") {
-    const std::optional<scene::UnknownSpace> unknown = unknown_space_named(value);
+    const auto unknown = base::value_of<scene::UnknownSpace>(value);
     if (!unknown) return "unknown=" + std::string(value) + ": must be free or occupied";
     scene.options.import.unknown = *unknown;
     return {};
@@ -86,20 +87,6 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
 }
 
 }  // namespace
-
-std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
-  for (const auto& [name, up] : scene::kUpAxes) {
-    if (name == word) return up;
-  }
-  return std::nullopt;
-}
-
-std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word) {
-  for (const auto& [name, unknown] : scene::kUnknownSpaces) {
-    if (name == word) return unknown;
-  }
-  return std::nullopt;
-}
 
 base::Result<SceneArgument> parse_scene_argument(std::string_view text) {
   const auto fail = [&](const std::string& reason) {

@@ -20,12 +20,6 @@ struct SceneArgument {
   std::string said_at;  ///< where its file was named, e.g. "--scene" or "camwayd.toml:7"
 };
 
-/// Reads "as-in-file", "z-to-y" or "y-to-z"; returns nothing for another word.
-std::optional<scene::UpAxis> up_axis_named(std::string_view word);
-
-/// Reads "free" or "occupied"; returns nothing for another word.
-std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word);
-
 /// The form of a scene argument, for `--help`.
 inline constexpr char kSceneArgumentForm[] =
     "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"

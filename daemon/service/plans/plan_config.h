@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "daemon/messages/convert.h"
-#include "daemon/messages/pages.h"
 #include "daemon/planning/request/request.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/page_assembly.h"
 
 namespace camway::service {
 
@@ -19,7 +19,7 @@ struct PlanConfig {
   messages::DeadlineLimits deadline;  ///< deadlines of plan requests
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
-  messages::PageAssembly<plan_request_t>::Limits assembly;
+  wire::PageAssembly<plan_request_t>::Limits assembly;
 };
 
 }  // namespace camway::service

@@ -109,7 +109,7 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
   // No scene or method has a name with control characters, so nothing is lost.
   page->scene = wire::printable(page->scene);
   page->method = wire::printable(page->method);
-  messages::PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
+  wire::PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
     core_.on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error,
                                        refusing());

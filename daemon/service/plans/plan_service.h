@@ -89,7 +89,7 @@ class PlanService {
   Watches& watches_;
   const PlanConfig config_;
   Planner planner_;
-  messages::PageAssembly<plan_request_t> pages_;
+  wire::PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
   InFlight in_flight_;
   std::size_t bytes_ = 0;       ///< size of the requests in flight

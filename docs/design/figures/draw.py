@@ -138,7 +138,7 @@ def rooms():
     figure = Figure(880, 604, "The rooms, each above those that it includes")
     figure.box(230, 16, 420, 44, ["daemon/process", "command line, configuration, signals, metrics"])
     figure.box(230, 82, 420, 44, ["daemon/service", "core, queue, transport, log; plans, scenes, occupancy, watches"])
-    figure.box(230, 148, 420, 44, ["daemon/messages", "planning's types and the messages; pages"])
+    figure.box(230, 148, 420, 44, ["daemon/messages", "planning's types and the messages"])
     figure.box(230, 214, 420, 44, ["daemon/planning", "plan(snapshot, request) → result"], "accent")
     figure.box(230, 280, 270, 44, ["daemon/correction", "path, search, smoothing, infeasibility, ladder"], "accent")
     figure.box(520, 280, 130, 44, ["daemon/paper", "the paper's method"])

@@ -262,7 +262,16 @@ TEST(Validate, DirectionsOfAnyLengthBecomeUnitVectors) {
               4 * std::numeric_limits<double>::epsilon() * scaled.norm());
     EXPECT_GT(unit.dot(scaled), 0.0);
   }
-  EXPECT_EQ(direction_of(geometry::Vec3::Zero()), geometry::Vec3::Zero());
+  const geometry::Vec3 zero = geometry::Vec3::Zero();
+  EXPECT_EQ(direction_of(zero), zero);
+}
+
+// A unit quaternion keeps its bits, so that a keyframe of an answer is read as it was written.
+TEST(Validate, QuaternionsOfAnyLengthBecomeUnitQuaternions) {
+  EXPECT_EQ(direction_of(geometry::Vec4(0, 0, -3e200, 0)), geometry::Vec4(0, 0, -1, 0));
+  EXPECT_EQ(direction_of(geometry::Vec4(0, 4e-300, 0, 3e-300)), geometry::Vec4(0, 0.8, 0, 0.6));
+  const geometry::Vec4 unit(0.6, 0, 0, 0.8);
+  EXPECT_EQ(direction_of(unit), unit);
 }
 
 TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {

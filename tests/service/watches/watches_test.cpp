@@ -263,9 +263,9 @@ TEST_F(WatchesTest, TheCorrectedPathIsWatchedInItsTurn) {
   const plan_response_t corrected = next_answer();
   ASSERT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
   // Where the corrected path is at its middle now.
-  const auto result = messages::from_wire(corrected);
-  ASSERT_TRUE(result) << result.error;
-  put(result->path.pose(2.0).position, 0.3);
+  const auto path = messages::path_of(corrected.segments);
+  ASSERT_TRUE(path) << path.error;
+  put(path->pose(2.0).position, 0.3);
   const auto changed = static_cast<std::int64_t>(scenes_.find("room")->revision);
   State broken = wait_for(1, path_state_t::BROKEN);
   while (broken.path.scene_revision != changed) broken = wait_for(1, path_state_t::BROKEN);

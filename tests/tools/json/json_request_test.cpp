@@ -54,7 +54,7 @@ TEST(JsonRequest, ReadsEveryField) {
   EXPECT_NEAR(
       (geometry::wxyz(request.keyframes[1].pose.orientation) - geometry::Vec4(0, 0.6, 0, 0.8))
           .norm(),
-      0.0, kUnitQuaternionError);
+      0.0, planning::kUnitLengthError);
   EXPECT_EQ(request.options.deadline_s, 2.5);
   EXPECT_EQ(request.options.clearance_m, 0.25);
   EXPECT_FALSE(request.body);

@@ -16,7 +16,7 @@ namespace {
 
 using Verdict = ReplayGuard::Verdict;
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kReplaySeed = 20261122;
 constexpr std::int64_t kNow = 1'800'000'000'000'000;
 constexpr std::int64_t kWindow = 30'000'000;
 
@@ -32,7 +32,7 @@ envelope_t message(std::int64_t counter, std::int64_t utime = kNow, std::int64_t
 }
 
 TEST(ReplayGuard, NothingIsNewTwiceHoweverMessagesOvertakeEachOther) {
-  testing::Random random(kSeed);
+  testing::Random random(kReplaySeed);
   ReplayGuard guard(open_limits(), kNow);
   std::set<std::int64_t> taken;
   std::int64_t front = 0;

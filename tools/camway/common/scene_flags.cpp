@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/camway/common/commands.h"
@@ -20,13 +21,13 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
               first + "1]")
       ->check(cli_support::above_0());
   cli_support::add_choice(
-      command, "--up", flags.reading.up, scene::kUpAxes,
+      command, "--up", flags.reading.up, base::named_values<scene::UpAxis>(),
       "Turn the axes: z-to-y for a file with Z up and keyframes with Y up, y-to-z for "
       "the reverse [" +
           first + "as-in-file]")
       ->type_name("AXES");
   cli_support::add_choice(
-      command, "--unknown", flags.reading.unknown, scene::kUnknownSpaces,
+      command, "--unknown", flags.reading.unknown, base::named_values<scene::UnknownSpace>(),
       "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [" + first + "free]")
       ->type_name("STATE");
   command.add_flag("--no-cache", flags.no_cache,
@@ -74,12 +75,7 @@ void warn_of_reading(const std::string& request_file, const RequestFile& request
               ": scale, up and unknown do not count here: the scene is as it was loaded");
 }
 
-std::string_view to_string(scene::UpAxis up) {
-  for (const auto& [name, value] : scene::kUpAxes) {
-    if (value == up) return name;
-  }
-  return "unknown";
-}
+std::string_view to_string(scene::UpAxis up) { return base::name_of(up); }
 
 std::optional<scene::SceneCache> user_cache(const SceneFlags& flags) {
   if (flags.no_cache) return std::nullopt;

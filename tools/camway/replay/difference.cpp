@@ -1,94 +1,143 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/difference.h"
 
+#include <camway/members.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
-#include "daemon/planning/result/witness_names.h"
-#include "tools/camway/replay/member_walk.h"
+#include "daemon/messages/convert.h"
+#include "daemon/planning/result/members.h"
 
 namespace camway::tools {
 namespace {
 
 using motion::Path;
 using motion::Segment;
+using planning::FileName;
+using planning::PlanResult;
 
 /// Samples between two joins, where a path is a smooth curve of low degree.
 constexpr int kSamplesPerPiece = 32;
 
-/// Stores the words of an answer.
-struct WordRecorder {
-  void word(std::uint64_t word, const MemberPath&) { words.push_back(word); }
-  void size(std::size_t size, const MemberPath&) { words.push_back(size); }
+/// Members that tell how an answer was found, and not what it is.
+constexpr std::array<std::string_view, 3> kLeftOut{"message", "tried", "deadline_reached"};
 
-  std::vector<std::uint64_t> words;
-};
-
-/// Returns the name of a member: "corrections[1].moved_m".
-std::string text_of(const MemberPath& path) {
-  std::string text;
-  for (const MemberStep& step : path) {
-    if (step.name.empty()) {
-      text += fmt::format("[{}]", step.index);
-    } else {
-      text += (text.empty() ? "" : ".") + std::string(step.name);
-    }
+/// Returns whether two members of messages have the same bits.
+template <class Member>
+bool has_same_bits(const Member& then, const Member& now) {
+  if constexpr (wire::Described<Member>) {
+    bool same = true;
+    wire::for_each_member<Member>([&](const auto& described) {
+      same = same && has_same_bits(then.*described.member, now.*described.member);
+    });
+    return same;
+  } else if constexpr (std::is_same_v<Member, std::string>) {
+    return then == now;
+  } else {
+    static_assert(std::is_arithmetic_v<std::remove_all_extents_t<Member>>);
+    return std::memcmp(&then, &now, sizeof(Member)) == 0;
   }
-  return text;
+}
+template <class Member>
+bool has_same_bits(const std::tuple<Member&, Member&>& then,
+                   const std::tuple<Member&, Member&>& now) {
+  return has_same_bits(std::get<0>(then), std::get<0>(now)) &&
+         has_same_bits(std::get<1>(then), std::get<1>(now));
 }
 
-/// Compares the words of an answer with those of a recorded one, and describes the first that
-/// differs. Up to there both answers have the same lists, so there is a recorded word for each.
-class WordComparer {
+/// Finds the first member in which a recorded message differs from the message of a new result. The
+/// lists of members (`planning/result/members.h`) call it with each member of the result, of the
+/// recorded message and of the new one.
+/// Not thread-safe.
+class MessageComparer {
  public:
-  explicit WordComparer(const std::vector<std::uint64_t>& recorded) : recorded_(recorded) {}
+  template <class Mine, class Member>
+  void operator()(FileName name, const Mine& mine, const Member& then, const Member& now) {
+    inside(name, [&] { compare(mine, then, now); });
+  }
+  template <class List>
+  void group(FileName name, int, const List& list) {
+    inside(name, [&] { list(*this); });
+  }
+  template <class Mine, class List>
+  void optional(FileName name, const std::optional<Mine>& mine, const List& list,
+                const std::int8_t& had, const std::int8_t& has) {
+    inside(name, [&] {
+      if (had != has) {
+        difference_ = path_;
+      } else if (mine) {
+        list(*this, *mine);
+      }
+    });
+  }
 
-  void word(std::uint64_t word, const MemberPath& path) {
-    if (take(word)) difference_ = text_of(path);
-  }
-  void size(std::size_t size, const MemberPath& path) {
-    const std::size_t at = next_;
-    if (take(size)) difference_ = fmt::format("{} {} -> {}", text_of(path), recorded_[at], size);
-  }
-  /// Empty if all words are equal.
+  /// Returns the name of the member, with the sizes of lists whose sizes differ; empty if all
+  /// members have the same bits.
   [[nodiscard]] const std::string& difference() const { return difference_; }
 
  private:
-  /// Returns whether this is the first word that differs.
-  bool take(std::uint64_t word) { return difference_.empty() && recorded_[next_++] != word; }
+  /// Calls `visit` where no difference was found yet, with `path_` extended by a name.
+  template <class Visit>
+  void inside(FileName name, const Visit& visit) {
+    if (std::ranges::count(kLeftOut, name.name) > 0) return;
+    step((path_.empty() ? "" : ".") + std::string(name.name), visit);
+  }
+  template <class Visit>
+  void step(const std::string& name, const Visit& visit) {
+    if (!difference_.empty()) return;
+    const std::size_t size = path_.size();
+    path_ += name;
+    visit();
+    path_.resize(size);
+  }
 
-  const std::vector<std::uint64_t>& recorded_;
-  std::size_t next_ = 0;
+  template <class Mine, class Member>
+  void compare(const Mine& mine, const Member& then, const Member& now) {
+    if constexpr (requires { planning::members(*this, mine, then, now); }) {
+      planning::members(*this, mine, then, now);
+    } else if constexpr (requires(Member list) { list.emplace_back(); }) {
+      if (then.size() != now.size()) {
+        difference_ = fmt::format("{} {} -> {}", path_, then.size(), now.size());
+        return;
+      }
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        step(fmt::format("[{}]", i), [&] { compare(mine[i], then[i], now[i]); });
+      }
+    } else if (!has_same_bits(then, now)) {
+      difference_ = path_;
+    }
+  }
+
+  std::string path_;  ///< of the member that is compared: "corrections[1].moved_m"
   std::string difference_;
 };
 
-/// Walks all members, but for times of planning.
-template <class Sink>
-void walk(Sink& sink, const planning::PlanResult& result) {
-  MemberWalk io(sink);
-  planning::head_members(io, result);
-  io.need("keyframes", result.keyframes);
-  io.need("segments", result.path.segments());
-  planning::report_members(io, result);
+bool has_same_path(const plan_response_t& recorded, const PlanResult& now,
+                   const plan_response_t& message) {
+  MessageComparer io;
+  io("segments", now.path.segments(), recorded.segments, message.segments);
+  return io.difference().empty();
 }
 
-template <class Sink>
-void walk(Sink& sink, const Path& path) {
-  MemberWalk(sink).need("segments", path.segments());
-}
-
-/// Returns the first difference of two answers, or of two paths; empty if their bits are the same.
-template <class Walked>
-std::string first_difference(const Walked& recorded, const Walked& now) {
-  WordRecorder recorder;
-  walk(recorder, recorded);
-  WordComparer comparer(recorder.words);
-  walk(comparer, now);
-  return comparer.difference();
+/// Returns the first difference of the answers; empty if there is none.
+std::string first_difference(const plan_response_t& recorded, const PlanResult& now,
+                             const plan_response_t& message) {
+  MessageComparer io;
+  planning::head_members(io, now, recorded, message);
+  io("keyframes", now.keyframes, recorded.keyframes, message.keyframes);
+  io("segments", now.path.segments(), recorded.segments, message.segments);
+  planning::report_members(io, now, recorded, message);
+  return io.difference();
 }
 
 double pose_distance_m(const motion::Body& body, const motion::Pose& a, const motion::Pose& b) {
@@ -105,8 +154,8 @@ double pose_distance_m(const motion::Body& body, const motion::Pose& a, const mo
   return largest;
 }
 
+/// Returns the distance of paths that differ in a bit at least.
 double path_distance_m(const Path& a, const Path& b, const motion::Body& body) {
-  if (same_bits(a, b)) return 0.0;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (a.empty() || b.empty()) return kInfinity;
   if (a.begin_s() != b.begin_s() || a.end_s() != b.end_s()) return kInfinity;
@@ -130,16 +179,19 @@ double path_distance_m(const Path& a, const Path& b, const motion::Body& body) {
 
 }  // namespace
 
-bool same_bits(const Path& a, const Path& b) { return first_difference(a, b).empty(); }
-
-Difference difference_of(const planning::PlanResult& recorded, const planning::PlanResult& now,
+Difference difference_of(const plan_response_t& recorded, const PlanResult& now,
                          const motion::Body& body) {
-  Difference difference{path_distance_m(recorded.path, now.path, body), {}};
-  if (recorded.status == now.status) {
-    difference.what = first_difference(recorded, now);
+  const plan_response_t message = messages::to_wire(now, {});
+  Difference difference;
+  if (!has_same_path(recorded, now, message)) {
+    const base::Result<Path> path = messages::path_of(recorded.segments);
+    difference.path_m = path_distance_m(path.value.value_or(Path()), now.path, body);
+  }
+  if (recorded.status == message.status) {
+    difference.what = first_difference(recorded, now, message);
   } else {
-    difference.what = fmt::format("status {} -> {}", planning::to_string(recorded.status),
-                                  planning::to_string(now.status));
+    difference.what = fmt::format("status {} -> {}", messages::status_name(recorded.status),
+                                  messages::status_name(message.status));
   }
   return difference;
 }

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <camway/plan_response_t.hpp>
+
 #include "daemon/motion/body/body.h"
 #include "daemon/planning/result/result.h"
 
@@ -20,12 +22,10 @@ struct Difference {
   std::string what;
 };
 
-/// Compares two answers, but for what tells how they were found: times, effort, whether the
-/// deadline was reached, and the message, whose wording may change between versions.
-Difference difference_of(const planning::PlanResult& recorded, const planning::PlanResult& now,
+/// Compares a recorded answer with a new one, member by member as messages have them, but for what
+/// tells how they were found: times, effort, whether the deadline was reached, and the message,
+/// whose wording may change between versions.
+Difference difference_of(const plan_response_t& recorded, const planning::PlanResult& now,
                          const motion::Body& body);
-
-/// Returns whether two paths have the same bits in every number.
-bool same_bits(const motion::Path& a, const motion::Path& b);
 
 }  // namespace camway::tools

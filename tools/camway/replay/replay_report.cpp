@@ -10,10 +10,11 @@
 namespace camway::tools {
 namespace {
 
-std::size_t inserted_count(const planning::PlanResult& result) {
-  return static_cast<std::size_t>(std::count_if(
-      result.keyframes.begin(), result.keyframes.end(),
-      [](const auto& keyframe) { return keyframe.origin == motion::KeyframeOrigin::kInserted; }));
+/// Returns the number of keyframes of a result, or of its message, that have this origin.
+template <class Answer, class Origin>
+std::string count_of(const Answer& answer, Origin origin) {
+  return std::to_string(std::ranges::count_if(
+      answer.keyframes, [&](const auto& keyframe) { return keyframe.origin == origin; }));
 }
 
 std::string verdict_text(const ReplayedRequest& item) {
@@ -34,20 +35,20 @@ std::string change(const std::string& then, const std::string& now) {
 }
 
 std::string row(const RecordedRequest& recorded, const ReplayedRequest& item, Times times) {
-  const planning::PlanResult* then =
+  const plan_response_t* then =
       recorded.answer && recorded.answer->result ? &*recorded.answer->result : nullptr;
   const std::string status(planning::to_string(item.result.status));
-  const std::string inserted = std::to_string(inserted_count(item.result));
+  const std::string inserted = count_of(item.result, motion::KeyframeOrigin::kInserted);
   std::string line =
       fmt::format("{:<24} {:>16} {:<12} {:<20} {:>9}", recorded.ids.client_id,
                   recorded.ids.request_id, wire::printable(recorded.scene),
                   change(recorded.answer ? recorded.answer->status : "-", status),
-                  then ? change(std::to_string(inserted_count(*then)), inserted) : inserted);
+                  then ? change(count_of(*then, keyframe_t::ORIGIN_INSERTED), inserted) : inserted);
   const bool compared = item.verdict != Verdict::kNotCompared;
   line +=
       compared ? fmt::format(" {:>10.3g}", item.difference.path_m) : fmt::format(" {:>10}", "-");
   if (times == Times::kShown) {
-    line += then ? fmt::format(" {:>11.1f}", then->timing.total_ms) : fmt::format(" {:>11}", "-");
+    line += then ? fmt::format(" {:>11.1f}", then->total_ms) : fmt::format(" {:>11}", "-");
     line += fmt::format(" {:>9.1f}", item.result.timing.total_ms);
   }
   line += "  " + verdict_text(item);

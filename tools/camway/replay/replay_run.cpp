@@ -18,7 +18,7 @@ using planning::Status;
 
 bool scene_was_unknown(const RecordedRequest& request) {
   return request.answer && request.answer->result &&
-         request.answer->result->status == Status::kUnknownScene;
+         request.answer->result->status == plan_response_t::STATUS_UNKNOWN_SCENE;
 }
 
 PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
@@ -36,8 +36,10 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
   }
   planning::PlanRequest request = *recorded.request;
   // Only the answer has the bounds of the recorded scene.
-  if (recorded.answer && recorded.answer->result)
-    request.options.bounds = request.options.bounds.within(recorded.answer->result->bounds);
+  if (recorded.answer && recorded.answer->result) {
+    request.options.bounds =
+        request.options.bounds.within(messages::from_wire(recorded.answer->result->bounds));
+  }
   result = planning::plan(*scene->second, request);
   planning::name_witnesses(scene->second->mesh, request, result);
   return result;

@@ -4,9 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "daemon/messages/pages.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/page_assembly.h"
+#include "lcmtypes/wire/path_fault.h"
 #include "tools/camway/replay/signed_event.h"
 
 namespace camway::tools {
@@ -31,7 +32,7 @@ class SessionBuilder {
                                [this](plan_request_t&& whole) { add_request(std::move(whole)); });
     } else {
       add_page<plan_response_t>(event, response_pages_,
-                                [this](plan_response_t&& whole) { add_answer(whole); });
+                                [this](plan_response_t&& whole) { add_answer(std::move(whole)); });
     }
   }
 
@@ -50,7 +51,7 @@ class SessionBuilder {
 
  private:
   template <typename Message, typename UseWhole>
-  void add_page(const LogEvent& event, messages::PageAssembly<Message>& pages, UseWhole use_whole) {
+  void add_page(const LogEvent& event, wire::PageAssembly<Message>& pages, UseWhole use_whole) {
     wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
     if (!decoded.message) {
       ++session_.malformed;
@@ -89,21 +90,21 @@ class SessionBuilder {
     }
   }
 
-  void add_answer(const plan_response_t& whole) {
-    base::Result<planning::PlanResult> converted = messages::from_wire(whole);
+  void add_answer(plan_response_t whole) {
+    const auto [position, is_new] = answers_.try_emplace({whole.client_id, whole.request_id});
     RecordedAnswer answer;
     answer.status = messages::status_name(whole.status);
-    answer.result = std::move(converted.value);
     answer.scene_digest = whole.scene_digest;
-    const auto [position, is_new] = answers_.try_emplace({whole.client_id, whole.request_id});
+    const bool is_result = base::value_of<planning::Status>(whole.status).has_value();
+    if (is_result && wire::path_fault(whole.segments).empty()) answer.result = std::move(whole);
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);
   }
 
   const wire::MessageKeys* keys_;
   std::string request_channel_;
   std::string response_channels_;
-  messages::PageAssembly<plan_request_t> request_pages_;
-  messages::PageAssembly<plan_response_t> response_pages_;
+  wire::PageAssembly<plan_request_t> request_pages_;
+  wire::PageAssembly<plan_response_t> response_pages_;
   std::map<Key, std::size_t> index_;
   std::vector<wire::Bytes> contents_;
   std::map<Key, RecordedAnswer> answers_;

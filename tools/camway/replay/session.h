@@ -9,7 +9,6 @@
 
 #include "daemon/messages/convert.h"
 #include "daemon/planning/request/request.h"
-#include "daemon/planning/result/result.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "tools/camway/replay/event_log.h"
 
@@ -18,8 +17,9 @@ namespace camway::tools {
 /// The answer of the daemon in the log.
 struct RecordedAnswer {
   std::string status;  ///< as on the wire: "ok", ..., "overloaded", "malformed"
-  /// Result of planning; unset if the answer is none: overloaded, malformed, or unreadable.
-  std::optional<planning::PlanResult> result;
+  /// The whole answer if it is a result of planning: not overloaded or malformed, and with a path
+  /// that is one.
+  std::optional<plan_response_t> result;
   std::string scene_digest;  ///< digest of the scene of the answer; may be empty
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "daemon/messages/convert.h"
 #include "daemon/motion/spline/interpolate.h"
 
 namespace camway::tools {
@@ -22,6 +23,12 @@ planning::PlanResult result_through(const std::vector<motion::Keyframe>& keyfram
   result.keyframes = keyframes;
   result.path = motion::interpolate(keyframes);
   return result;
+}
+
+/// Compares with an answer that the log has as a message.
+Difference difference_of(const planning::PlanResult& recorded, const planning::PlanResult& now,
+                         const motion::Body& body) {
+  return tools::difference_of(messages::to_wire(recorded, {}), now, body);
 }
 
 std::vector<motion::Keyframe> three_keyframes() {

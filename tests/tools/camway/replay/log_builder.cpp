@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "daemon/messages/pages.h"
+#include "lcmtypes/wire/pages.h"
 
 namespace camway::tools {
 namespace {

@@ -171,7 +171,7 @@ TEST_F(ReplayTest, PutsPagesTogether) {
   EXPECT_EQ(recorded.requests[0].request->keyframes.size(), 2500U);
   ASSERT_TRUE(recorded.requests[0].answer && recorded.requests[0].answer->result);
   EXPECT_EQ(
-      difference_of(result, *recorded.requests[0].answer->result, motion::Body(request.camera))
+      difference_of(*recorded.requests[0].answer->result, result, motion::Body(request.camera))
           .what,
       "");
   EXPECT_EQ(recorded.incomplete, 0U);

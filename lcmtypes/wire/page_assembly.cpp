@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/messages/pages.h"
+#include "lcmtypes/wire/page_assembly.h"
 
 #include <camway/members.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace camway::messages {
+namespace camway::wire {
 
 template <class Message>
 typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
                                                                    Clock::time_point now) {
-  if (std::string fault = wire::page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
+  if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
   if (page.num_pages == 1) return {std::move(page), {}, 0};
 
   const auto same_ids = [&](const Partial& partial) {
@@ -44,7 +44,7 @@ std::vector<missing_pages_t> PageAssembly<Message>::take_missing(Clock::time_poi
     question.request_id = held.request_id;
     question.num_pages = held.num_pages;
     question.missing = partial.pages.missing();
-    wire::set_counts(question);
+    set_counts(question);
   }
   return all;
 }
@@ -73,4 +73,4 @@ std::size_t PageAssembly<Message>::make_room(Position keep) {
 template class PageAssembly<plan_request_t>;
 template class PageAssembly<plan_response_t>;
 
-}  // namespace camway::messages
+}  // namespace camway::wire

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/messages/pages.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "daemon/messages/convert.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/page_assembly.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 
-namespace camway::messages {
+namespace camway::wire {
 namespace {
 
-using wire::Bytes;
-
+using messages::AnswerHeader;
+using messages::to_wire;
 using testing::below;
 using testing::kSeed;
 using testing::Random;
@@ -277,4 +276,4 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
 }
 
 }  // namespace
-}  // namespace camway::messages
+}  // namespace camway::wire

@@ -2,17 +2,18 @@
 #include <gtest/gtest.h>
 
 #include "daemon/messages/convert.h"
-#include "daemon/messages/pages.h"
+#include "lcmtypes/wire/pages.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/support/allocation_meter.h"
 
-namespace camway::messages {
+namespace camway::wire {
 namespace {
 
 // An answer that exceeds the largest number of pages is refused before any page is made.
 TEST(WirePages, CountingThemAllocatesNothing) {
   testing::Random random(testing::kSeed);
-  const plan_response_t answer = to_wire(testing::sample_result(2000, random), AnswerHeader{});
+  const plan_response_t answer =
+      messages::to_wire(testing::sample_result(2000, random), messages::AnswerHeader{});
   const testing::AllocationMeter meter;
   const std::size_t pages = wire::count_pages(answer);
   ASSERT_EQ(meter.bytes(), 0U);
@@ -22,4 +23,4 @@ TEST(WirePages, CountingThemAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace camway::messages
+}  // namespace camway::wire

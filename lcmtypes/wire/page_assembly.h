@@ -15,7 +15,7 @@
 
 #include "lcmtypes/wire/pages.h"
 
-namespace camway::messages {
+namespace camway::wire {
 
 /// Joins pages to messages, in whatever order and however often they arrive. Holds a bounded number
 /// of bytes of incomplete messages; where a new page does not fit, drops the message that waited
@@ -62,7 +62,7 @@ class PageAssembly {
 
  private:
   struct Partial {
-    wire::PageSet<Message> pages;    ///< at least one
+    PageSet<Message> pages;          ///< at least one
     Clock::time_point missing_at{};  ///< time at which pages count as missing
     int asked = 0;                   ///< how often they were asked for since the last page
   };
@@ -78,4 +78,4 @@ class PageAssembly {
 extern template class PageAssembly<plan_request_t>;
 extern template class PageAssembly<plan_response_t>;
 
-}  // namespace camway::messages
+}  // namespace camway::wire
