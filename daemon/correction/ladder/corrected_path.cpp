@@ -113,11 +113,23 @@ void CorrectedPath::add_changed(ChangedPart part) {
   std::erase_if(changed_, [&](const ChangedPart& known) {
     if (known.end_s <= part.begin_s || known.begin_s >= part.end_s) return false;
     part = {std::min(part.begin_s, known.begin_s), std::max(part.end_s, known.end_s),
-            part.turns || known.turns, part.corrections + known.corrections};
+            part.turns || known.turns};
     return true;
   });
   changed_.insert(std::ranges::upper_bound(changed_, part.begin_s, {}, &ChangedPart::begin_s),
                   part);
+}
+
+ChangedPart CorrectedPath::widened(const ChangedPart& part, double share) const {
+  const double beside_s = share * (part.end_s - part.begin_s);
+  ChangedPart wide = part;
+  wide.begin_s = std::max(interpolated_.begin_s(), part.begin_s - beside_s);
+  wide.end_s = std::min(interpolated_.end_s(), part.end_s + beside_s);
+  for (const ChangedPart& other : changed_) {
+    if (other.end_s <= part.begin_s) wide.begin_s = std::max(wide.begin_s, other.end_s);
+    if (other.begin_s >= part.end_s) wide.end_s = std::min(wide.end_s, other.begin_s);
+  }
+  return wide;
 }
 
 Problem CorrectedPath::restored(const ChangedPart& part, const motion::TimeOrigin& origin,

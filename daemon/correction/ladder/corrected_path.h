@@ -26,8 +26,7 @@ struct CorrectionLimits {
 struct ChangedPart {
   double begin_s = 0.0;
   double end_s = 0.0;
-  bool turns = false;   ///< whether it turns the body
-  int corrections = 1;  ///< number of candidates that changed it
+  bool turns = false;  ///< whether it turns the body
 };
 
 /// A path while it is corrected: takes candidates as long as the keyframes that they insert stay
@@ -64,8 +63,11 @@ class CorrectedPath {
 
   /// The changed parts, in order of time.
   [[nodiscard]] const std::vector<ChangedPart>& changed_parts() const { return changed_; }
-  /// Returns the path about a changed part as a problem in which that part is as interpolated. Its
-  /// knots may be at the joints of the corrected path.
+  /// Returns `part` with time on either side, at most `share` of its length, as far as the path is
+  /// as interpolated there.
+  [[nodiscard]] ChangedPart widened(const ChangedPart& part, double share) const;
+  /// Returns the path about a changed part, which may be widened, as a problem in which that part
+  /// is as interpolated. Its knots may be at the joints of the corrected path.
   [[nodiscard]] Problem restored(const ChangedPart& part, const motion::TimeOrigin& origin,
                                  double ball_radius_m) const;
   /// Replaces a changed part by a candidate for the problem that `restored` returned. Returns false

@@ -17,6 +17,9 @@ constexpr std::size_t kFewestKnots = 5;  // one bump
 constexpr int kBeyondEnd = 3;            // knots beyond an end of the whole path
 constexpr double kEven = 0.3;            // weight of even spacing, relative to that by the error
 constexpr double kNearStep = 0.4;        // in steps: a knot that is nearer to a joint moves there
+constexpr double kLeastExtension = 0.5;  // in steps
+constexpr double kNegligible = 0.003;    // share of the largest change of the position
+constexpr int kTimesAStep = 4;           // at which changes are measured
 
 geometry::Vec3 third_derivative(const CubicPath& path, double time_s) {
   const auto later = std::ranges::upper_bound(path.pieces, time_s, {}, &CubicPiece::t0_s);
@@ -173,6 +176,47 @@ std::vector<double> KnotChoice::with_joints(std::vector<double> knots_s) const {
     }
   }
   return completed(with_beyond(std::move(knots_s)));
+}
+
+std::vector<double> KnotChoice::extended(const std::vector<double>& all_s, double begin_s,
+                                         double end_s) const {
+  std::vector<double> knots_s = within(all_s);
+  const double first_s = knots_s[1] - knots_s[0];
+  const double last_s = knots_s.back() - knots_s[knots_s.size() - 2];
+  if (knots_s.front() - begin_s >= kLeastExtension * first_s) {
+    knots_s.insert(knots_s.begin(), std::max(begin_s, knots_s.front() - first_s));
+  }
+  if (end_s - knots_s.back() >= kLeastExtension * last_s) {
+    knots_s.push_back(std::min(end_s, knots_s.back() + last_s));
+  }
+  return with_joints(std::move(knots_s));
+}
+
+std::vector<double> KnotChoice::trimmed(const std::vector<double>& all_s,
+                                        const CubicPath& path) const {
+  if (part_.turns) return all_s;
+  const std::vector<double> knots_s = within(all_s);
+  std::vector<double> changes_m;  // the largest of each step
+  for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
+    double most_m = 0.0;
+    for (int k = 0; k <= kTimesAStep; ++k) {
+      const double place = static_cast<double>(k) / kTimesAStep;
+      const double time_s = std::lerp(knots_s[i], knots_s[i + 1], place);
+      const geometry::Vec3 change = path.at(time_s).position - problem_.path.at(time_s).position;
+      most_m = std::max(most_m, change.norm());
+    }
+    changes_m.push_back(most_m);
+  }
+  const double least_m = kNegligible * *std::ranges::max_element(changes_m);
+  std::size_t first = 0;
+  std::size_t last = changes_m.size();
+  while (first < last && changes_m[first] <= least_m) ++first;
+  while (last > first && changes_m[last - 1] <= least_m) --last;
+  const std::vector<double> kept_s(knots_s.begin() + static_cast<std::ptrdiff_t>(first),
+                                   knots_s.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  if (kept_s.size() < 2) return all_s;
+  const std::vector<double> list_s = completed(with_beyond(kept_s));
+  return is_valid(list_s) ? list_s : all_s;
 }
 
 std::vector<double> KnotChoice::spaced(const std::vector<double>& all_s, const CubicPath& path,

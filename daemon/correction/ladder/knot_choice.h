@@ -26,6 +26,17 @@ class KnotChoice {
   /// reaches an end of the whole path, the list goes on beyond it, so that the slope there is free.
   [[nodiscard]] std::vector<double> joints_of(const motion::CubicPath& path) const;
 
+  /// Returns `knots_s` with one knot more on either side, a step away, where there is room for half
+  /// a step up to `begin_s` and `end_s`; and what else a valid list needs.
+  [[nodiscard]] std::vector<double> extended(const std::vector<double>& knots_s, double begin_s,
+                                             double end_s) const;
+
+  /// Returns `knots_s`, on which `path` was drawn, without the steps at either end in which the
+  /// change of the position is negligible; and what else a valid list needs. Returns `knots_s` if
+  /// the part turns the body.
+  [[nodiscard]] std::vector<double> trimmed(const std::vector<double>& knots_s,
+                                            const motion::CubicPath& path) const;
+
   /// Returns about `count` knots in place of `all_s`, on which `path` was drawn: denser where the
   /// third derivative of the position changes more, so that each step has about the same share of
   /// the error of a cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).

@@ -11,7 +11,6 @@
 #include "daemon/base/budget.h"
 #include "daemon/correction/ladder/knot_choice.h"
 #include "daemon/correction/path/closeness.h"
-#include "daemon/correction/smoothing/contact_bounds.h"
 #include "daemon/correction/smoothing/fit.h"
 #include "daemon/correction/smoothing/relaxation.h"
 
@@ -22,14 +21,10 @@ namespace {
 using motion::CubicPath;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kMostGrowth = 1.25;     // of the cost, for fewer knots
-constexpr double kKeptRoom = 0.57;       // of the least gap of the part, up to what is wanted
-constexpr double kRoomResolution = 0.1;  // share of the gap that is kept: resolution of its check
-constexpr double kLessRoom = 0.75;       // from one attempt to find a gap that is kept to the next
-constexpr int kRoomAttempts = 6;
-constexpr int kSamplesAPiece = 6;  // of the gap
-// Steps of the first and of the last relaxation, and of all between.
-constexpr int kStepsOfRelaxation = 12;
+constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
+constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
+constexpr int kStepsOfRelaxation = 12;   // of the first, of the last, and of all between
+constexpr int kStepsOfRoom = 8;          // of the relaxation that makes room
 constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
 constexpr std::array<std::size_t, 8> kCounts = {5, 6, 7, 8, 10, 12, 16, 20};  // of knots
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
@@ -44,34 +39,30 @@ struct Drawing {
 
 class Redrawer {
  public:
-  /// Refers to all arguments, which must outlive it. `path`: the corrected path.
-  Redrawer(const Problem& problem, const ChangedPart& part, const CubicPath& path, FreeSpace& space,
-           const base::Deadline& deadline)
+  /// Refers to all arguments, which must outlive it. `changed`: the part that is drawn again.
+  /// `part`: where rows may change the path. `path`: the corrected path.
+  Redrawer(const Problem& problem, const ChangedPart& changed, const ChangedPart& part,
+           const CubicPath& path, FreeSpace& space, const base::Deadline& deadline)
       : problem_(problem),
         part_(part),
         path_(path),
         space_(space),
         deadline_(deadline),
-        choice_(problem, part) {}
+        choice_(problem, changed) {}
 
   /// Returns the part drawn again; nothing if it is not worth it.
   std::optional<Candidate> run() {
     std::optional<Drawing> best = drawing(choice_.joints_of(path_), path_);
     if (!best) return std::nullopt;
-    // A correction was relaxed by itself.
-    if (part_.corrections > 1) relax(*best, kStepsOfRelaxation);
+    extend(*best);
     most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
-    const std::size_t most_knots = best->knots_s.size();
-    keep_room_of(best->drawn.candidate.path);
     place_anew(*best);
     thin_out(*best);
-    if (best->knots_s.size() < most_knots) {
-      Drawing last = *best;
-      relax(last, kStepsOfRelaxation);
-      if (is_worth(last)) best = std::move(last);
-    } else if (!is_worth(*best)) {
-      return std::nullopt;
-    }
+    Drawing last = *best;
+    relax(last, kStepsOfRelaxation);
+    if (is_worth(last)) best = std::move(last);
+    if (!is_worth(*best)) return std::nullopt;
+    make_room(*best);
     return std::move(best->drawn.candidate);
   }
 
@@ -80,48 +71,6 @@ class Redrawer {
   [[nodiscard]] double cost(const CubicPath& path) const {
     return closeness_cost(path.around(part_.begin_s, part_.end_s), problem_.original,
                           space_.closeness());
-  }
-
-  /// The least gap of samples of the part, at most `up_to_m`.
-  [[nodiscard]] double room_m(const CubicPath& path, double up_to_m) const {
-    double least_m = up_to_m;
-    for (const motion::CubicPiece& piece : path.around(part_.begin_s, part_.end_s).pieces) {
-      for (int i = 0; i < kSamplesAPiece && least_m > 0.0; ++i) {
-        const double time_s = std::lerp(piece.t0_s, piece.t1_s, (i + 0.5) / kSamplesAPiece);
-        least_m = std::min(least_m, space_.gap_m(path.pose(time_s), least_m));
-      }
-    }
-    return least_m;
-  }
-
-  /// Makes drawings keep a share of the least gap of the part, as far as that gap is wanted.
-  void keep_room_of(const CubicPath& path) {
-    const double wanted_m = ContactBounds(Objective::kClosest, space_.ball_radius_m(),
-                                          space_.closeness().viewing_distance_m)
-                                .wanted_m();
-    double gap_m = kKeptRoom * room_m(path, wanted_m);
-    for (int i = 0; i < kRoomAttempts && gap_m > 0.0 && !deadline_.passed(); ++i) {
-      keep(gap_m);
-      if (keeps_room(path)) return;
-      gap_m *= kLessRoom;  // between the samples there is less
-    }
-    roomy_.reset();
-  }
-
-  void keep(double gap_m) {
-    collision::Query query = space_.query();
-    collision::DetectOptions& options = query.options;
-    options.clearance_m += gap_m;
-    // The required clearance does not apply to the bounds.
-    query.obstacles.bounds = query.obstacles.bounds.shrunk_by(gap_m);
-    options.tolerance_m = std::max(options.tolerance_m, kRoomResolution * gap_m);
-    options.joining_distance_m = std::max(options.joining_distance_m, options.tolerance_m);
-    roomy_.emplace(query, space_.policy(), space_.closeness());
-  }
-
-  [[nodiscard]] bool keeps_room(const CubicPath& path) const {
-    return !roomy_ ||
-           !new_collision(path, part_.begin_s, part_.end_s, problem_, *roomy_, deadline_);
   }
 
   /// Whether the part is free where the row does not reach: there it is as interpolated again.
@@ -140,8 +89,7 @@ class Redrawer {
   }
 
   [[nodiscard]] bool is_worth(const Drawing& drawing) const {
-    return drawing.cost <= most_cost_ && is_free_beside(drawing.drawn.candidate) &&
-           keeps_room(drawing.drawn.candidate.path);
+    return drawing.cost <= most_cost_ && is_free_beside(drawing.drawn.candidate);
   }
 
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
@@ -170,19 +118,40 @@ class Redrawer {
 
   void relax(Drawing& drawing, int steps) const {
     base::Budget budget(steps);
-    relax(drawing, budget);
+    relax(drawing, {.may_turn = part_.turns}, budget);
   }
-  void relax(Drawing& drawing, base::Budget& budget) const {
-    drawing.drawn = relaxed(problem_, std::move(drawing.drawn), Ends::kFixed,
-                            {.may_turn = part_.turns}, budget, space_, deadline_);
+  void relax(Drawing& drawing, const Improvement& improvement, base::Budget& budget) const {
+    drawing.drawn = relaxed(problem_, std::move(drawing.drawn), Ends::kFixed, improvement, budget,
+                            space_, deadline_);
     drawing.cost = cost(drawing.drawn.candidate.path);
+  }
+
+  /// Lets the part become longer, where that is cheaper.
+  void extend(Drawing& best) const {
+    std::vector<double> knots_s = choice_.extended(best.knots_s, part_.begin_s, part_.end_s);
+    if (knots_s.size() == best.knots_s.size()) return;
+    std::optional<Drawing> longer = drawing(std::move(knots_s), best.drawn.candidate.path);
+    if (!longer) return;
+    relax(*longer, kStepsOfRelaxation);
+    if (longer->cost >= best.cost) return;
+    best = *std::move(longer);
+    best.knots_s = choice_.trimmed(best.knots_s, best.drawn.candidate.path);
+  }
+
+  /// Moves the part away from what it passes. The last step: on other knots the room would not be
+  /// the same, and without room the form of the cheapest path is seen more clearly.
+  void make_room(Drawing& best) const {
+    Drawing roomy = best;
+    base::Budget budget(kStepsOfRoom);
+    relax(roomy, {.may_turn = part_.turns, .makes_room = true}, budget);
+    if (is_free_beside(roomy.drawn.candidate)) best = std::move(roomy);
   }
 
   /// Draws `best` on other knots; returns false if that is not worth it.
   bool redraw_on(std::vector<double> knots_s, Drawing& best) {
     std::optional<Drawing> sparser = drawing(std::move(knots_s), best.drawn.candidate.path);
     if (!sparser) return false;
-    if (!is_worth(*sparser)) relax(*sparser, budget_);
+    if (!is_worth(*sparser)) relax(*sparser, {.may_turn = part_.turns}, budget_);
     if (!is_worth(*sparser)) return false;
     best = *std::move(sparser);
     return true;
@@ -226,7 +195,6 @@ class Redrawer {
   const base::Deadline& deadline_;
   const KnotChoice choice_;
   base::Budget budget_{kStepsOfRelaxation};
-  std::optional<FreeSpace> roomy_;  ///< requires the gap that drawings keep
   double most_cost_ = 0.0;
 };
 
@@ -237,11 +205,12 @@ void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& c
   const std::vector<ChangedPart> parts = corrected.changed_parts();
   for (const ChangedPart& part : parts) {
     if (corrected.deadline().passed()) return;
+    const ChangedPart wide = corrected.widened(part, kBeside);
     const Problem problem =
-        collisions.with_open_collisions(corrected.restored(part, origin, space.ball_radius_m()));
+        collisions.with_open_collisions(corrected.restored(wide, origin, space.ball_radius_m()));
     const CubicPath path = corrected.path().around(problem.path.begin_s(), problem.path.end_s());
     const std::optional<Candidate> drawn =
-        Redrawer(problem, part, path, space, corrected.deadline()).run();
+        Redrawer(problem, part, wide, path, space, corrected.deadline()).run();
     if (drawn && corrected.take_instead(part, *drawn)) {
       collisions.set_range(part, corrected.range_of(*drawn));
     }

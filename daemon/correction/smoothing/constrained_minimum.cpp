@@ -11,13 +11,12 @@ constexpr double kForceSettled = 1e-3;  // in radii of the ball; chosen by measu
 
 }  // namespace
 
-ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, Objective objective,
-                                       double ball_radius_m, double viewing_distance_m,
-                                       bool may_turn)
+ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvement& improvement,
+                                       double ball_radius_m, double viewing_distance_m)
     : form_(form),
-      bounds_(objective, ball_radius_m, viewing_distance_m),
+      bounds_(improvement.objective, improvement.makes_room, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
-      may_turn_(may_turn) {}
+      may_turn_(improvement.may_turn) {}
 
 StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
                                        std::vector<PathSample>& samples) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "daemon/correction/smoothing/contact_bounds.h"
+#include "daemon/correction/smoothing/improvement.h"
 #include "daemon/correction/smoothing/path_sample.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 
@@ -14,15 +15,12 @@ namespace camway::correction {
 /// Not thread-safe.
 class ConstrainedMinimum {
  public:
-  /// Refers to `form`, which must outlive it. Without `may_turn` orientations stay as they are.
-  ConstrainedMinimum(const SmoothingForm& form, Objective objective, double ball_radius_m,
-                     double viewing_distance_m, bool may_turn);
+  /// Refers to `form`, which must outlive it. `improvement.worth` has no effect.
+  ConstrainedMinimum(const SmoothingForm& form, const Improvement& improvement,
+                     double ball_radius_m, double viewing_distance_m);
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return bounds_.wanted_m(); }
-  /// As in `ContactBounds`.
-  [[nodiscard]] bool makes_room() const { return bounds_.makes_room(); }
-  void make_no_room() { bounds_.make_no_room(); }
   /// Sets the least gap that `kSafest` must keep. [Units: metres]
   void keep(double least_gap_m) { bounds_.keep(least_gap_m); }
 

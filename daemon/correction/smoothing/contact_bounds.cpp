@@ -13,15 +13,16 @@ namespace {
 constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
 constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
 constexpr double kKeptShare = 0.8;     // share of a smaller gap that is kept
-constexpr double kYield = 0.08;        // compliance: 0 keeps the wanted gap at any price
+constexpr double kYield = 0.02;        // compliance: 0 keeps the wanted gap at any price
 constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 
 }  // namespace
 
-ContactBounds::ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m)
+ContactBounds::ContactBounds(Objective objective, bool makes_room, double ball_radius_m,
+                             double viewing_distance_m)
     : is_safest_(objective == Objective::kSafest),
-      makes_room_(objective == Objective::kClosest),
+      makes_room_(makes_room),
       wanted_m_(is_safest_ ? kComfort * ball_radius_m
                            : std::min(kWanted * ball_radius_m, kWantedShift * viewing_distance_m)),
       hard_reach_m_(kHardReach * ball_radius_m) {}

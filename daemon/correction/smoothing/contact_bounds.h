@@ -22,23 +22,19 @@ struct Contact {
 ///
 ///     objective                         hard bound             soft bound
 ///     any but kSafest, gap >= wanted_m  wanted_m               none
-///     kClosest, gap < wanted_m          a share of the gap     wanted_m
-///     kShortest, kSmoothest, likewise   a share of the gap     none: they start from the closest
-///                                                              path, which made room
+///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m if it makes room
 ///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
 ///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
  public:
-  ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m);
+  /// `makes_room`: whether a gap below `wanted_m` has a soft bound. `kSafest` always makes room.
+  ContactBounds(Objective objective, bool makes_room, double ball_radius_m,
+                double viewing_distance_m);
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
-
-  /// Whether there are soft bounds where a gap is less than `wanted_m`; initially for `kClosest`.
-  [[nodiscard]] bool makes_room() const { return makes_room_; }
-  void make_no_room() { makes_room_ = false; }
 
   void clear();
   /// Adds the bounds of `contacts` on a sample whose displacement is `moved`. Requires contacts of
@@ -57,7 +53,7 @@ class ContactBounds {
                 double compliance, double& force);
 
   const bool is_safest_;
-  bool makes_room_;  ///< whether a gap below `wanted_m_` has a soft bound
+  const bool makes_room_;
   const double wanted_m_;
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;

@@ -27,11 +27,11 @@ constexpr double kFirstTrust = 2.0;       // radius of the trust region
 constexpr double kMostTrust = 4.0;
 constexpr double kLeastTrust = 0.02;
 constexpr double kDistrust = 0.3;
-constexpr double kHorizon = 1.0;   // largest gap that is measured; `kSafest` adds kComfort
+constexpr double kHorizon = 0.7;   // largest gap that is measured; `kSafest` adds kComfort
 constexpr double kSettled = 0.05;  // a step that moves the body less is the last
 constexpr double kGained = 0.01;   // share of the objective: a step that gains less is the last
 constexpr int kMostSteps = 12;
-constexpr double kPriceOfRoom = 1.1;  // largest growth of the cost for wider gaps
+constexpr double kPriceOfRoom = 1.3;  // largest growth of the cost for wider gaps
 constexpr int kMostCuts = 3;          // attempts at a step, each with more contacts
 constexpr int kRounds = 3;            // rounds of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
@@ -49,6 +49,12 @@ double lever_of(Objective objective, const FreeSpace& space) {
   return std::max(radius_m, space.closeness().turn_lever_m);
 }
 
+/// The improvement as far as the space permits it.
+Improvement limited(Improvement improvement, const FreeSpace& space) {
+  improvement.may_turn = improvement.may_turn && space.may_turn();
+  return improvement;
+}
+
 class Relaxation {
  public:
   Relaxation(const Problem& problem, const Offsets& offsets, Ends ends,
@@ -58,30 +64,19 @@ class Relaxation {
         problem_(problem),
         objective_(improvement.objective),
         is_safest_(improvement.objective == Objective::kSafest),
-        may_turn_(space.may_turn() && improvement.may_turn),
+        may_turn_(limited(improvement, space).may_turn),
+        most_growth_(improvement.makes_room ? kPriceOfRoom : 1.0),
         closeness_(space.closeness()),
         free_(problem, offsets.knots, ends),
         variables_(free_.variables_of(offsets, lever_m_)),
         form_(problem, free_, objective_, lever_m_, closeness_, variables_),
-        minimum_(form_, improvement.objective, radius_m_, space.closeness().viewing_distance_m,
-                 may_turn_),
+        minimum_(form_, limited(improvement, space), radius_m_,
+                 space.closeness().viewing_distance_m),
         probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)) {
     for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
       add_samples(problem, offsets.knots.knot_s(k), offsets.knots.knot_s(k + 1));
     }
     if (is_safest_) keep_least_gap();
-  }
-
-  /// Begins again at `offsets`, and makes no room. Returns false if it made none.
-  bool restart_without_room(const Offsets& offsets) {
-    if (!minimum_.makes_room()) return false;
-    minimum_.make_no_room();
-    variables_ = free_.variables_of(offsets, lever_m_);
-    for (PathSample& sample : samples_) {
-      sample.has_rows = false;
-      probe_.measure(sample, sample.at(variables_));
-    }
-    return true;
   }
 
   [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
@@ -93,12 +88,12 @@ class Relaxation {
     return now - form_.value(minimum()) > share * now;
   }
 
-  /// Avoiding obstacles may cost more than the other terms gain. Always true for `kSafest`, which
-  /// gains gaps that the form does not contain.
+  /// Avoiding obstacles may cost more than the other terms gain, and room has its price. Always
+  /// true for `kSafest`, which gains gaps that the form does not contain.
   [[nodiscard]] bool is_no_worse(const Relaxed& now, const Relaxed& before) const {
     if (objective_ == Objective::kClosest) {
       return closeness_cost(now.candidate.path, problem_.original, closeness_) <=
-             kPriceOfRoom * closeness_cost(before.candidate.path, problem_.original, closeness_);
+             most_growth_ * closeness_cost(before.candidate.path, problem_.original, closeness_);
     }
     return is_safest_ || form_.value(free_.variables_of(now.offsets, lever_m_)) <=
                              form_.value(free_.variables_of(before.offsets, lever_m_));
@@ -267,6 +262,7 @@ class Relaxation {
   const Objective objective_;
   const bool is_safest_;
   const bool may_turn_;
+  const double most_growth_;  ///< of the cost, for `kClosest`
   const Closeness& closeness_;
   const FreeCoefficients free_;
   StackedPoints variables_;
@@ -298,8 +294,7 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     if (tried.candidate) {
       Relaxed found{better, std::move(*tried.candidate), free.paths};
       if (relaxation.is_no_worse(found, free)) return found;
-      if (!relaxation.restart_without_room(free.offsets)) return free;
-      continue;
+      break;
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);

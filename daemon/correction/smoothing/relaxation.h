@@ -3,18 +3,11 @@
 
 #include "daemon/base/budget.h"
 #include "daemon/correction/path/candidate.h"
-#include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/guide.h"
+#include "daemon/correction/smoothing/improvement.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 
 namespace camway::correction {
-
-/// Goal of a relaxation.
-struct Improvement {
-  Objective objective = Objective::kClosest;
-  bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
-  double worth = 0.1;    ///< least relative gain of the objective for which `polished` takes steps
-};
 
 /// A correction that is proved free: `problem.path` plus `bumps_for(offsets, ends)`.
 struct Relaxed {
@@ -34,7 +27,7 @@ struct Relaxed {
 ///
 /// The result is proved. Where the path collides between the samples, a sample is added there and
 /// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
-/// became worse; the closest path may cost a tenth more where that makes room.
+/// became worse. With `makes_room` the closest path may cost 1.3 times as much.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 

@@ -17,7 +17,7 @@ namespace {
 
 using motion::CubicPoint;
 
-constexpr double kRoundedShare = 0.05;  // of the largest offset: δ
+constexpr double kRoundedShare = 0.01;  // of the largest offset: δ
 constexpr int kBumpReach = 2;           // knots from a bump's peak to the end of its support
 constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
 constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner

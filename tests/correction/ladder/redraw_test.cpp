@@ -106,7 +106,7 @@ class RedrawTest : public ::testing::Test {
     cost_before_ = closeness_cost(before, c_.interpolated, closeness);
     cost_after_ = closeness_cost(corrected.path(), c_.interpolated, closeness);
     path_ = corrected.path();
-    wanted_m_ = ContactBounds(Objective::kClosest, space.ball_radius_m(), 3.0).wanted_m();
+    wanted_m_ = ContactBounds(Objective::kClosest, true, space.ball_radius_m(), 3.0).wanted_m();
     corrections_ = list.corrections();
   }
 

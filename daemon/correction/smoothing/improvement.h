@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/correction/path/constraints.h"
+
+namespace camway::correction {
+
+/// Goal of a relaxation.
+struct Improvement {
+  Objective objective = Objective::kClosest;
+  bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
+  /// Whether gaps grow (`ContactBounds`), at a limited price of the objective. No effect for
+  /// `kSafest`, which always makes room.
+  bool makes_room = false;
+  double worth = 0.1;  ///< least relative gain of the objective for which `polished` takes steps
+};
+
+}  // namespace camway::correction
