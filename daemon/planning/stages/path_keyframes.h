@@ -7,7 +7,7 @@
 #include "daemon/planning/stages/prepare.h"
 
 /// The keyframes of an answer. Where nothing was corrected or slowed, they are those of the
-/// request, and its frame if it has one. A corrected path has a keyframe at every joint of its
+/// request, and its frame if it has one. A corrected path has a keyframe at every knot of its
 /// spline, and a frame: the same request with these keyframes and this frame has the same path,
 /// which collides nowhere else. The paper's method interpolates its inserted keyframes as a request
 /// does, so they need no frame. A slowed path has no frame, and its keyframes do not give it: its
