@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "daemon/planning/stages/check.h"
 #include "daemon/planning/stages/keyframe_times.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/prepare.h"
 
 namespace camway::planning {
