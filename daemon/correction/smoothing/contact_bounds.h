@@ -23,20 +23,20 @@ struct Contact {
 ///     objective                         hard bound             soft bound
 ///     any but kSafest, gap >= wanted_m  wanted_m               none
 ///     kClosest, gap < wanted_m          a share of the gap     wanted_m
-///     kShortest, kSmoothest, likewise   a share of the gap     none: they start from the closest
-///                                                              path, which made room
+///     kShortest, kSmoothest,            a share of the gap     none: they start from the closest
+///       gap < wanted_m                                         path, whose gaps were widened
 ///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
 ///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
  public:
   ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m);
 
-  /// The gap that suffices. [Units: metres]
+  /// Returns the gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
 
-  /// Whether there are soft bounds where a gap is less than `wanted_m`; initially for `kClosest`.
+  /// Returns whether a gap below `wanted_m` has a soft bound; at first true exactly for `kClosest`.
   [[nodiscard]] bool makes_room() const { return makes_room_; }
   void make_no_room() { makes_room_ = false; }
 

@@ -12,7 +12,7 @@ namespace camway::correction {
 /// Goal of a relaxation.
 struct Improvement {
   Objective objective = Objective::kClosest;
-  bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
+  bool may_turn = true;  ///< false keeps orientations, even if the orientation policy allows a turn
   double worth = 0.1;    ///< least relative gain of the objective for which `polished` takes steps
 };
 
@@ -23,8 +23,8 @@ struct Relaxed {
   int paths = 0;  ///< changed paths that the relaxation checked for collisions
 };
 
-/// Improves a free correction under an objective (`SmoothingForm`) and keeps it free. Spends steps
-/// of `budget`; each costs about as much as a hundred distance queries.
+/// Returns a free correction that is better by an objective (`SmoothingForm`) than the correction
+/// `free`. Spends steps of `budget`; each costs about as much as a hundred distance queries.
 ///
 /// Sequential convex optimisation (Schulman et al. 2013, "Finding locally optimal, collision-free
 /// trajectories with sequential convex optimization"): each step goes to the minimum of the
@@ -32,15 +32,15 @@ struct Relaxed {
 /// Deviation: the path is free from the start and stays so, so contacts are constraints of the
 /// steps instead of penalties; only `kSafest` also penalises missing gaps (`ContactBounds`).
 ///
-/// The result is proved. Where the path collides between the samples, a sample is added there and
-/// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
-/// became worse; the closest path may cost a tenth more where that makes room.
+/// The result is proved. If the path collides between the samples, a sample is added there and the
+/// change is reverted as far as needed. Returns `free` if no proof succeeds or the objective became
+/// worse. Exception: with `kClosest` the cost may grow by a tenth if that enlarges gaps.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 
-/// Improves a path that is free already, between the two keyframes of the problem's interval and a
-/// little beyond, by a row of bumps on `knots` steps. Returns nothing if nothing better was found.
-/// Spends steps of `budget`. [Limit: knots >= 4]
+/// Improves a free path by a row of bumps on `knots` steps, from before the first to after the
+/// second keyframe of the problem's interval. Returns nothing if no better path was found. Spends
+/// steps of `budget`. [Limit: knots >= 4]
 std::optional<Candidate> polished(const Problem& problem, int knots, const Improvement& improvement,
                                   base::Budget& budget, FreeSpace& space,
                                   const base::Deadline& deadline);
