@@ -44,15 +44,15 @@ class Client::Impl {
     error = fault_in(context.options());
     if (!error.empty()) return;
     error_status = Status::kNetworkUnusable;
-    error = link.open(context.options().url);
-    context.set_url(link.url());
-    if (!link.warning().empty()) {
-      warning = "other hosts of the network can be heard though ttl is 0: " + link.warning();
+    error = connection.open(context.options().url);
+    context.set_url(connection.url());
+    if (!connection.warning().empty()) {
+      warning = "other hosts of the network can be heard though ttl is 0: " + connection.warning();
     }
     if (const auto& authentication = context.options().authentication) {
-      link.authenticate(authentication->begin());
+      connection.authenticate(authentication->begin());
     }
-    if (error.empty()) engine.emplace(link, context);
+    if (error.empty()) engine.emplace(connection, context);
   }
 
   /// Returns why no call can be made, or nothing.
@@ -83,7 +83,7 @@ class Client::Impl {
   SceneAsker asker() { return {context, *engine, scene_cancel}; }
 
   Context context;
-  Link link;
+  LcmConnection connection;
   std::string error;
   std::string warning;
   Status error_status = Status::kInvalid;

@@ -52,11 +52,11 @@ class PartCall final : public Call {
   }
   bool answered() const override { return collector_.response().has_value(); }
   void cancel() override {
-    cancel_t question{};
-    question.client_id = context_.options().client_id;
-    question.request_id = request_id();
-    question.utime = wire::utime_now();
-    replace_question({{context_.channels().cancel_occupancy(), wire::encode(question)}});
+    cancel_t message{};
+    message.client_id = context_.options().client_id;
+    message.request_id = request_id();
+    message.utime = wire::utime_now();
+    replace_request_messages({{context_.channels().cancel_occupancy(), wire::encode(message)}});
     retry().restart();
   }
   void finish(Outcome outcome) override {

@@ -47,9 +47,9 @@ struct Asked {
 template <class Response>
 class OneAnswer final : public Call {
  public:
-  OneAnswer(Kind kind, Context& context, std::int64_t request_id, std::vector<Outgoing> question,
+  OneAnswer(Kind kind, Context& context, std::int64_t request_id, std::vector<Outgoing> messages,
             Clock::time_point deadline)
-      : Call(kind, request_id, std::move(question), context.retry(deadline)), context_(context) {}
+      : Call(kind, request_id, std::move(messages), context.retry(deadline)), context_(context) {}
 
   std::future<Asked<Response>> answer() { return promise_.get_future(); }
 
@@ -74,11 +74,11 @@ class OneAnswer final : public Call {
     // An upload keeps no worker busy, so there is nothing to cancel at the daemon.
     ends_ = kind() != Kind::kScene;
     if (ends_ || std::exchange(is_cancelled_, true)) return;
-    cancel_t question{};
-    question.client_id = context_.options().client_id;
-    question.request_id = request_id();
-    question.utime = wire::utime_now();
-    replace_question({{context_.channels().cancel_scene(), wire::encode(question)}});
+    cancel_t message{};
+    message.client_id = context_.options().client_id;
+    message.request_id = request_id();
+    message.utime = wire::utime_now();
+    replace_request_messages({{context_.channels().cancel_scene(), wire::encode(message)}});
     retry().restart_within(kCancelWait_s, Clock::now());
   }
   void finish(Outcome outcome) override {
@@ -129,10 +129,10 @@ class Asker {
 
   template <class Response>
   Asked<Response> ask(Call::Kind kind, std::int64_t request_id,
-                      std::vector<Outgoing> question) const {
+                      std::vector<Outgoing> messages) const {
     if (is_cancelled()) return {std::nullopt, cancelled()};
     const auto call = std::make_shared<OneAnswer<Response>>(kind, context, request_id,
-                                                            std::move(question), deadline);
+                                                            std::move(messages), deadline);
     std::future<Asked<Response>> answer = call->answer();
     start(call);
     return answer.get();
@@ -157,16 +157,16 @@ class Asker {
 Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uint8_t>& bytes,
                                   std::int64_t checksum, const std::vector<std::int32_t>& pages) {
   const std::int64_t request_id = asker.context.new_request_id();
-  std::vector<Outgoing> question;
+  std::vector<Outgoing> messages;
   const auto add = [&](std::int32_t page) {
     upload_page_t message = page_of(bytes, checksum, page);
     message.client_id = asker.context.options().client_id;
     message.request_id = request_id;
-    question.push_back({asker.context.channels().upload(), wire::encode(message)});
+    messages.push_back({asker.context.channels().upload(), wire::encode(message)});
   };
   for (const std::int32_t page : pages) add(page);
   add(-1);
-  return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(question));
+  return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(messages));
 }
 
 /// The result of an upload.
@@ -278,7 +278,7 @@ class MapPages final : public Call {
         context_(context),
         num_pages_(num_pages),
         wanted_(wanted.begin(), wanted.end()) {
-    replace_question(missing());
+    replace_request_messages(missing());
   }
 
   /// The pages that came, or the reason why some did not.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client/engine/link.h"
+#include "client/engine/lcm_connection.h"
 #include "client/engine/retry.h"
 
 namespace camway {
@@ -34,8 +34,11 @@ class Call {
  public:
   enum class Kind { kPlan, kOccupancy, kScene, kUpload, kMap };
 
-  Call(Kind kind, std::int64_t request_id, std::vector<Outgoing> question, Retry retry)
-      : kind_(kind), request_id_(request_id), question_(std::move(question)), retry_(retry) {}
+  Call(Kind kind, std::int64_t request_id, std::vector<Outgoing> messages, Retry retry)
+      : kind_(kind),
+        request_id_(request_id),
+        request_messages_(std::move(messages)),
+        retry_(retry) {}
   virtual ~Call() = default;
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -45,7 +48,7 @@ class Call {
   Retry& retry() { return retry_; }
   const Retry& retry() const { return retry_; }
   /// Returns all messages of one try.
-  const std::vector<Outgoing>& question() const { return question_; }
+  const std::vector<Outgoing>& request_messages() const { return request_messages_; }
 
   /// Takes a message from the channel for answers. The message is for this request, or cannot be
   /// read.
@@ -62,12 +65,14 @@ class Call {
   virtual void finish(Outcome outcome) = 0;
 
  protected:
-  void replace_question(std::vector<Outgoing> question) { question_ = std::move(question); }
+  void replace_request_messages(std::vector<Outgoing> messages) {
+    request_messages_ = std::move(messages);
+  }
 
  private:
   Kind kind_;
   std::int64_t request_id_;
-  std::vector<Outgoing> question_;
+  std::vector<Outgoing> request_messages_;
   Retry retry_;
 };
 

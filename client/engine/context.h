@@ -13,12 +13,13 @@
 
 namespace camway {
 
-/// The failure of a call, with a text for the user.
+/// The failure of a call.
 struct Failure {
-  Status status;
-  std::string error;
+  Status status;      ///< not `kOk`, unless there is no failure
+  std::string error;  ///< a text for the user
 };
 
+/// Returns an answer that has the status and the error of `failure`, and nothing else.
 template <class Answer>
 Answer failed(Failure failure) {
   Answer answer;
@@ -27,8 +28,8 @@ Answer failed(Failure failure) {
   return answer;
 }
 
-/// How often a call begins anew if the scene changes while it is read in parts, or if the daemon
-/// has dropped the upload or the export.
+/// Largest number of times that a call begins anew: because the scene changed while it was read in
+/// parts, or because the daemon dropped the upload or the export.
 inline constexpr int kMaxRestarts = 3;
 
 /// Returns the fault of options that cannot be used; empty if they can.
@@ -43,8 +44,8 @@ class Context {
   const ClientOptions& options() const { return options_; }
   const wire::Channels& channels() const { return channels_; }
 
-  /// Returns an id that this client id has not used before. It comes from the clock, so ids stay
-  /// unique across restarts.
+  /// Returns a request id that this client has not used before. It comes from the clock, so that
+  /// ids stay unique across restarts.
   std::int64_t new_request_id();
 
   /// Returns the repetition state of a request that ends at `deadline`.
@@ -59,13 +60,14 @@ class Context {
   /// Returns the failure for a daemon that gave no sign of life for `silent_s`.
   Failure silence(double silent_s) const;
 
-  /// Sets the network's URL for messages. Requires that no other thread uses this object yet.
+  /// Sets the network's URL, which error texts name. Requires that no other thread uses this object
+  /// yet.
   void set_url(std::string url) { url_ = std::move(url); }
 
  private:
   std::string where() const;
-  /// Returns a hint to check the keys. A daemon with other keys does not answer, so it looks like
-  /// no daemon.
+  /// Returns a hint to check the keys: a daemon with other keys does not answer, just as if there
+  /// were none.
   std::string about_keys() const;
 
   ClientOptions options_;

@@ -41,8 +41,8 @@ std::optional<std::int64_t> request_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Engine::Engine(Link& link, Context& context)
-    : link_(link),
+Engine::Engine(LcmConnection& connection, Context& context)
+    : connection_(connection),
       channels_(context.channels()),
       watches_(context, {[this](Outgoing message) { outgoing_.push_back(std::move(message)); },
                          [this](std::shared_ptr<Call> call) { start(std::move(call)); }}) {
@@ -53,7 +53,7 @@ Engine::Engine(Link& link, Context& context)
 Engine::~Engine() {
   if (!thread_.joinable()) return;
   closing_ = true;
-  link_.wake();
+  connection_.wake();
   thread_.join();
 }
 
@@ -75,7 +75,7 @@ void Engine::run_thread() {
 
 template <class Response>
 void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue) {
-  link_.listen(channel, queue, [this, kind](auto bytes) {
+  connection_.listen(channel, queue, [this, kind](auto bytes) {
     const auto id = request_of<Response>(bytes);
     // A message that cannot be read goes to every call of this kind, for its text about the
     // failure.
@@ -90,27 +90,28 @@ void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue
 void Engine::listen(const std::string& client_id) {
   take_answers<plan_response_t>(Call::Kind::kPlan, channels_.plan_response(client_id),
                                 kResponseQueue);
-  link_.listen(channels_.plan_progress(client_id), kSmallQueue, [this](auto bytes) {
+  connection_.listen(channels_.plan_progress(client_id), kSmallQueue, [this](auto bytes) {
     const auto id = request_of<plan_progress_t>(bytes);
     Call* const call = id ? find(Call::Kind::kPlan, *id) : nullptr;
     if (call != nullptr) call->take_progress(bytes);
   });
-  link_.listen(channels_.plan_offer(client_id), kResponseQueue, [this](auto bytes) {
+  connection_.listen(channels_.plan_offer(client_id), kResponseQueue, [this](auto bytes) {
     const auto id = request_of<plan_response_t>(bytes);
     if (id) watches_.take_offer(*id, bytes);
   });
-  link_.listen(channels_.missing_pages(client_id), kSmallQueue,
-               [this](auto bytes) { take_missing_pages(bytes); });
+  connection_.listen(channels_.missing_pages(client_id), kSmallQueue,
+                     [this](auto bytes) { take_missing_pages(bytes); });
   take_answers<occupancy_response_t>(Call::Kind::kOccupancy,
                                      channels_.occupancy_response(client_id), kSmallQueue);
   take_answers<scene_response_t>(Call::Kind::kScene, channels_.scene_response(client_id),
                                  kSmallQueue);
   take_answers<upload_status_t>(Call::Kind::kUpload, channels_.upload_status(client_id),
                                 kSmallQueue);
-  link_.listen(channels_.watch_report(client_id), kSmallQueue,
-               [this](auto bytes) { watches_.take_report(bytes, Clock::now()); });
+  connection_.listen(channels_.watch_report(client_id), kSmallQueue,
+                     [this](auto bytes) { watches_.take_report(bytes, Clock::now()); });
   take_answers<map_page_t>(Call::Kind::kMap, channels_.map_page(client_id), kSmallQueue);
-  link_.listen(channels_.status(), kSmallQueue, [this](auto bytes) { take_heartbeat(bytes); });
+  connection_.listen(channels_.status(), kSmallQueue,
+                     [this](auto bytes) { take_heartbeat(bytes); });
 }
 
 void Engine::start(std::shared_ptr<Call> call) {
@@ -174,7 +175,7 @@ void Engine::post(std::function<void()> task) {
     const std::lock_guard<std::mutex> lock(mutex_);
     tasks_.push_back(std::move(task));
   }
-  link_.wake();
+  connection_.wake();
 }
 
 void Engine::run() {
@@ -186,7 +187,7 @@ void Engine::run() {
     end_waiters(now);
     end_leavers(now);
     send_some(now);
-    if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
+    if (connection_.wait(next_wake()) == LcmConnection::Wait::kBroken) broken_ = true;
     if (broken_) end_all(Outcome::kBroken);
     // The next heartbeat may be of another daemon.
     if (std::exchange(is_unheard_, false)) end_calls(Outcome::kUnsigned);
@@ -228,7 +229,7 @@ std::optional<Outcome> Engine::step(Call& call, Clock::time_point now) {
   };
   switch (call.retry().next(now)) {
     case Retry::Action::kSend:
-      send(call.question());
+      send(call.request_messages());
       break;
     case Retry::Action::kAskMissing:
       send(call.missing());
@@ -248,7 +249,7 @@ void Engine::send_some(Clock::time_point now) {
   std::size_t room = kBurstBytes;
   while (!outgoing_.empty() && outgoing_.front().bytes.size() <= room) {
     room -= outgoing_.front().bytes.size();
-    if (!link_.publish(outgoing_.front().channel, outgoing_.front().bytes)) broken_ = true;
+    if (!connection_.publish(outgoing_.front().channel, outgoing_.front().bytes)) broken_ = true;
     outgoing_.pop_front();
   }
   if (!outgoing_.empty()) send_at_ = now + kSendPause;
@@ -314,7 +315,7 @@ void Engine::take_missing_pages(std::span<const std::uint8_t> bytes) {
   Call* const call = find(Call::Kind::kPlan, decoded.message->request_id);
   if (call == nullptr) return;
   call->retry().note_life();
-  const std::vector<Outgoing>& pages = call->question();
+  const std::vector<Outgoing>& pages = call->request_messages();
   std::set<std::int32_t> which(decoded.message->missing.begin(), decoded.message->missing.end());
   for (const std::int32_t page : which) {
     if (page >= 0 && static_cast<std::size_t>(page) < pages.size()) {
@@ -328,7 +329,7 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   if (!status) return;
   const Clock::time_point now = Clock::now();
   for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
-  is_unheard_ = status->signed_only && !link_.signs();
+  is_unheard_ = status->signed_only && !connection_.signs();
   watches_.take_heartbeat(status->uptime_s, now);
   std::vector<PendingStatus> pending;
   pending.swap(pending_statuses_);

@@ -17,19 +17,19 @@
 #include <vector>
 
 #include "client/engine/call.h"
-#include "client/engine/link.h"
+#include "client/engine/lcm_connection.h"
 #include "client/engine/watch_list.h"
 #include "lcmtypes/wire/channels.h"
 
 namespace camway {
 
-/// The thread of a client. It alone uses the link: it sends requests, repeats them, and passes each
-/// received message to its call. The public members are thread-safe.
+/// The thread of a client. It alone uses the connection: it sends requests, repeats them, and
+/// passes each received message to its call. The public members are thread-safe.
 class Engine {
  public:
-  /// Subscribes to all channels and starts the thread. Requires an open link; link and context must
-  /// outlive the engine.
-  Engine(Link& link, Context& context);
+  /// Subscribes to all channels and starts the thread. Requires an open connection; connection and
+  /// context must outlive the engine.
+  Engine(LcmConnection& connection, Context& context);
   /// Ends all calls with `Outcome::kClosed`. In the engine's own thread it requires that
   /// `close_from_handler` was called.
   ~Engine();
@@ -96,7 +96,7 @@ class Engine {
   void take_missing_pages(std::span<const std::uint8_t> bytes);
   void take_heartbeat(std::span<const std::uint8_t> bytes);
 
-  Link& link_;
+  LcmConnection& connection_;
   const wire::Channels channels_;
 
   std::mutex mutex_;  ///< guards tasks_

@@ -41,20 +41,20 @@ Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& o
   return after(std::max(options.deadline_s, planning_s + options.try_timeout_s));
 }
 
-std::vector<Outgoing> question_of(const Context& context, const PlanRequest& request,
-                                  std::int64_t id) {
-  std::vector<Outgoing> question;
+std::vector<Outgoing> request_messages_of(const Context& context, const PlanRequest& request,
+                                          std::int64_t id) {
+  std::vector<Outgoing> messages;
   for (Bytes& page : to_pages(request, context.options().client_id, id)) {
-    question.push_back({context.channels().plan_request(), std::move(page)});
+    messages.push_back({context.channels().plan_request(), std::move(page)});
   }
-  return question;
+  return messages;
 }
 
 }  // namespace
 
 PlanCall::PlanCall(Context& context, const PlanRequest& request, std::int64_t id,
                    PlanHandlers handlers)
-    : Call(Kind::kPlan, id, question_of(context, request, id),
+    : Call(Kind::kPlan, id, request_messages_of(context, request, id),
            context.retry(deadline_of(request, context.options()))),
       context_(context),
       handlers_(std::move(handlers)),
@@ -83,22 +83,22 @@ void PlanCall::take_progress(std::span<const std::uint8_t> bytes) {
 }
 
 std::vector<Outgoing> PlanCall::missing() const {
-  missing_pages_t question{};
-  question.client_id = context_.options().client_id;
-  question.request_id = request_id();
-  question.utime = wire::utime_now();
-  question.num_pages = static_cast<std::int32_t>(collector_.pages().expected());
-  question.missing = collector_.pages().missing();
-  question.num_missing = static_cast<std::int32_t>(question.missing.size());
-  return {{context_.channels().missing_pages(), wire::encode(question)}};
+  missing_pages_t message{};
+  message.client_id = context_.options().client_id;
+  message.request_id = request_id();
+  message.utime = wire::utime_now();
+  message.num_pages = static_cast<std::int32_t>(collector_.pages().expected());
+  message.missing = collector_.pages().missing();
+  message.num_missing = static_cast<std::int32_t>(message.missing.size());
+  return {{context_.channels().missing_pages(), wire::encode(message)}};
 }
 
 void PlanCall::cancel() {
-  cancel_t question{};
-  question.client_id = context_.options().client_id;
-  question.request_id = request_id();
-  question.utime = wire::utime_now();
-  replace_question({{context_.channels().cancel(), wire::encode(question)}});
+  cancel_t message{};
+  message.client_id = context_.options().client_id;
+  message.request_id = request_id();
+  message.utime = wire::utime_now();
+  replace_request_messages({{context_.channels().cancel(), wire::encode(message)}});
   retry().restart();
 }
 

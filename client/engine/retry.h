@@ -24,12 +24,12 @@ using Clock = std::chrono::steady_clock;
 class Retry {
  public:
   struct Rules {
-    double try_timeout_s;
-    double backoff;
-    double max_try_timeout_s;
-    double jitter;
-    int retries;
-    /// Time to wait for another daemon after one has announced its end.
+    double try_timeout_s;      ///< first wait for an answer [Limit: 0 < value]
+    double backoff;            ///< factor of each wait to the one before [Limit: 1 <= value]
+    double max_try_timeout_s;  ///< largest wait, before `jitter` [Limit: 0 < value]
+    double jitter;             ///< largest relative random change of a wait [Limit: 0 <= value < 1]
+    int retries;               ///< repetitions without a sign of life [Limit: 0 <= value]
+    /// Time to wait for another daemon after one has announced its end. [Limit: 0 <= value]
     double successor_wait_s = std::numeric_limits<double>::infinity();
   };
 

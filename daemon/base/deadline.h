@@ -11,53 +11,57 @@
 
 namespace camway::base {
 
-/// The only clock that planning reads: how long it has run, and whether it must stop, because time
-/// is up or the client cancelled. An answer depends on the clock only if the deadline strikes. A
-/// value type; deadlines made from one another share whether they struck. Thread-safe.
+/// The only clock that planning reads. It tells how long planning has run, and whether it must stop
+/// because the time is up or a stop was requested. An answer depends on the clock only if the
+/// deadline *strikes*: if `passed` returns true or `leaves_s` returns false. A value type. A
+/// deadline that is made from another one shares with it whether one of the two struck.
+/// Thread-safe.
 class Deadline {
  public:
-  /// Strikes `seconds` from now. [Limit: 0 <= value]
+  /// Returns a deadline that strikes `seconds` from now. [Limit: 0 <= value]
   static Deadline after_s(double seconds);
 
-  /// Never strikes.
+  /// Returns a deadline that never strikes.
   static Deadline never();
 
-  /// For tests: replaces the clock by a counter, which advances by a millisecond each time that
-  /// this deadline or one made from it reads it, and strikes at the read after `looks` of them. So
-  /// tests can cut planning short at any place. [Limit: 0 <= value]
+  /// For tests, which can so end planning at any place. Returns a deadline whose clock is a
+  /// counter. The counter advances by a millisecond each time that this deadline, or one made from
+  /// it, reads it. The deadline strikes at the first read after `looks` reads. [Limit: 0 <= looks]
   static Deadline after_looks(int looks);
 
-  /// A deadline that also strikes when `stop` is requested, and passes on the progress of planning.
+  /// Returns a deadline that also strikes when `stop` is requested, and that writes the progress of
+  /// planning to `progress`.
   [[nodiscard]] Deadline watched(std::stop_token stop, std::shared_ptr<Progress> progress) const;
 
-  /// A deadline that does not strike before `seconds` from now, unless it is stopped.
+  /// Returns a deadline that does not strike before `seconds` from now, unless a stop is requested.
   [[nodiscard]] Deadline not_before_s(double seconds) const;
 
-  /// A deadline that strikes `seconds` sooner. [Limit: 0 <= value]
+  /// Returns a deadline that strikes `seconds` sooner. [Limit: 0 <= value]
   [[nodiscard]] Deadline sooner_by_s(double seconds) const;
 
-  /// A deadline that strikes after `share` of the remaining time. [Limit: 0 <= value <= 1]
+  /// Returns a deadline that strikes after `share` of the remaining time. [Limit: 0 <= value <= 1]
   [[nodiscard]] Deadline share_of_rest(double share) const;
 
+  /// Returns whether the time is up or a stop was requested. If so, the deadline has struck.
   [[nodiscard]] bool passed() const;
 
-  /// Whether a stop was requested, whatever the time.
+  /// Returns whether a stop was requested.
   [[nodiscard]] bool stopped() const { return stop_.stop_requested(); }
 
-  /// The remaining time, 0 once the deadline passed or was stopped.
+  /// Returns the remaining time; 0 once the deadline passed or a stop was requested.
   [[nodiscard]] double remaining_s() const;
 
-  /// Whether at least `seconds` remain.
+  /// Returns whether at least `seconds` remain. If not, the deadline has struck.
   [[nodiscard]] bool leaves_s(double seconds) const;
 
-  /// Whether `passed` ever returned true or `leaves_s` false, for this deadline or any that was
-  /// made from the same one. If not, the answer does not depend on the clock.
+  /// Returns whether this deadline struck, or any that was made from the same one. If not, the
+  /// answer does not depend on the clock.
   [[nodiscard]] bool struck() const { return struck_->load(std::memory_order_relaxed); }
 
-  /// Milliseconds since the deadline, or the one that it was made from, was created.
+  /// Returns the milliseconds since this deadline, or the one that it was made from, was created.
   [[nodiscard]] double elapsed_ms() const;
 
-  /// Reports progress to the watcher, if there is one.
+  /// Writes to the progress of `watched`, if there is one.
   void report(Progress::Stage stage) const;
   void report_collisions(std::size_t found, std::size_t corrected) const;
 

@@ -13,9 +13,9 @@ struct Failure {
   std::string error;  ///< for the user [Limit: not empty]
 };
 
-/// The outcome of a function that may fail: a value, or the reason why there is none. For expected
-/// outcomes, such as a bad file. A function returns the value itself or a `Failure`; both convert.
-/// `*` and `->` require a value.
+/// The outcome of a function that may fail in expected ways, such as for a bad file: a value, or
+/// the reason why there is none. A value and a `Failure` both convert to it. `*` and `->` require a
+/// value.
 template <typename T>
 struct [[nodiscard]] Result {
   std::optional<T> value;
@@ -24,7 +24,7 @@ struct [[nodiscard]] Result {
   Result(T result) : value(std::move(result)) {}
   Result(Failure failure) : error(std::move(failure.error)) { assert(!error.empty()); }
 
-  /// Whether there is a value.
+  /// Returns whether there is a value.
   explicit operator bool() const { return value.has_value(); }
 
   [[nodiscard]] T& operator*() & { return *value; }

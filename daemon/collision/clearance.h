@@ -12,19 +12,18 @@ namespace camway::collision {
 
 /// Bounds of the least distance between the body and the scene over a whole path.
 struct PathClearance {
-  /// Never above the true least distance; 0 if no positive distance could be proved.
+  /// A lower bound, rounding included; 0 if no positive distance could be proved.
   double lower_bound_m = 0.0;
-  /// A distance that is reached at some place of the path: an upper bound of the least distance.
-  /// `kLargestClearance_m` if no smaller distance was found.
+  /// An upper bound: a distance that the body has at an instant of the path. `kLargestClearance_m`
+  /// if no smaller distance was found.
   double upper_bound_m = 0.0;
 };
 
-/// If `lower_bound_m` > 0: largest value of (upper_bound_m - lower_bound_m) / upper_bound_m, apart
-/// from rounding.
+/// Largest value of (upper_bound_m - lower_bound_m) / upper_bound_m if `lower_bound_m` > 0, up to
+/// rounding.
 inline constexpr double kClearanceTolerance = 0.18;
 
-/// Largest clearance that is reported; a scene may be empty, and larger values are of no use.
-/// [Units: metres]
+/// Largest clearance that is reported, also for an empty scene. [Units: metres]
 inline constexpr double kLargestClearance_m = 100.0;
 
 /// Computes the clearance by branch and bound over the path. A stretch is final once

@@ -12,44 +12,46 @@
 namespace camway::collision {
 
 /// Returns all maximal time ranges of [t_begin_s, t_end_s] in which the body collides, in order,
-/// each with a witness. All time outside of them is *proved* free, between samples too (`probe.h`).
-/// Time inside was seen or proved colliding, could not be decided at the tolerance, or is a free
-/// range too short to use (`joining_distance_m`). A body that touches or crosses a surface
-/// collides.
+/// each with a witness. A body that touches or crosses a surface collides.
 ///
-/// Returns nothing if the deadline struck before the end. Requires segments with increasing times.
+/// All time outside of the ranges is *proved* free, between samples too (`probe.h`). Inside a range
+/// the body was found or proved to collide, or it could not be decided at the tolerance whether it
+/// collides, or the time between two collisions was too short (`joining_distance_m`).
+///
+/// Returns nothing if the deadline strikes before the end. Requires segments with increasing times.
+/// Thread-safe.
 std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,
                                                                 const motion::Path& path,
                                                                 double t_begin_s, double t_end_s,
                                                                 const base::Deadline& deadline);
 
-/// Result of a search that the deadline may have ended.
+/// Result of `search_collisions`.
 struct Search {
   bool complete = false;  ///< false if the deadline struck before the end
-  /// Collision intervals that end by `until_s`; defined as for `detect_collisions`.
+  /// Collision intervals that end by `until_s`, as `detect_collisions` defines them.
   std::vector<CollisionInterval> collisions;
   double until_s = 0.0;  ///< end of the time that was searched
 };
 
-/// Returns the intervals that `detect_collisions` returns. If the deadline strikes before the end,
-/// returns the intervals before `until_s`.
+/// Does what `detect_collisions` does, but if the deadline strikes before the end, returns the
+/// intervals up to there.
 Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
                          double t_end_s, const base::Deadline& deadline);
 
 /// Result of `first_collision` and of `any_collision`.
 struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
-  /// Without a witness; nothing if there is no collision.
+  /// The collision, without a witness; nothing if there is none. Meaningful if `decided`.
   std::optional<CollisionInterval> interval;
 };
-/// Finds the first collision interval in [t_begin_s, t_end_s]: its begin and its end.
+/// Returns the first collision interval in [t_begin_s, t_end_s], as `detect_collisions` defines it.
 FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
                                double t_end_s, const base::Deadline& deadline);
 
-/// Decides whether [t_begin_s, t_end_s] is free. If decided, returns no interval exactly if all of
-/// it is proved free; then `first_collision` returns none, too. Otherwise returns a short time
-/// range at whose middle the body collides, or one that could not be decided at the tolerance.
-/// Cheaper than `first_collision` where there is a collision.
+/// Decides whether [t_begin_s, t_end_s] is free. Returns no interval if all of it is proved free;
+/// then `first_collision` returns none either. Otherwise returns a short time range at whose middle
+/// the body collides, or for which it could not be decided at the tolerance whether it collides.
+/// Cheaper than `first_collision` if there is a collision.
 FirstCollision any_collision(const Query& query, const motion::Path& path, double t_begin_s,
                              double t_end_s, const base::Deadline& deadline);
 

@@ -10,36 +10,38 @@
 
 namespace camway::collision {
 
-/// A stretch u0 <= u <= u1 of a segment, as parameters of the whole segment and not as control
-/// points of its own, so that rounding does not add up over subdivisions.
+/// A stretch u0 <= u <= u1 of a segment. It is given by parameters of the whole segment, not by
+/// control points of its own, so that rounding does not add up over subdivisions.
 struct Piece {
   const motion::Segment* segment;
   double u0;
   double u1;
 
   [[nodiscard]] double middle() const { return 0.5 * (u0 + u1); }
-  /// False for a piece so short that its middle is one of its ends.
+  /// Returns whether the middle lies strictly between the ends, in doubles.
   [[nodiscard]] bool splittable() const { return middle() > u0 && middle() < u1; }
   [[nodiscard]] double begin_s() const { return motion::segment_time_s(*segment, u0); }
   [[nodiscard]] double end_s() const { return motion::segment_time_s(*segment, u1); }
 };
 
-/// A collision interval whose end is not known yet, while the path is walked: its colliding pieces
-/// joined, and the deepest of them, for its witness. Not thread-safe.
+/// A collision interval that is built from its first piece on while the path is searched. Joins
+/// colliding pieces, and keeps the deepest of them for the witness.
+/// Not thread-safe.
 class OpenInterval {
  public:
   /// Returns whether the interval has a piece.
   [[nodiscard]] bool is_open() const { return last_.has_value(); }
-  /// Returns its last piece. Requires that it is open.
+  /// Returns the last piece. Requires `is_open`.
   [[nodiscard]] const Piece& last() const { return *last_; }
   /// Returns whether all of the last piece counts as colliding.
   [[nodiscard]] bool is_last_sure() const { return is_last_sure_; }
   [[nodiscard]] double begin_s() const { return begin_s_; }
 
-  /// Appends a piece with that gap at its middle; opens the interval if it is not open.
+  /// Appends a piece, or opens the interval with it. `gap_m`: the gap at the middle of the piece.
+  /// `surely`: whether all of the piece counts as colliding.
   void extend(const Piece& piece, double gap_m, bool surely);
 
-  /// Forgets all pieces but those that `witness` needs.
+  /// Closes the interval. `witness` may still be called.
   void close() { last_.reset(); }
 
   /// Returns the deepest contact of the deepest piece whose middle is nearest to `time_s`; nothing

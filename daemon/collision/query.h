@@ -25,9 +25,9 @@ struct DetectOptions {
   double clearance_m = 0.0;
 };
 
-/// A body, its obstacles, and what counts as a collision of the two: the question that is asked of
-/// one path after the other. Refers to the body and to the sources of the obstacles, which must
-/// outlive it. A value type.
+/// A collision query, which is made of one path after the other: a body, its obstacles, and the
+/// definition of a collision of the two. Refers to the body and to the sources of the obstacles,
+/// which must outlive it. A value type.
 struct Query {
   Obstacles obstacles;
   const motion::Body& body;

@@ -86,7 +86,8 @@ void OrientedBox::fit(std::span<const Triangle> body) {
 // 1. a_k·(p - o) has the rounding of a difference, a product and two sums on at most |a_k|_1·scale
 //    <= sqrt(3)·scale: 7u·scale. A gap has twice that and its own rounding, 15u·scale, and three
 //    gaps together 26u·scale.
-// 2. The matrix of the axes stretches by at most 1 + 12u, so the gaps are too long by at most that
+// 2. The matrix of the axes lengthens vectors by at most the factor 1 + 12u, so the gaps are too
+// long by at most that
 //    share of sqrt(3)·scale: 21u·scale.
 // Together 47u·scale, far inside the 192u of `triangle_distance_error_m`.
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {

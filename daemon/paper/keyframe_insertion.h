@@ -15,18 +15,19 @@ struct KeyframeInsertionOptions {
   SweepOptions sweep;
   motion::TimeOrigin origin;         ///< origin of all times
   int max_inserted_keyframes = 200;  ///< limit for the whole path [Limit: 0 <= value]
-  int max_recursion = 8;             ///< limit for one interval: levels of insertion into its rest
-  int max_rounds = 4;                ///< limit of passes over the whole path
+  /// Limit of the depth of recursion within one collision interval. [Limit: 0 <= value]
+  int max_recursion = 8;
+  int max_rounds = 4;  ///< limit of passes over the whole path [Limit: 0 <= value]
 };
 
-/// Result of the paper's method. `keyframes` interpolate to `path`; the caller must check whether
-/// that is free of collision.
+/// Result of the paper's method. `path` interpolates `keyframes`. It may still collide: the caller
+/// must check it.
 struct KeyframeInsertionResult {
   std::vector<motion::Keyframe> keyframes;
   motion::Path path;
-  int rounds = 0;
-  int gave_up = 0;  ///< intervals that the last round could not correct
-  bool timed_out = false;
+  int rounds = 0;          ///< whole passes over the path that corrected an interval
+  int gave_up = 0;         ///< intervals that the last pass could not correct
+  bool timed_out = false;  ///< the deadline struck before the last pass ended
 };
 
 /// The paper's correction (Ptacek & Johnstone 2006, section 4). Takes the collision intervals in
@@ -35,11 +36,11 @@ struct KeyframeInsertionResult {
 /// corrects the remaining collisions recursively.
 ///
 /// Deviations:
-/// - Collisions are those of the filled near quadrilateral, so enclosed objects that the paper's
-///   sweep misses are searched as well, before each interval.
+/// - Collisions are those of the filled near quadrilateral. Before each interval that the paper's
+///   sweep finds, the distance-based detection searches for enclosed objects that the sweep misses.
 /// - An interval that cannot be corrected loses its inserted keyframes.
-/// - A keyframe that needs ten times the average speed of the camera is refused, and each keeps a
-///   margin of ten tolerances.
+/// - A keyframe that needs ten times the average speed or more is refused.
+/// - Each inserted keyframe keeps ten times the tolerance of detection from the scene.
 /// - The new spline differs from the old one beyond `[t_i, t_f]` too, so the path is checked again
 ///   until a round corrects nothing (the paper checks it once).
 ///

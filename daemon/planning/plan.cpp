@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "daemon/collision/detect.h"
-#include "daemon/planning/stages/check.h"
-#include "daemon/planning/stages/conclude.h"
 #include "daemon/planning/stages/correct.h"
 #include "daemon/planning/stages/meet_limits.h"
+#include "daemon/planning/stages/path_check.h"
+#include "daemon/planning/stages/path_outside_bounds.h"
 #include "daemon/planning/stages/prepare.h"
 #include "daemon/planning/stages/search_changes.h"
 #include "daemon/planning/stages/sentences.h"
+#include "daemon/planning/stages/set_status.h"
 #include "daemon/planning/stages/shrink.h"
 #include "daemon/planning/stages/stage_times.h"
-#include "daemon/planning/stages/way_beyond.h"
 
 namespace camway::planning {
 
@@ -61,7 +61,7 @@ class Planner {
     measure();
     slow();
     add_clearance();
-    conclude({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_}, result_);
+    set_status({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_}, result_);
     return std::move(slowed_.law);
   }
 
@@ -219,9 +219,9 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
     PlanResult result =
         plan_among(snapshot, bounded, request,
                    bounded.bounds.any() ? deadline.share_of_rest(kShareWithinBounds) : deadline);
-    if (may_have_way_beyond(request, result) && !deadline.passed()) {
-      add_way_beyond(plan_among(snapshot, scene.without_bounds(), request, deadline), request,
-                     result);
+    if (may_have_path_outside_bounds(request, result) && !deadline.passed()) {
+      add_path_outside_bounds(plan_among(snapshot, scene.without_bounds(), request, deadline),
+                              request, result);
     }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {

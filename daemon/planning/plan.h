@@ -10,8 +10,9 @@ namespace camway::planning {
 
 /// Builds the path through the request's keyframes, finds its collisions with the scene, corrects
 /// them and checks the result. A pure function without a clock of its own: the same snapshot and
-/// request give a bit-identical result, except for timing, unless `deadline_reached` is set. Every
-/// outcome is a result. Reports its progress to the deadline. Ends soon when the deadline is told
+/// request give a bit-identical result, except for timing, unless `deadline_reached` is set. Does
+/// not throw: an exception, such as lack of memory, becomes a result with the status
+/// `kInternalError`. Reports its progress to the deadline. Ends soon when the deadline is told
 /// to stop; the result is then meaningless.
 /// Thread-safe.
 ///

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "daemon/planning/stages/check.h"
 #include "daemon/planning/stages/keyframe_times.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/prepare.h"
 
 namespace camway::planning {
@@ -99,9 +99,9 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
     for (; i < swept_.size() && meets_added(swept_[i], change); ++i) {
       near.push_back(path_.segments()[i]);
     }
-    const motion::Path stretch(std::move(near));
+    const motion::Path part(std::move(near));
     const collision::FirstCollision found = collision::first_collision(
-        {added, body_, detect_}, stretch, stretch.begin_s(), stretch.end_s(), deadline);
+        {added, body_, detect_}, part, part.begin_s(), part.end_s(), deadline);
     if (!found.decided || found.interval) return false;
   }
   return true;

@@ -15,9 +15,8 @@
 
 namespace camway::planning {
 
-/// A path with all that is needed to tell quickly whether it still is free of collision after a
-/// change of its scene, if it was proved free before. Immutable.
-/// Thread-safe.
+/// A path that was proved free, with the data to check quickly whether it is still free after a
+/// change of its scene. Immutable. Thread-safe.
 ///
 /// Proof: the scene after a change consists of the part that stayed and the part that was added. A
 /// path that was proved free in the earlier scene is free of the part that stayed, since removing
@@ -39,9 +38,9 @@ class WatchedPath {
   /// Returns the path that `result` proves free for `request`; nothing if it has no proved path.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
 
-  /// Returns the path of `request` as interpolated, which collided, where `result` has a corrected
-  /// one; nothing if it has none, or did not correct any. Keyframes that were repaired are where
-  /// `result` has them, and the body is as large as was asked for.
+  /// Returns the path of `request` as interpolated, if it collided and `result` has a corrected
+  /// path; nothing otherwise. Repaired keyframes have the poses of `result`. The body has the size
+  /// of the request.
   static std::optional<WatchedPath> as_interpolated(const PlanRequest& request,
                                                     const PlanResult& result);
 

@@ -205,7 +205,7 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   if (!result.snapshot) {
     const std::string reason = service::with_setting(result.error, result.limit);
     log_->error("scene cannot be read",
-                {{"scene", scene.name}, {"said_at", scene.said_at}, {"reason", reason}});
+                {{"scene", scene.name}, {"said_at", scene.set_at}, {"reason", reason}});
     note_fault(scene.name, reason);
   } else {
     log_scene(*result.snapshot, scene, result.is_from_cache, *log_);

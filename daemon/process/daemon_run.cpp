@@ -81,7 +81,7 @@ base::Result<std::unique_ptr<HttpPage>> open_metrics(const DaemonOptions& option
   // Used by the page's thread alone, since limited logs are not thread-safe.
   const auto crowded = std::make_shared<service::LimitedLog>(log, service::LogLevel::kWarn,
                                                              "metrics", options.service.log_limits);
-  content.full = [crowded, most = options.metrics_limits.connections] {
+  content.on_full = [crowded, most = options.metrics_limits.connections] {
     crowded->write("the page of metrics has as many connections as it may",
                    {{"metrics.connections", most}});
   };
@@ -218,7 +218,7 @@ class ServingDaemon {
   void complete(status_t& status) {
     if (signing_) {
       add_distrusted(signing_->distrusted(), status);
-      signing_->tell_left_out();
+      signing_->report_suppressed();
     }
     status.signed_only = signing_ && options_.auth.required ? 1 : 0;
     reloads_.add_to(status);

@@ -11,6 +11,9 @@ namespace camway::service {
 
 /// Returns the heartbeat. Lists scenes in the order of names, as many as keep the message within
 /// `wire::kMaxMessageBytes` (about 200 with the longest names); `total_scenes` counts all.
+/// `uptime`: the time since the daemon started.
+///
+/// Not thread-safe: for the loop thread.
 status_t make_status(const Core& core, std::chrono::duration<double> uptime);
 
 }  // namespace camway::service

@@ -162,7 +162,7 @@ RunOutcome Service::drain() {
     }
     turn(std::min<Clock::duration>(limit - now, kDrainLook));
   }
-  core_.limited_log.tell_left_out(Clock::now());
+  core_.limited_log.report_suppressed(Clock::now());
   core_.log->info("stopped", {{"answers", core_.counters.answered},
                               {"repeated", core_.counters.repeated},
                               {"malformed", core_.counters.malformed},
@@ -182,7 +182,7 @@ void Service::heartbeat(Clock::time_point now) {
   if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
     core_.limited_log.trouble.write("the status could not be published");
   }
-  core_.limited_log.tell_left_out(now);
+  core_.limited_log.report_suppressed(now);
   next_heartbeat_ = now + core_.config.heartbeat_period;
 }
 

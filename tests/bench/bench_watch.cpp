@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "daemon/motion/spline/interpolate.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"

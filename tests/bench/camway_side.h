@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/field/clearance_field.h"
 #include "daemon/scene/field/distance_field.h"
 #include "daemon/scene/index/scene_index.h"

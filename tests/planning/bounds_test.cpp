@@ -10,8 +10,8 @@
 
 #include "daemon/planning/plan.h"
 #include "daemon/planning/result/witness_names.h"
-#include "daemon/planning/stages/check.h"
-#include "daemon/planning/stages/way_beyond.h"
+#include "daemon/planning/stages/path_check.h"
+#include "daemon/planning/stages/path_outside_bounds.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/scene_difference.h"
 #include "tests/planning/plan_fixture.h"
@@ -118,10 +118,10 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   EXPECT_THAT(result.message, HasSubstr("a way was found only beyond the bounds, by up to"));
   EXPECT_THAT(result.message, HasSubstr("at min.y")) << "under the floor";
   // A way beyond the bounds is reported even if the deadline came during the search within them.
-  EXPECT_TRUE(may_have_way_beyond(request, result));
+  EXPECT_TRUE(may_have_path_outside_bounds(request, result));
   PlanResult late = result;
   late.status = Status::kTimeout;
-  EXPECT_TRUE(may_have_way_beyond(request, late));
+  EXPECT_TRUE(may_have_path_outside_bounds(request, late));
   // Without corrections there was no search for a way within the bounds.
   request.options.max_inserted_keyframes = 0;
   EXPECT_THAT(planned(*house_of(house()), request).message, Not(HasSubstr("beyond the bounds")));

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/scene_change.h"
 #include "daemon/scene/voxels/map_scan.h"

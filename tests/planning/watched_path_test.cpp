@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/voxels/voxel_map.h"
 #include "tests/support/random.h"

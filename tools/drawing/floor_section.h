@@ -16,16 +16,19 @@ enum class SceneUp { kY, kZ };
 /// A point on paper, with the scene seen from above: x to the right, y down. [Units: metres]
 using PlanPoint = Eigen::Vector2d;
 
+/// Returns the place of a point on paper.
 PlanPoint to_plan(const geometry::Vec3& p_W, SceneUp up);
+/// Returns the height of a point along the axis that points up. [Units: metres]
 double height_of(const geometry::Vec3& p_W, SceneUp up);
 
-/// A polyline of a section. A closed one is the outline of a solid.
+/// A polyline of a section.
 struct SectionLine {
   std::vector<PlanPoint> points;
-  bool closed = false;
+  bool closed = false;  ///< whether the last point joins the first: the outline of a solid
 };
 
-/// The floor plan of one storey, as architects draw it.
+/// The floor plan of one storey: the section of a scene at a height, and the faces below it that
+/// are seen from above.
 struct FloorSection {
   double height_m = 0.0;                           ///< height of the cut
   double floor_m = 0.0;                            ///< height of the floor below the cut
@@ -34,8 +37,8 @@ struct FloorSection {
   std::vector<std::array<PlanPoint, 2>> outlines;  ///< borders and creases of these faces
 };
 
-/// Returns the height of the floor below `height_m`: the highest level, 0.3 to 4 m below, whose
-/// horizontal area is nearly the largest; 2 m below if there is none.
+/// Returns the height of the floor below `height_m`: of the levels 0.3 to 4 m below it, the highest
+/// whose horizontal area is nearly the largest. Returns `height_m` - 2 m if there is no level.
 double find_floor_m(const scene::Mesh& mesh, SceneUp up, double height_m);
 
 /// Cuts `mesh` at `height_m` and collects the faces between the cut and the floor below it.

@@ -9,7 +9,7 @@
 
 namespace camway::make_scenes {
 
-/// A maze of square cells. A few walls are left out, so that there are several ways.
+/// A maze of square cells. A few walls are left out, so that several ways join two cells.
 class Maze {
  public:
   static constexpr int kColumns = 10;
@@ -24,11 +24,13 @@ class Maze {
     bool operator==(const Cell&) const = default;
   };
 
+  /// Makes the maze that follows from a random seed.
   explicit Maze(std::uint64_t seed);
 
+  /// Returns walls, floor and ceiling as a scene.
   [[nodiscard]] Scene scene() const;
 
-  /// Returns whether there is no wall between `a` and the adjacent cell `b`.
+  /// Returns whether no wall separates `a` from the adjacent cell `b`.
   [[nodiscard]] bool open(const Cell& a, const Cell& b) const;
 
   /// Returns a shortest way from `from` to `to`, both included.

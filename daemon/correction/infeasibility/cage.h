@@ -14,13 +14,13 @@
 
 namespace camway::correction {
 
-/// A box whose faces are closed except for holes that are too narrow for a flat body. One point is
-/// inside, another outside.
+/// A box whose faces are closed except for holes that are too narrow for a flat body. It separates
+/// two points.
 struct Cage {
-  std::size_t inside = 0;   ///< index of a point
-  std::size_t outside = 0;  ///< index of a point
+  std::size_t inside = 0;   ///< index of the point inside the box
+  std::size_t outside = 0;  ///< index of the point outside
   CageBox box;
-  /// Triangles of the closed surfaces and of the faces' planes that were used, increasing.
+  /// Triangles that the proof uses, of closed surfaces and in the planes of faces; increasing.
   std::vector<std::uint32_t> triangles;
 };
 
@@ -53,10 +53,13 @@ struct Cage {
 /// vertices. Both centres are farther from the faces of the box than their uncertainty. Widths are
 /// rounded up.
 ///
-/// Never claims a cage wrongly. Misses a cage, for example, if a bar is parallel to no axis of
-/// these frames, if a bar is not a closed surface, or if an even number of different triangles of
-/// one surface, or of none, cover the same place in the plane of a face, as where a mesh divides a
-/// floor in two ways. Bounded in time. Thread-safe.
+/// Never claims a cage wrongly. May miss a cage, for example:
+/// - if a bar is parallel to no axis of the frames above;
+/// - if a bar is not a closed surface;
+/// - if an even number of different triangles of one surface, or of none, cover the same place in
+///   the plane of a face, as where a mesh divides a floor in two ways.
+///
+/// Bounded in time. Thread-safe.
 std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                               std::span<const geometry::Vec3> centers_W, double shortest_chord_m,
                               double within_m);

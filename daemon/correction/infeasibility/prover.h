@@ -14,12 +14,12 @@
 
 namespace camway::correction {
 
-/// Proves that no path meets all keyframes, where a closed surface or a cage separates two of them.
-/// Computes a proof when it is first asked for, since the closed surfaces of a large scene take
-/// time.
+/// Proves that no path meets all keyframes, if a closed surface or a cage separates two of them.
+/// Each proof is computed at the first call that needs it, because the closed surfaces of a large
+/// scene take time.
 ///
-/// Repaired keyframes prove nothing about a request, so proofs leave them out. The indices in a
-/// proof are those of all keyframes.
+/// A repaired keyframe proves nothing about a request, so proofs use the other keyframes only. An
+/// index in a proof counts all keyframes.
 /// Not thread-safe.
 class Prover {
  public:
@@ -35,12 +35,13 @@ class Prover {
   /// is not a camera, or if a closed surface separates keyframes.
   bool is_caged();
 
-  /// Returns whether a cage is proved to separate the two centres of the body, for this camera and
-  /// all keyframes. That proves less than `cage`, and spares a search that finds no way.
+  /// Returns whether a cage separates two places of the body's centre, for the camera at its own
+  /// size and all keyframes, repaired ones included. That proves less than `cage`, but saves a
+  /// search that would find no way. False before the first call of `is_caged`.
   [[nodiscard]] bool is_caged_off(const geometry::Vec3& a_W, const geometry::Vec3& b_W) const;
 
   [[nodiscard]] bool has_proof() const { return separation_ || cage_; }
-  /// At most one of the two is set.
+  /// The proofs found so far; at most one is set.
   [[nodiscard]] const std::optional<Separation>& separation() const { return separation_; }
   [[nodiscard]] const std::optional<Cage>& cage() const { return cage_; }
 
@@ -61,7 +62,7 @@ class Prover {
   bool looked_for_cage_ = false;
   std::optional<Separation> separation_;
   std::optional<Cage> cage_;
-  /// Proof that there is no path but for a smaller camera, or for other keyframes.
+  /// A cage that a smaller camera may leave, or that separates repaired keyframes.
   std::optional<Cage> cage_at_this_size_;
 };
 

@@ -12,17 +12,18 @@
 
 namespace camway::correction {
 
-/// Decides on which side of the closed surfaces of a mesh points are, by one ray per point. A point
-/// counts as outside where no closed surface encloses it or none was found. Thread-safe.
+/// Decides on which side of each closed surface of a mesh a point is, by one ray per point.
+/// Thread-safe.
 class SurfaceSides {
  public:
   /// Refers to `mesh` and `index`, which must outlive it. Requires `index` to index `mesh`.
   SurfaceSides(const scene::Mesh& mesh, const scene::SceneIndex& index);
 
-  /// Returns the set of the closed surfaces that enclose the point, as indices into
-  /// `ClosedSurfaces::surfaces` of the mesh. A surface encloses the point if a ray from the point
-  /// meets it an odd number of times. Returns nothing if the point is found to be on a triangle.
-  /// The set is the same at both ends of any motion that does not touch the scene.
+  /// Returns the closed surfaces that enclose the point, as indices into `ClosedSurfaces::surfaces`
+  /// of the mesh. A surface encloses the point if a ray from the point meets it an odd number of
+  /// times. Surfaces that `ClosedSurfaces` did not find enclose nothing. Returns nothing if the
+  /// point is found to be on a triangle. The set is the same at both ends of any motion that does
+  /// not touch the scene.
   [[nodiscard]] std::optional<IndexSet> around(const geometry::Vec3& point_W) const;
 
  private:

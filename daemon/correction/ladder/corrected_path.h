@@ -30,8 +30,8 @@ struct ChangedPart {
 };
 
 /// A path while it is corrected: takes candidates as long as the keyframes that they insert stay
-/// within the limit. Every joint of the path that the interpolated path does not have is an
-/// inserted keyframe.
+/// within the limit. Every knot of the path that the interpolated path does not have is an inserted
+/// keyframe.
 /// Not thread-safe.
 class CorrectedPath {
  public:
@@ -52,8 +52,8 @@ class CorrectedPath {
   [[nodiscard]] const base::Deadline& deadline() const { return deadline_; }
 
   /// Returns the part of the path that may change for the interval between keyframes `leg` and
-  /// `leg + 1`, as a problem without collisions. Knots of bumps coincide with joints of the path or
-  /// keep away from them. `ball_radius_m`: radius of a ball that holds the body.
+  /// `leg + 1`, as a problem without collisions. Knots of bumps coincide with knots of the path or
+  /// keep away from them (`KnotPlaces`). `ball_radius_m`: radius of a ball that holds the body.
   [[nodiscard]] Problem part_about(std::size_t leg, const motion::TimeOrigin& origin,
                                    double ball_radius_m) const;
 
@@ -67,7 +67,7 @@ class CorrectedPath {
   /// as interpolated there.
   [[nodiscard]] ChangedPart widened(const ChangedPart& part, double share) const;
   /// Returns the path about a changed part, which may be widened, as a problem in which that part
-  /// is as interpolated. Its knots may be at the joints of the corrected path.
+  /// is as interpolated. Knots of its bumps may be at the knots of the corrected path.
   [[nodiscard]] Problem restored(const ChangedPart& part, const motion::TimeOrigin& origin,
                                  double ball_radius_m) const;
   /// Replaces a changed part by a candidate for the problem that `restored` returned. Returns false

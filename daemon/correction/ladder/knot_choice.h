@@ -12,8 +12,8 @@ namespace camway::correction {
 
 /// Chooses the knots on which a changed part of a path may be drawn again. A list of knots is
 /// *valid* if one row of bumps on it can keep every keyframe within: no two keyframes are
-/// neighbours, none is next to an end of the list, and there are at least five knots. Joints that
-/// the path has without corrections cost no keyframe, so lists keep them. All times are in seconds,
+/// neighbours, none is next to an end of the list, and there are at least five knots. The knots
+/// of the interpolated path cost no keyframe, so lists keep them. All times are in seconds,
 /// increasing.
 class KnotChoice {
  public:
@@ -22,8 +22,9 @@ class KnotChoice {
 
   [[nodiscard]] bool is_valid(const std::vector<double>& knots_s) const;
 
-  /// Returns the joints of `path` in the part, and what else a valid list needs. Where the part
-  /// reaches an end of the whole path, the list goes on beyond it, so that the slope there is free.
+  /// Returns the knots of `path` in the part, and further times that make the list valid. If the
+  /// part reaches an end of the whole path, the list goes on beyond it, so that the slope there is
+  /// free.
   [[nodiscard]] std::vector<double> joints_of(const motion::CubicPath& path) const;
 
   /// Returns `knots_s` with one knot more on either side, a step away, where there is room for half
@@ -60,7 +61,7 @@ class KnotChoice {
 
   const Problem& problem_;
   const ChangedPart part_;
-  std::vector<double> joints_s_;  ///< of the path without the corrections
+  std::vector<double> joints_s_;  ///< knots of the interpolated path
 };
 
 }  // namespace camway::correction

@@ -18,18 +18,25 @@ struct NudgeResult {
   Effort effort;                       ///< effort spent
 };
 
-/// Corrects a collision by a short row of bumps about it (`window.h`), which moves the camera to
-/// one side or turns it about the centre of the body. Measures, for a fan of directions or axes,
-/// the least amount that frees the body at the collision, tries the smallest of them as a row of
-/// bumps, relaxes each that is free, which spends steps of `budget`, and returns the one of the
-/// least cost (`closeness.h`). A moved camera keeps its orientation, unless the orientation policy
-/// demands another.
+/// Corrects a collision by a short row of bumps about it (`window.h`) that moves the body to one
+/// side or turns it about its centre.
+/// 1. Measures, for a fan of directions or axes, the least amount that frees the body at the
+///    collision (`NudgeSearch`).
+/// 2. Tries the smallest of them as rows of bumps.
+/// 3. Relaxes each row that is free; this spends steps of `budget`.
+/// 4. Returns the row of least cost (`closeness.h`).
+///
+/// A moved body keeps its orientation, unless the orientation policy demands another. If the
+/// deadline strikes, returns the best row found so far, or none.
 ///
 /// Source of the idea: the direction and depth of Ptacek & Johnstone 2006, section 4. Deviations:
 /// directions come from the contact and from a fan across the path, instead of one direction from
 /// the corners that are hit; the amount is measured; orientations change as well.
 ///
 /// `collisions`: the collisions to correct together, in order of time, within `problem.interval`.
+/// `space`: checks poses and paths; its body and scene are those of the problem.
+///
+/// Not thread-safe: uses the buffers of `space`.
 NudgeResult nudge(const Problem& problem, std::span<const collision::CollisionInterval> collisions,
                   NudgeKind kind, base::Budget& budget, FreeSpace& space,
                   const base::Deadline& deadline);

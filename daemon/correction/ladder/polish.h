@@ -9,13 +9,13 @@
 
 namespace camway::correction {
 
-/// Improves the corrected intervals of a path under an objective other than the closest path, each
-/// step proved free. Every objective starts from the closest path and accepts only what is better
-/// by its own measure, so no objective ends with less of it than another. Changes nothing for
-/// `kClosest`, which every correction pursues by itself.
+/// Improves the corrected intervals of a path under an objective other than `kClosest`. Each step
+/// is proved free. Every objective starts from the closest path and accepts only steps that are
+/// better by its own measure. So by that measure the result is never worse than the closest path.
+/// Changes nothing for `kClosest`, which every correction optimises itself.
 ///
-/// Steps are counted, and end with `corrected.deadline()`. Extends the ranges of corrections in
-/// `collisions` by what it changes. `origin`: origin of all times.
+/// The number of steps is limited; they also end at `corrected.deadline()`. Extends the ranges of
+/// corrections in `collisions` by the changed parts. `origin`: origin of all times.
 void polish(Objective objective, const motion::TimeOrigin& origin, FreeSpace& space,
             CorrectedPath& corrected, CollisionList& collisions);
 

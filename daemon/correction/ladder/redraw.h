@@ -8,12 +8,13 @@
 
 namespace camway::correction {
 
-/// Draws each changed part of a path again: relaxes all its corrections together, then draws them
-/// on as few knots (`knot_choice.h`) as cost little more (`closeness.h`). Each result is proved
-/// free before it replaces the part.
+/// Draws each changed part of a path again: relaxes all its corrections together, then chooses the
+/// fewest knots (`knot_choice.h`) on which the cost grows little (`closeness.h`). Each result is
+/// proved free before it replaces the part.
 ///
-/// Steps are counted, and end with `corrected.deadline()`. Sets the ranges of corrections in
-/// `collisions` to what is changed afterwards. `origin`: origin of all times.
+/// The number of steps is limited; they also end at `corrected.deadline()`. Sets the ranges of
+/// corrections in `collisions` to the parts that differ from the interpolated path afterwards.
+/// `origin`: origin of all times.
 void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& corrected,
             CollisionList& collisions);
 

@@ -10,8 +10,8 @@
 
 namespace camway::correction {
 
-/// The keyframes out of which searches for detours found no way. Such a result is no proof, but it
-/// tells which other intervals between keyframes need no search, and what the answer says.
+/// The keyframes from which searches for detours found no way out. Such a result is no proof, but
+/// it decides which other intervals between keyframes need no search, and the answer reports it.
 ///
 /// Interval `leg` lies between the keyframes `leg` and `leg + 1`.
 class ShutInList {
@@ -43,10 +43,10 @@ class ShutInList {
     std::size_t leg = 0;  ///< the interval that was searched
     ShutIn shut_in;
     bool is_narrow = false;
-    bool is_searched = false;  ///< for ways that need turning, too
+    bool is_searched = false;  ///< whether ways that need turning were searched, too
   };
 
-  std::vector<ShutIn> complete_;  ///< keyframes about which all that is reachable was searched
+  std::vector<ShutIn> complete_;  ///< keyframes whose pocket is complete
   std::vector<NotLeft> not_left_;
 };
 

@@ -6,13 +6,14 @@
 
 namespace camway::correction {
 
-/// Returns the knots of a short row of bumps about the time from `begin_s` to `end_s`, about
-/// `spacing_s` apart: one knot or more in that time, and two on either side, so that the offset
-/// fades out there. Where a keyframe is near, the row ends at it or has a knot at it, and goes on
-/// beyond: the path may then change its slope at the keyframe. Every keyframe within the row is at
-/// a knot.
+/// Returns the knots of a short row of bumps about the time from `begin_s` to `end_s`. Knots are
+/// about `spacing_s` apart. At least one is in that time, and two are on either side of it, where
+/// the offset fades out. If a keyframe is near, the row either ends at the keyframe, or has a knot
+/// there and continues beyond, so that the path may change its slope at the keyframe. Every
+/// keyframe within the row is at a knot.
 ///
-/// Requires a time within the interval `problem.leg`. [Limit: 0 < spacing_s]
+/// Requires that the time lies within the interval `problem.leg` between keyframes.
+/// [Limit: 0 < spacing_s]
 motion::KnotRow window_about(const Problem& problem, double begin_s, double end_s,
                              double spacing_s);
 

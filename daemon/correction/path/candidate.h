@@ -15,8 +15,8 @@ namespace camway::correction {
 
 /// One collision to be corrected, and the part of the path that may change for it.
 struct Problem {
-  /// Part of the current path: interval `leg` between keyframes, and one interval more on either
-  /// side where there is one.
+  /// Part of the current path: interval `leg` between keyframes, and the interval before and after
+  /// it where there is one.
   motion::CubicPath path;
   motion::CubicPath original;       ///< the same part of the interpolated path
   std::vector<double> keyframes_s;  ///< keyframes in this part, increasing; corrections keep them
@@ -32,8 +32,8 @@ struct Problem {
 
   [[nodiscard]] double leg_begin_s() const { return keyframes_s[leg]; }
   [[nodiscard]] double leg_end_s() const { return keyframes_s[leg + 1]; }
-  /// Equidistant knots, up to `places`, that divide the interval between keyframes into `count`
-  /// steps.
+  /// Returns knots that divide the interval between keyframes into `count` equal steps, each moved
+  /// to the time that `places` chooses for it.
   [[nodiscard]] motion::KnotRow knots(int count) const {
     return {leg_begin_s(), leg_end_s(), count, places};
   }
@@ -42,7 +42,7 @@ struct Problem {
 /// A corrected path.
 struct Candidate {
   motion::CubicPath path;             ///< replaces `Problem::path`
-  std::vector<motion::BumpRow> rows;  ///< the bumps that were added to it
+  std::vector<motion::BumpRow> rows;  ///< bumps that were added to `Problem::path`
 };
 
 /// Returns a time range in which `path` collides, in [t_begin_s, t_end_s] and outside
@@ -54,21 +54,24 @@ std::optional<collision::CollisionInterval> new_collision(const motion::CubicPat
                                                           const FreeSpace& space,
                                                           const base::Deadline& deadline);
 
-/// Adds `rows` to `problem.path`. Returns a candidate if the sender's times are fine enough for the
-/// knots, all keyframes are still met, and everything that `rows` change is proved to meet the
-/// orientation policy and to be free.
+/// Adds `rows` to `problem.path`. Returns a candidate if each step between knots has enough times
+/// that are exact in the sender's clock (`KnotRow::fits`), all keyframes are still met, and
+/// everything that `rows` change is proved free and proved to meet the orientation policy.
 std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,
                                         const FreeSpace& space, const base::Deadline& deadline);
 
 /// Result of adding bumps to the path of a problem.
 struct Attempt {
   std::optional<Candidate> candidate;
-  /// If there is no candidate: about where a collision is, or the time range in which the
-  /// orientation policy is violated; `problem.interval` if the rows do not fit.
+  /// Set if there is no candidate:
+  /// - the approximate range of a collision;
+  /// - the range that violates the orientation policy, if `breaks_rule`;
+  /// - `problem.interval` if the rows do not fit or a keyframe would move.
   std::optional<collision::CollisionInterval> collision;
-  bool breaks_rule = false;
+  bool breaks_rule = false;  ///< whether `collision` is a violation of the orientation policy
 };
-/// Does what `free_candidate` does, and says what is in the way.
+/// Does what `free_candidate` does. If there is no candidate, also returns the range that prevents
+/// it.
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const base::Deadline& deadline);
 

@@ -13,7 +13,7 @@ namespace camway::correction {
 ///
 /// The *cost* of a corrected path is ∫ shift dt + `kAccelerationWeight_rad` · ∫ (c/a)² dt, where c
 /// is the second derivative of the offset from the interpolated path and a the reference
-/// acceleration. The first term wants corrections small and short, the second wants them gentle.
+/// acceleration. The first term makes corrections small and short, the second makes them gentle.
 /// A bump of height h on knots s apart costs least at s⁴ = 12 · `kAccelerationWeight_rad` · h · D /
 /// a² (`best_spacing_s`), so larger corrections are longer.
 struct Closeness {
@@ -44,7 +44,7 @@ Shift shift_of(const motion::CubicPath& path, const motion::CubicPath& original,
                const Closeness& closeness);
 
 /// The cost of `path`, by samples of the shift; the second term is exact for positions. Requires
-/// `original` to cover the time of `path`, and each joint of `original` there to be one of `path`.
+/// `original` to cover the time of `path`, and each knot of `original` there to be one of `path`.
 /// [Units: radian seconds]
 double closeness_cost(const motion::CubicPath& path, const motion::CubicPath& original,
                       const Closeness& closeness);

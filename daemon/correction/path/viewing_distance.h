@@ -6,18 +6,19 @@
 
 namespace camway::correction {
 
-/// Range of viewing distances that are taken from the scene. A nearer wall fills the picture, and
-/// of things farther away a turn shows more than any move. [Units: metres]
+/// Range of the viewing distances that are derived from the scene. A wall at less than the lower
+/// end fills the picture. Beyond the upper end, moves change the picture little compared with
+/// turns. [Units: metres]
 inline constexpr double kLeastViewingDistance_m = 1.0;
 inline constexpr double kMostViewingDistance_m = 10.0;
 
-/// Returns the median distance from the path to the scene along the view (-Z of the camera), by
-/// samples, within `kLeastViewingDistance_m` and `kMostViewingDistance_m`. Approximate; no part of
-/// any proof.
+/// Returns the median distance from the path to the scene along the view direction (-Z of the
+/// camera), by samples, clamped to [`kLeastViewingDistance_m`, `kMostViewingDistance_m`].
+/// Approximate; no part of any proof. [Units: metres]
 double viewing_distance_m(const motion::CubicPath& interpolated, const FreeSpace& space);
 
-/// Returns the scale for corrections of `interpolated`. `viewing_distance_m`: as requested, or 0 to
-/// take it from the scene. [Limit: 0 <= viewing_distance_m]
+/// Returns the scale on which corrections of `interpolated` are compared. `viewing_distance_m`: the
+/// requested distance; 0 derives it from the scene. [Limit: 0 <= viewing_distance_m]
 Closeness closeness_of(const motion::CubicPath& interpolated, const FreeSpace& space,
                        double viewing_distance_m);
 

@@ -5,20 +5,22 @@
 
 namespace camway::correction {
 
-/// Number of cells after which a search tells whether its ends are in narrow places.
+/// Number of cells after which a search decides whether its ends are in narrow places.
 inline constexpr std::size_t kCellsBeforeNarrow = 12'000;
 
+/// Options of a cell search (`cell_search.h`). All lengths are in metres.
 struct CellOptions {
-  double ball_radius_m = 0.0;
+  double ball_radius_m = 0.0;  ///< radius of the ball whose way is searched
   /// Side of the smallest cells. [Limit: value > 0]
   double smallest_m = 0.01;
-  std::size_t max_cells = 200'000;
-  /// Gap above which more room does not make a way better. [Limit: value > 0]
+  std::size_t max_cells = 200'000;  ///< limit of the cells of a search
+  /// Gap of the ball above which a larger gap does not make a way better. [Limit: value > 0]
   double comfort_m = 0.1;
-  /// An end is in a narrow place if no cell reached from it among the first `kCellsBeforeNarrow`
-  /// has a middle with this gap of the ball. 0 takes no place for narrow. [Limit: value >= 0]
+  /// An end is in a narrow place if, among the first `kCellsBeforeNarrow` cells, none that is
+  /// reached from it has a middle where the gap of the ball is at least this. With 0, no place is
+  /// narrow. [Limit: value >= 0]
   double narrow_m = 0.0;
-  /// Limit of cells where an end is in a narrow place, beside `max_cells`.
+  /// Limit of the cells of a search of which an end is in a narrow place. `max_cells` holds, too.
   std::size_t max_cells_if_narrow = 200'000;
 };
 

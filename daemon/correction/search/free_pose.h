@@ -15,22 +15,22 @@ struct FreePose {
   double moved_m = 0.0;  ///< length of the translation
 };
 
-/// A further condition on a free pose, which the search cannot check by itself.
+/// A further condition on a free pose: returns whether it holds.
 using PoseRule = std::function<bool(const motion::Pose&)>;
 
-/// Finds about the nearest free pose that satisfies `will_do` and has the orientation of `pose`.
-/// `margin_m` is kept beyond the required clearance, so that a path can leave the pose.
+/// Returns approximately the nearest free pose that satisfies `will_do` and has the orientation of
+/// `pose`. The pose keeps `margin_m` beyond the required clearance, so that a path can leave it.
 ///
-/// Shells of directions grow about `pose` until one holds such a pose, so no side is preferred. The
-/// result is then improved by shortening the translation and by varying its direction. Among
-/// translations whose lengths differ by less than `kFreePosePrecision`, one that leads to more room
-/// is taken. A pose beyond the bounds is first moved straight to within them, however far; if it is
-/// not free there, the shells grow from there.
-///
-/// Once the deadline has passed, no further pose is looked at, and the best so far is the result.
+/// Shells of directions grow about `pose` until one holds such a pose, so no side is preferred.
+/// Then the translation is shortened, and its direction varied. Of translations whose lengths
+/// differ by less than `kFreePosePrecision`, the one that leads to the larger gap is taken. A pose
+/// beyond the bounds is first moved by the shortest translation into them; if it is not free there,
+/// the shells grow from there.
 ///
 /// Returns nothing if no shell within `kFreePoseReach` radii of the ball about the body holds such
-/// a pose. Local search: it may miss a free region that is narrower than the spacing of the shells.
+/// a pose. May miss a free region that is narrower than the spacing of the shells. If the deadline
+/// strikes, returns the best pose so far, or nothing.
+/// [Limit: 0 <= margin_m]
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
                                           double margin_m, const PoseRule& will_do,
                                           const base::Deadline& deadline = base::Deadline::never());

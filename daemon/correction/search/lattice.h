@@ -9,8 +9,9 @@
 
 namespace camway::correction {
 
-/// A lattice of points in the scene. It tells a search where the ball fits, which steps are free,
-/// and by how much a step costs more than its length. Not thread-safe.
+/// A lattice of points in the scene, for a search. Decides where the ball fits and which steps are
+/// free, and computes by how much the cost of a step exceeds its length.
+/// Not thread-safe.
 class Lattice {
  public:
   /// Refers to `space` and `options`, which must outlive it.

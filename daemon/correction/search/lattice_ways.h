@@ -18,9 +18,9 @@ struct BallMotion {
   double radius_m = 0.0;
   geometry::Vec3 from_W = geometry::Vec3::Zero();
   geometry::Vec3 to_W = geometry::Vec3::Zero();
-  std::vector<AvoidedBall> avoided = {};
-  double max_cost_m = std::numeric_limits<double>::infinity();
-  /// Limit of the points of each lattice, beside the lattice's own.
+  std::vector<AvoidedBall> avoided = {};  ///< balls that the way must not meet
+  double max_cost_m = std::numeric_limits<double>::infinity();  ///< limit of the cost of a way
+  /// Limit of the points visited in each lattice. The lattice has a limit of its own as well.
   std::size_t max_points = std::numeric_limits<std::size_t>::max();
 };
 
@@ -29,28 +29,27 @@ enum class Lattices {
   kAll,
   kAllButFinest,  ///< detours that need the finest one mostly need turning as well
   kFinest,
-  /// The coarsest, and the next one if the points of the first did not run out. Only
+  /// The coarsest one, and the next one if the points of the first did not run out. Only
   /// `LatticeWayUse::use` is called.
   kCoarse,
 };
 
 /// Receives the ways of `for_each_lattice_way`.
 struct LatticeWayUse {
-  /// Uses a way, which joins `from_W` to `to_W`. The search ends if it returns true.
+  /// Receives a way that joins `from_W` to `to_W`. Returns true to end the search.
   std::function<bool(const LatticeResult& way)> use;
-  /// Called if the coarsest lattice has no way that can be used. The search ends if it returns
-  /// true.
+  /// Called if `use` accepted no way on the coarsest lattice. Returns true to end the search.
   std::function<bool()> is_hopeless = [] { return false; };
-  /// Called before lattices become costly. The search ends if it returns true.
+  /// Called before the lattices that take long. Returns true to end the search.
   std::function<bool()> is_done = [] { return false; };
 };
 
-/// Searches ways for a ball on finer and finer lattices (`lattice_search.h`) until one can be used.
-/// Where the limit of points ended searches, wider lattices follow, as the way may be much longer
-/// than the distance of its ends; and the search starts from the other end, from where less may be
-/// reachable. `about_W`: a polyline to prefer, or empty.
+/// Searches ways for a ball on finer and finer lattices (`lattice_search.h`) until `use` accepts
+/// one. If the limit of points ended searches, wider lattices follow, because the way may be much
+/// longer than the distance of its ends. These searches start from the other end, from which fewer
+/// points may be reachable. `about_W`: a polyline that ways should follow, or empty.
 ///
-/// Returns the number of points visited. Requires the ball to be free at both ends.
+/// Returns the number of points visited. Requires that the ball is free at both ends.
 std::size_t for_each_lattice_way(const FreeSpace& space, const BallMotion& ball, Lattices lattices,
                                  std::span<const geometry::Vec3> about_W, const LatticeWayUse& use,
                                  const base::Deadline& deadline);

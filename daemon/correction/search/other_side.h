@@ -17,20 +17,20 @@ struct Apex {
 /// Returns the apex of a way; one with `away_m` 0 if the polyline has all its points.
 Apex apex_of(const std::vector<geometry::Vec3>& way_W, const std::vector<geometry::Vec3>& about_W);
 
-/// What a search needs to find a second way for a ball, on another side of what the first way
-/// leads round: it avoids a ball about the apex of the first way.
+/// Restricts the search of a second way for a ball to ways on another side of the obstacle that the
+/// first way leads round: the second way avoids a ball about the apex of the first.
 class OtherSide {
  public:
-  /// `about_W` has points of the path as interpolated, near which a way is best.
-  /// Refers to `about_W`, which must outlive it.
+  /// `about_W`: points of the path as interpolated, near which a way is best. Requires that it
+  /// outlives this object.
   OtherSide(const LatticeResult& first, const std::vector<geometry::Vec3>& about_W);
 
-  /// Returns `ball` with what it avoids, and with limits of cost and points relative to what the
-  /// first way took.
+  /// Returns `ball` with the ball to avoid, and with limits of cost and points that are multiples
+  /// of those of the first way.
   [[nodiscard]] BallMotion limited(BallMotion ball) const;
 
-  /// Returns whether a second way leads so much farther off than the first that it is not worth
-  /// drawing.
+  /// Returns whether a second way leads so much farther from the path than the first that it is not
+  /// worth drawing.
   [[nodiscard]] bool is_too_far(const LatticeResult& second) const;
 
  private:

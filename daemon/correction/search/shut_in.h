@@ -7,14 +7,14 @@
 
 namespace camway::correction {
 
-/// A keyframe from which a search found no way out, even for a ball much smaller than the body. It
-/// is not a proof.
+/// A keyframe from which a search found no way out, even for a ball much smaller than the body.
+/// This is no proof.
 struct ShutIn {
   std::size_t keyframe = 0;
-  geometry::Box region_W;  ///< about all points that the body's centre can reach
-  double unsure_m = 0.0;   ///< how much too small the region may be
-  /// Whether the search looked at everything that the ball can reach. If not, the region has only
-  /// what was reached before the search ended at its limit.
+  geometry::Box region_W;  ///< a box about the points that the body's centre can reach
+  double unsure_m = 0.0;   ///< by how much the box may be too small
+  /// Whether the search visited all points that the ball can reach. Otherwise the box holds the
+  /// points reached before the search ended at its limit.
   bool is_complete = true;
 
   /// Returns false only for points outside of a region that is complete.

@@ -31,7 +31,7 @@ class ContactBounds {
   ContactBounds(Objective objective, bool makes_room, double ball_radius_m,
                 double viewing_distance_m);
 
-  /// The gap that suffices. [Units: metres]
+  /// Returns the gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }

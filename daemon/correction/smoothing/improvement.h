@@ -8,7 +8,7 @@ namespace camway::correction {
 /// Goal of a relaxation.
 struct Improvement {
   Objective objective = Objective::kClosest;
-  bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
+  bool may_turn = true;  ///< false keeps orientations, even if the orientation policy allows a turn
   /// Whether gaps grow (`ContactBounds`), at a limited price of the objective. No effect for
   /// `kSafest`, which always makes room.
   bool makes_room = false;

@@ -16,8 +16,8 @@ struct Relaxed {
   int paths = 0;  ///< changed paths that the relaxation checked for collisions
 };
 
-/// Improves a free correction under an objective (`SmoothingForm`) and keeps it free. Spends steps
-/// of `budget`; each costs about as much as a hundred distance queries.
+/// Returns a free correction that is better by an objective (`SmoothingForm`) than the correction
+/// `free`. Spends steps of `budget`; each costs about as much as a hundred distance queries.
 ///
 /// Sequential convex optimisation (Schulman et al. 2013, "Finding locally optimal, collision-free
 /// trajectories with sequential convex optimization"): each step goes to the minimum of the
@@ -25,15 +25,15 @@ struct Relaxed {
 /// Deviation: the path is free from the start and stays so, so contacts are constraints of the
 /// steps instead of penalties; only `kSafest` also penalises missing gaps (`ContactBounds`).
 ///
-/// The result is proved. Where the path collides between the samples, a sample is added there and
-/// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
-/// became worse. With `makes_room` the closest path may cost 1.3 times as much.
+/// The result is proved. If the path collides between the samples, a sample is added there and the
+/// change is reverted as far as needed. Returns `free` if no proof succeeds or the objective became
+/// worse. Exception: with `kClosest` and `makes_room` the cost may grow by 0.3.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 
-/// Improves a path that is free already, between the two keyframes of the problem's interval and a
-/// little beyond, by a row of bumps on `knots` steps. Returns nothing if nothing better was found.
-/// Spends steps of `budget`. [Limit: knots >= 4]
+/// Improves a free path by a row of bumps on `knots` steps, from before the first to after the
+/// second keyframe of the problem's interval. Returns nothing if no better path was found. Spends
+/// steps of `budget`. [Limit: knots >= 4]
 std::optional<Candidate> polished(const Problem& problem, int knots, const Improvement& improvement,
                                   base::Budget& budget, FreeSpace& space,
                                   const base::Deadline& deadline);

@@ -15,10 +15,11 @@
 
 namespace camway::correction {
 
-/// A point in the space where paths are cubic: the position, then the image in R⁴ times a lever
-/// arm, so that steps of equal length move the body about equally far. [Units: metres]
+/// A point of a path in the space in which paths are cubic splines: the position, then the image in
+/// R⁴ times a lever arm. The lever arm makes steps of equal length move the body about equally far.
+/// [Units: metres]
 using StackedPoint = Eigen::Matrix<double, 7, 1>;
-/// One stacked point per row.
+/// Stacked points, one per row.
 using StackedPoints = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
 inline StackedPoint stacked(const motion::CubicPoint& point, double lever_m) {
@@ -32,23 +33,25 @@ inline motion::CubicPoint unstacked(const StackedPoint& point, double lever_m) {
 
 /// A term of a linear combination of variables.
 struct Term {
-  Eigen::Index variable;
-  double share;
+  Eigen::Index variable;  ///< row of the variable in `StackedPoints`
+  double share;           ///< its factor
 };
-/// Terms of a point of a row of bumps: four bumps reach it, and each may be held by two others.
+/// The value of a row of bumps at a time, in terms of the variables. Four bumps reach a time, and
+/// the coefficient of each may follow from two variables.
 using Terms = boost::container::static_vector<Term, 8>;
 
-/// Whether a row of bumps on `knots` can have free ends. The bumps that keep the two keyframes of
-/// the interval reach two knots beyond them, and must not reach the next keyframes.
+/// Returns whether a row of bumps on `knots` can have free ends. The bumps that keep the two
+/// keyframes of the interval reach two knots beyond these keyframes; they must not reach the next
+/// keyframes.
 bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots);
 
 /// The coefficients of a row of bumps that a correction may choose. With fixed ends they are those
-/// whose supports lie within the row. With free ends they include some before the first and after
-/// the last keyframe of the interval, as far as those do not reach the next keyframe, so that the
-/// path may change its slope at the two keyframes. The coefficients at keyframes are *held*: they
-/// follow from their neighbours, so that the keyframe is kept. Requires every keyframe within the
-/// supports to be at a knot, with no keyframe at the next knot; with free ends that holds for other
-/// keyframes than the two where free ends fit (`fits_free_ends`).
+/// of the bumps whose supports lie within the row. With free ends they also include bumps before
+/// the first and after the last keyframe of the interval, as far as these do not reach the next
+/// keyframe. So the path may change its slope at the two keyframes. The coefficient at a keyframe
+/// is *held*: it follows from its two neighbours so that the keyframe is kept. Requires every
+/// keyframe within the supports to be at a knot, with no keyframe at the next knot; with free ends
+/// that holds for other keyframes than the two where free ends fit (`fits_free_ends`).
 class FreeCoefficients {
  public:
   FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends);
@@ -61,11 +64,12 @@ class FreeCoefficients {
     return std::ranges::find(held_, k, &Held::knot) != held_.end();
   }
 
-  /// Adds `factor` times the coefficient at knot `k` to `terms`; nothing outside of the range.
+  /// Adds `factor` times the coefficient at knot `k` to `terms`, and nothing if `k` is outside of
+  /// [first(), last()].
   void add(int k, double factor, Terms& terms) const;
-  /// Value of the row of bumps at a time; empty outside of the supports.
+  /// Returns the value of the row of bumps at a time; no terms outside of the supports.
   [[nodiscard]] Terms at(double time_s) const;
-  /// The bump at knot `k`. [Limit: first() <= k <= last()]
+  /// Returns the bump at knot `k`. [Limit: first() <= k <= last()]
   [[nodiscard]] const motion::KnotBump& bump(int k) const {
     return bumps_[static_cast<std::size_t>(k - first_)];
   }
@@ -76,7 +80,8 @@ class FreeCoefficients {
  private:
   [[nodiscard]] Eigen::Index variable(int k) const;
 
-  /// A keyframe's knot, and the shares of the coefficients before and after it in its own.
+  /// The knot of a keyframe. Its coefficient is `of_before` times the one before, plus `of_after`
+  /// times the one after.
   struct Held {
     int knot;
     double of_before;
@@ -106,27 +111,28 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
 ///   to what δ rounds off (majorisation; Hunter & Lange 2004, "A tutorial on MM algorithms"). A
 ///   move and a turn at the same time count as the length of both together, the cost adds them.
 ///
-/// The others are weighted sums of squares (Farin 2002, section 9.4, for bending) of control
-/// points' distances from the original and of the first and second differences of the path's
-/// control points. They require equidistant knots.
-/// - `kSafest`: distances and second differences; it also wants gaps, which are not part of the
-///   form.
+/// The other objectives are weighted sums of squares (Farin 2002, section 9.4, for bending): of the
+/// control points' distances from the original, and of the first and second differences of the
+/// path's control points. They require equidistant knots.
+/// - `kSafest`: distances and second differences. Its gaps are not part of the form
+///   (`ContactBounds`).
 /// - `kShortest`: first differences, and second differences with a small weight.
 /// - `kSmoothest`: second differences.
 class SmoothingForm {
  public:
-  /// `closeness` and `about`, the coefficients whose offset is e, count for `kClosest` only.
+  /// `about`: the coefficients whose offset is e. Only `kClosest` uses `closeness` and `about`.
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, const Closeness& closeness, const StackedPoints& about);
 
-  /// Makes the form the bound about other coefficients, unless they are the same. Requires the
+  /// Replaces the form by the quadratic bound about the coefficients `about`. Requires the
   /// objective `kClosest`.
   void bound_about(const StackedPoints& about);
 
+  /// Returns the value of the form.
   [[nodiscard]] double value(const StackedPoints& variables) const;
-  /// The minimiser.
+  /// Returns the coefficients that minimise the form.
   [[nodiscard]] const StackedPoints& minimum() const { return minimum_; }
-  /// The inverse of the Hessian, which is the same in all seven dimensions.
+  /// Returns the inverse of the Hessian, which is the same in all seven dimensions.
   [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }
 
  private:
@@ -142,13 +148,13 @@ class SmoothingForm {
     double share_s;  ///< weight in the integral
     Terms value;
     Terms bent;            ///< second derivative
-    StackedPoint offset;   ///< of the problem's path
+    StackedPoint offset;   ///< offset of the problem's path
     StackedPoint bending;  ///< its second derivative
   };
 
   std::vector<OffsetPlace> places_;        ///< for `kClosest`
   double bend_weight_ = 0.0;               ///< of squared second derivatives, for `kClosest`
-  std::optional<StackedPoints> bound_at_;  ///< coefficients about which the form is, for `kClosest`
+  std::optional<StackedPoints> bound_at_;  ///< `about` of the present form, for `kClosest`
   Eigen::MatrixXd hessian_;
   StackedPoints slope_;  ///< gradient at zero
   double at_zero_ = 0.0;

@@ -19,14 +19,14 @@ struct Camera {
 /// in the camera frame. Neighbours in the array (cyclically) share an edge.
 using Corners = std::array<geometry::Vec3, 4>;
 
-/// Corners in the camera frame C: `(±n·tan(fov_x/2), ±n·tan(fov_y/2), -n)`.
+/// Returns the corners in the camera frame C: `(±n·tan(fov_x/2), ±n·tan(fov_y/2), -n)`.
 Corners near_corners_C(const Camera& camera);
 
-/// The same corners in the world frame for a camera at `pose`.
+/// Returns the same corners in the world frame for a camera at `pose`.
 Corners corners_W(const Corners& corners_C, const Pose& pose);
 
-/// Largest distance of a corner from the eye: under rotation alone no point of the body moves
-/// farther than a point at this radius.
+/// Returns the largest distance of a corner from the eye. Under rotation alone no point of the body
+/// moves farther than a point at this radius.
 double body_radius_m(const Corners& corners_C);
 
 }  // namespace camway::motion

@@ -9,7 +9,8 @@
 
 namespace camway::motion {
 
-/// A camera motion: consecutive segments without gaps in time. A value type. Thread-safe to read.
+/// The motion of a body: consecutive segments without gaps in time. A value type. Thread-safe to
+/// read.
 class Path {
  public:
   Path() = default;
@@ -21,15 +22,15 @@ class Path {
   [[nodiscard]] std::span<const Segment> segments() const& { return segments_; }
   /// Deleted for temporaries: the span would outlive them.
   std::span<const Segment> segments() const&& = delete;
-  /// Requires, like all below, that the path is not empty.
+  /// This function and all below require that the path is not empty.
   [[nodiscard]] double begin_s() const;
   [[nodiscard]] double end_s() const;
 
-  /// Index of the segment that contains `time_s`: at a join the later one, outside the path the
-  /// nearest.
+  /// Returns the index of the segment that contains `time_s`; at a join the later one, outside of
+  /// the path the nearest one.
   [[nodiscard]] std::size_t segment_index(double time_s) const;
 
-  /// Pose at `time_s`, clamped to the path's time span.
+  /// Returns the pose at `time_s`, clamped to the path's time span.
   [[nodiscard]] Pose pose(double time_s) const;
 
  private:

@@ -9,47 +9,51 @@ namespace camway::motion {
 
 /// The pose at the middle of a stretch of a segment, and motion bounds about it.
 struct Stretch {
-  geometry::Vec3 eye_W;
-  Eigen::Matrix3d R_WC;
+  geometry::Vec3 eye_W;  ///< position of the eye, computed in doubles
+  Eigen::Matrix3d R_WC;  ///< rotation from the body's frame to the world's, computed in doubles
   /// Bound of the eye's distance from `eye_W` anywhere on the stretch, without `travel_rounding_m`.
   /// [Units: metres]
   double travel_m = 0.0;
   /// Sine of half the largest turn from `R_WC`; 1 if the turn is not known. A turn by θ moves a
   /// point at radius ρ by at most the chord 2·ρ·sin(θ/2). [Limit: 0 <= value <= 1]
   double turn_sine = 0.0;
-  /// First order of the motion: from the middle of the stretch to its end the point `y = R_WC * x +
-  /// eye_W` moves by `eye_step_W + turn_step_W.cross(R_WC * x)`, and from the middle to the
-  /// beginning by the negative of that. The turn is 0 if too little is known of it.
+  /// First order of the motion. From the middle of the stretch to its end, the point `R_WC * x +
+  /// eye_W` moves by `eye_step_W + turn_step_W.cross(R_WC * x)`; from the middle to the beginning,
+  /// by the negative of that. `turn_step_W` is 0 if the turn is not bounded.
   geometry::Vec3 eye_step_W = geometry::Vec3::Zero();
   geometry::Vec3 turn_step_W = geometry::Vec3::Zero();
-  /// Bounds of the deviation from the first order: of the eye, without `travel_rounding_m`, and of
-  /// a point at radius 1 by the turn. [Units: metres, 1]
+  /// Bounds of the deviation from the first order. `travel_bend_m`: of the eye, without
+  /// `travel_rounding_m` [Units: metres]. `turn_bend`: of a point at radius 1, by the turn.
   double travel_bend_m = 0.0;
   double turn_bend = 0.0;
-  /// Bound of the rounding of the eye's travel, and the part of `turn_sine` that is rounding.
-  /// Splitting a stretch reduces neither.
+  /// `travel_rounding_m`: bound of the rounding of the eye's travel. `turn_rounding_sine`: the part
+  /// of `turn_sine` that is rounding. Splitting a stretch reduces neither.
   double travel_rounding_m = 0.0;
   double turn_rounding_sine = 0.0;
 
-  /// Motion bound of a point x of the body within `radius_m` of the eye: anywhere on the stretch,
-  /// by the segment's numbers in exact arithmetic, the point is within this of `R_WC * x + eye_W`
-  /// as computed in doubles. Not a number or infinite if the segment's numbers are too large.
+  /// Returns the motion bound of a point x of the body within `radius_m` of the eye. Anywhere on
+  /// the stretch, the place of the point by the segment's numbers in exact arithmetic is within
+  /// this distance of `R_WC * x + eye_W` as computed in doubles. Not a number or infinite if the
+  /// segment's numbers are too large. [Units: metres]
   [[nodiscard]] double reach_m(double radius_m) const;
 
-  /// Bound of the deviation from linear motion: at the fraction s of the stretch, the same point is
-  /// within this of lerp(begin, end, s), where begin and end are its places at the two ends to
-  /// first order, as computed in doubles. Of second order in the stretch's length.
+  /// Returns a bound of the deviation from linear motion. At the fraction s of the stretch, the
+  /// same point is within this distance of lerp(begin, end, s). Here begin and end are its places
+  /// at the two ends to first order, as computed in doubles. The bound is of second order in the
+  /// stretch's length. [Units: metres]
   [[nodiscard]] double bend_m(double radius_m) const;
 
-  /// The part of `reach_m` that is rounding; splitting the stretch does not reduce it.
+  /// Returns the part of `reach_m` that is rounding; splitting the stretch does not reduce it.
   [[nodiscard]] double rounding_m(double radius_m) const;
 };
 
-/// The stretch of a body that stands still. Requires an orientation of unit length.
+/// Returns the stretch of a body that stands still at `pose`. Requires an orientation of unit
+/// length.
 Stretch standing_at(const Pose& pose);
 
-/// A segment prepared for the motion bounds of many stretches: the power series of both curves
-/// about the middle of the segment, which is shifted to the middle of each stretch.
+/// A segment prepared for the motion bounds of many stretches. It holds the power series of both
+/// curves about the middle of the segment, and shifts them to the middle of each stretch.
+/// Thread-safe.
 ///
 /// With P(m + s) = Σ Pₖ sᵏ and |s| <= h the eye strays by Σ_{k>0} |Pₖ| hᵏ at most. For the
 /// orientation's four-vector Q(m + s) = Σ Qₖ sᵏ, let e be the direction of Q(m). Across e it has at
@@ -71,7 +75,7 @@ class SegmentMotion {
  public:
   explicit SegmentMotion(const Segment& segment);
 
-  /// The stretch u0 <= u <= u1. Requires 0 <= u0 <= u1 <= 1.
+  /// Returns the stretch u0 <= u <= u1. Requires 0 <= u0 <= u1 <= 1.
   [[nodiscard]] Stretch around(double u0, double u1) const;
 
  private:

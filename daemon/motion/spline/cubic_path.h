@@ -31,12 +31,13 @@ struct CubicPath {
   geometry::Vec4 reference = geometry::Vec4::UnitX();  ///< r in q = r·x²/|x|²
   std::vector<CubicPiece> pieces;                      ///< in order of time, without gaps
 
-  /// Requires, like all below, that the path is not empty. `time_s` is clamped to its time span.
+  /// This function and all below require that the path is not empty. `time_s` is clamped to its
+  /// time span.
   [[nodiscard]] double begin_s() const { return pieces.front().t0_s; }
   [[nodiscard]] double end_s() const { return pieces.back().t1_s; }
   [[nodiscard]] CubicPoint at(double time_s) const;
   [[nodiscard]] Pose pose(double time_s) const;
-  /// The second derivative with respect to time; at a joint, that of the later piece.
+  /// The second derivative with respect to time; at a knot, that of the later piece.
   [[nodiscard]] CubicPoint second_derivative(double time_s) const;
 
   /// The whole pieces that have more than an end in common with [t_begin_s, t_end_s].

@@ -20,16 +20,16 @@ namespace camway::motion {
 /// by three convex combinations, each off by eps, and has bumps added. A second difference of
 /// control points is off by 4·ρ, and the acceleration of a piece of duration h by 6·4·ρ/h².
 /// Accelerations of a path that goes `travelled_m` in `interval_s` are of the size
-/// travelled_m/gap_s². The result is the h for which rounding makes `kAccelerationNoise` of that,
-/// but at most `interval_s`.
+/// travelled_m/interval_s². The result is the h for which rounding makes `kAccelerationNoise` of
+/// that, but at most `interval_s`.
 double least_piece_s(double interval_s, double travelled_m, double size_m);
 inline constexpr double kAccelerationNoise = 1e-3;
 
 /// Times at which knots of rows of bumps may be. Thread-safe to read.
 struct KnotPlaces {
-  TimeOrigin origin;            ///< origin: knots are at times that are exact as sender's times
+  TimeOrigin origin;            ///< knots are at times that are exact as sender's times
   std::vector<double> taken_s;  ///< times of existing knots, increasing
-  double same_s = 0.0;          ///< a new knot nearer than this to an existing one takes its place
+  double same_s = 0.0;          ///< a new knot nearer than this to an existing one moves onto it
 
   /// Returns the time to use for a knot that is wanted at `time_s`, in a row with the spacing
   /// `spacing_s`. A knot moves to an existing one by at most an eighth of the spacing, so knots
@@ -41,21 +41,21 @@ struct KnotPlaces {
 struct KnotBump {
   explicit KnotBump(const std::array<double, 5>& knots);
 
-  /// Value at a time; 0 outside of the knots.
+  /// Returns the value at a time; 0 outside of the knots.
   [[nodiscard]] double value(double time_s) const;
-  /// Second derivative at a time; 0 outside of the knots.
+  /// Returns the second derivative at a time; 0 outside of the knots.
   [[nodiscard]] double second_derivative(double time_s) const;
 
   std::array<double, 5> knots_s;
   std::array<std::array<double, 4>, 4> pieces;  ///< `b_spline_pieces` of the knots
 
  private:
-  /// The piece that holds a time, and the parameter there; nothing outside of the knots.
+  /// Returns the piece that holds a time, and the parameter there; nothing outside of the knots.
   [[nodiscard]] std::optional<std::pair<std::size_t, double>> place_of(double time_s) const;
 };
 
-/// Knots in `count` steps from `begin_s` to `end_s`, continued beyond both: at given times, or
-/// equidistant up to the times allowed by `places`.
+/// Knots in `count` steps from `begin_s` to `end_s`, continued beyond both. They are at given
+/// times, or equidistant and then moved to times that `places` allows.
 struct KnotRow {
   double begin_s = 0.0;
   double end_s = 1.0;  ///< [Limit: value > begin_s]
@@ -91,6 +91,7 @@ struct KnotRow {
   [[nodiscard]] double bump_at_knot(int bump, int knot) const;
 };
 
+/// Least number of sender's times in a step between knots (`KnotRow::fits`).
 inline constexpr double kLeastTimesAStep = 16.0;
 
 /// The four pieces of the cubic B-spline on five increasing knots, as Bézier points (Farin 2002,

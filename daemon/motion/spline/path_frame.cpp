@@ -40,7 +40,8 @@ Point last_slope(const std::array<Point, 4>& curve, double duration_s) {
 }
 
 /// A keyframe at the beginning, or at the end, of a piece.
-Keyframe joint(const CubicPath& path, double time_s, const Vec3& position, const Vec4& image) {
+Keyframe inserted_at_knot(const CubicPath& path, double time_s, const Vec3& position,
+                          const Vec4& image) {
   return {time_s, pose_of(path.reference, {position, image}), KeyframeOrigin::kInserted, false,
           image};
 }
@@ -93,15 +94,15 @@ std::vector<Keyframe> keyframes_of(const CubicPath& path, std::span<const Keyfra
     keyframes.push_back(*next++);
     keyframes.back().image = image;
   };
-  const auto take_joint = [&](double time_s, const Vec3& position, const Vec4& image) {
+  const auto take_knot = [&](double time_s, const Vec3& position, const Vec4& image) {
     while (next != given.end() && next->time_s < time_s) take_given(path.at(next->time_s).image);
     if (next != given.end() && next->time_s == time_s) return take_given(image);
-    keyframes.push_back(joint(path, time_s, position, image));
+    keyframes.push_back(inserted_at_knot(path, time_s, position, image));
   };
   for (const CubicPiece& piece : path.pieces)
-    take_joint(piece.t0_s, piece.position.front(), piece.image.front());
+    take_knot(piece.t0_s, piece.position.front(), piece.image.front());
   const CubicPiece& last = path.pieces.back();
-  take_joint(last.t1_s, last.position.back(), last.image.back());
+  take_knot(last.t1_s, last.position.back(), last.image.back());
   return keyframes;
 }
 

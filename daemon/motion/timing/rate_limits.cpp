@@ -74,12 +74,12 @@ bool meets_turn_rate(const Segment& segment, double limit) {
 
 }  // namespace
 
-RateLimits stretched(const RateLimits& limits, double factor) {
+RateLimits scaled_limits(const RateLimits& limits, double factor) {
   return {limits.speed_m_per_s * factor, limits.acceleration_m_per_s2 * factor * factor,
           limits.turn_rate_rad_per_s * factor};
 }
 
-double needed_stretch(const Segment& segment, double u, const RateLimits& limits) {
+double needed_slow_down(const Segment& segment, double u, const RateLimits& limits) {
   const SegmentDerivatives at = derivatives_at(segment, u);
   return std::max({at.velocity_m_per_s.norm() / limits.speed_m_per_s,
                    std::sqrt(at.acceleration_m_per_s2.norm() / limits.acceleration_m_per_s2),

@@ -22,21 +22,30 @@ struct RateLimits {
   bool operator==(const RateLimits&) const = default;
 };
 
-/// The limits for a motion whose times are stretched by `factor` afterwards.
-RateLimits stretched(const RateLimits& limits, double factor);
+/// Returns the limits that a motion must meet now, so that it meets `limits` after its times are
+/// multiplied by `factor`. [Limit: 0 < factor]
+RateLimits scaled_limits(const RateLimits& limits, double factor);
 
-/// The factor by which all times must be stretched to meet the limits at `u` of `segment`; above 1
-/// exactly if they are broken there. Speeds fall with the factor, accelerations with its square
-/// (Hollerbach 1984, "Dynamic scaling of manipulator trajectories").
-double needed_stretch(const Segment& segment, double u, const RateLimits& limits);
+/// Returns the least factor that all times must be multiplied by to meet the limits at parameter
+/// `u` of `segment`. It is above 1 exactly if the limits are broken there; it may be anything from
+/// 0 on. Speed and turn rate fall with the factor, acceleration with its square (Hollerbach 1984,
+/// "Dynamic scaling of manipulator trajectories"). [Limit: 0 <= u <= 1]
+double needed_slow_down(const Segment& segment, double u, const RateLimits& limits);
 
-/// Whether the limits are met at every instant. Nothing is sampled: the margin to a limit is a
-/// polynomial whose Bernstein coefficients are shown to be non-negative on short enough parts. For
-/// the speed it is L² - |P'|²; for the turn rate L² |N|⁴ - 4 |N ∧ N'|², as N/|N| moves at the rate
-/// |N ∧ N'| / |N|² and a rotation turns twice as fast. The acceleration of a cubic is largest at an
-/// end. True is a proof, up to the rounding of these sums; false may also mean that a rate comes
-/// within some millionths of its limit.
+/// Returns true only if the limits are shown to hold for every u in [0, 1]. False may also mean
+/// that a rate comes within some millionths of its limit.
+///
+/// Nothing is sampled: the margin to a limit is a polynomial whose Bernstein coefficients are shown
+/// to be non-negative on short enough parts. P is the position, N the orientation curve before
+/// normalisation, ' the derivative by u, L the limit times the duration.
+/// - Speed: the margin is L² - |P'|².
+/// - Turn rate: the margin is L² |N|⁴ - 4 |N ∧ N'|², because N/|N| moves at the rate
+///   |N ∧ N'| / |N|² and a rotation turns twice as fast.
+/// - Acceleration: that of a cubic is largest at an end, and is compared there.
+///
+/// The rounding of these sums is not bounded.
 bool meets(const Segment& segment, const RateLimits& limits);
+/// Returns whether `meets` is true for each segment of `path`.
 bool meets(const Path& path, const RateLimits& limits);
 
 }  // namespace camway::motion

@@ -50,7 +50,7 @@ CubicPath retimed(const CubicPath& path, const TimeLaw& law) {
   return result;
 }
 
-CubicPath stretched(const CubicPath& path, const TimeLaw& law) {
+CubicPath with_new_times(const CubicPath& path, const TimeLaw& law) {
   CubicPath result = path;
   for (CubicPiece& piece : result.pieces) {
     piece.t0_s = law.new_time_s(piece.t0_s);
@@ -59,8 +59,8 @@ CubicPath stretched(const CubicPath& path, const TimeLaw& law) {
   return result;
 }
 
-bool stretches_alike(const CubicPath& path, const TimeLaw& law) {
-  const double factor = law.stretch();
+bool slows_uniformly(const CubicPath& path, const TimeLaw& law) {
+  const double factor = law.slow_down();
   return std::ranges::all_of(path.pieces, [&](const CubicPiece& piece) {
     const double wanted_s = factor * (piece.t1_s - piece.t0_s);
     const double duration_s = law.new_time_s(piece.t1_s) - law.new_time_s(piece.t0_s);

@@ -6,24 +6,28 @@
 
 namespace camway::motion {
 
-/// Returns `path` with the new times of `law`. A time law that is not linear between joints turns
-/// the cubics of the path into other curves. So the result is the C² cubic spline through the
-/// points of the path at the law's knots, with the path's velocities at its two ends. The result
-/// meets the path at the knots, with positions equal bit for bit at joints of the path. Between the
-/// knots it deviates, less with closer knots, so the path must be proved free anew. Requires the
-/// law to cover the time span of the path.
+/// Returns the path in the new times of `law`: the C² cubic spline through the points of `path` at
+/// the law's knots. Its end derivatives are those of `path`, multiplied by the law's rate there.
+///
+/// The result is another curve, because a time law that is not linear between knots of the path
+/// turns cubics into other functions. It meets `path` at the law's knots, and has equal positions,
+/// bit for bit, where these are knots of the path. Between the law's knots it deviates, less with
+/// closer knots, so it must be proved free anew. Requires the law to cover the time span of `path`.
 CubicPath retimed(const CubicPath& path, const TimeLaw& law);
 
-/// Returns `path` at the times of a law that stretches all times alike. The control points are the
-/// same, bit for bit. The result is smooth if `stretches_alike` is true.
-CubicPath stretched(const CubicPath& path, const TimeLaw& law);
+/// Returns `path` with the ends of each piece moved to their times under `law`. The control points
+/// stay the same, bit for bit. The result is C² only if `slows_uniformly(path, law)`, up to
+/// `kSameRate`.
+CubicPath with_new_times(const CubicPath& path, const TimeLaw& law);
 
-/// Whether the law stretches each piece of `path` by the same factor, up to `kSameRate`.
-bool stretches_alike(const CubicPath& path, const TimeLaw& law);
+/// Returns whether the law multiplies the duration of each piece of `path` by the same factor, up
+/// to `kSameRate`.
+bool slows_uniformly(const CubicPath& path, const TimeLaw& law);
 
-/// Largest relative difference of the rates of neighbouring pieces that keeps a path smooth:
-/// velocities at a join then differ by that share, accelerations by twice that. A thousandth of a
-/// millionth is far below what any camera can follow, and above the rounding of times near 0.
+/// Largest relative difference, which counts as none, between the slow-down of a piece and that of
+/// the whole law. Where two pieces join, velocities then differ by at most twice that share, and
+/// accelerations by four times it, to first order. That is far below anything that a camera can
+/// follow, and above the rounding of times near 0.
 inline constexpr double kSameRate = 1e-9;
 
 }  // namespace camway::motion

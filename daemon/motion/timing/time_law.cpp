@@ -20,21 +20,21 @@ using geometry::Vec3;
 /// The limits at one given time.
 struct Knot {
   double t_s;
-  bool is_joint;  ///< whether it is a joint of two segments, or an end
-  double cap;     ///< cap of x by speed, turn rate and the given time
-  Vec3 first;     ///< P'
-  Vec3 second;    ///< P''
+  bool is_of_path;  ///< whether a segment of the path begins or ends there
+  double cap;       ///< cap of x by speed, turn rate and the given time
+  Vec3 first;       ///< P'
+  Vec3 second;      ///< P''
 };
 
 /// Knots at the ends of segments, and at most `step_s` apart.
 std::vector<Knot> knots_of(const Path& path, const RateLimits& limits, double step_s) {
   std::vector<Knot> knots;
-  const auto add = [&](const Segment& segment, double u, bool is_joint) {
+  const auto add = [&](const Segment& segment, double u, bool is_of_path) {
     const SegmentDerivatives at = derivatives_at(segment, u);
     const double speed = limits.speed_m_per_s / at.velocity_m_per_s.norm();
     const double turn = limits.turn_rate_rad_per_s / (2.0 * at.orientation_rate_per_s.norm());
     const double rate = std::min({1.0, speed, turn});
-    knots.push_back({segment_time_s(segment, u), is_joint, rate * rate, at.velocity_m_per_s,
+    knots.push_back({segment_time_s(segment, u), is_of_path, rate * rate, at.velocity_m_per_s,
                      at.acceleration_m_per_s2});
   };
   for (const Segment& segment : path.segments()) {
@@ -96,7 +96,7 @@ class Reachability {
       const std::size_t after = std::min(i + 1, last);
       Stage stage{(knots[after].t_s - knots[before].t_s) / 2.0, {}};
       for (std::size_t k = before; k <= after; ++k) {
-        const auto& [t_s, is_joint, cap, first, second] = knots[k];
+        const auto& [t_s, is_of_path, cap, first, second] = knots[k];
         // At the end of the stage x is larger by 2 u step.
         stage.bounds.emplace_back(first, second, limit_m_per_s2);
         stage.bounds.emplace_back(first + 2.0 * stage.step_s * second, second, limit_m_per_s2);
@@ -162,7 +162,7 @@ TimeLaw::TimeLaw(std::vector<double> knots_s, std::vector<std::array<double, 3>>
     new_knots_s_.push_back(new_knots_s_.back() + passed_s(i, knots_s_[i + 1]));
 }
 
-TimeLaw TimeLaw::alike(std::vector<double> knots_s, double factor) {
+TimeLaw TimeLaw::uniform(std::vector<double> knots_s, double factor) {
   const double square = 1.0 / (factor * factor);
   std::vector<std::array<double, 3>> squares(knots_s.size() - 1, {square, square, square});
   return TimeLaw(std::move(knots_s), std::move(squares));
@@ -212,7 +212,7 @@ TimeLaw TimeLaw::within(const Path& path, const RateLimits& limits, double step_
   for (std::size_t i = 0; i < pieces; ++i) {
     const std::array<double, 3> piece = {at_knot(i), x[i + 1], at_knot(i + 1)};
     const bool goes_on =
-        i > 0 && !knots[i].is_joint && is_given_rate(piece) && is_given_rate(squares.back());
+        i > 0 && !knots[i].is_of_path && is_given_rate(piece) && is_given_rate(squares.back());
     if (goes_on) {
       knots_s.back() = knots[i + 1].t_s;
     } else {
@@ -259,7 +259,7 @@ double TimeLaw::rate(double given_s) const {
   return std::sqrt(bezier::value_at(squares_[piece], u));
 }
 
-double TimeLaw::stretch() const {
+double TimeLaw::slow_down() const {
   return (new_knots_s_.back() - new_knots_s_.front()) / (knots_s_.back() - knots_s_.front());
 }
 

@@ -18,11 +18,13 @@ namespace camway::motion {
 /// acceleration of the path gets no new jumps. A value type. Thread-safe to read.
 class TimeLaw {
  public:
-  /// Stretches all times by `factor`. Requires two knots or more, increasing, and `factor >= 1`.
-  static TimeLaw alike(std::vector<double> knots_s, double factor);
+  /// Returns the law that multiplies all durations by `factor`. Requires two knots or more,
+  /// increasing, and `factor >= 1`.
+  static TimeLaw uniform(std::vector<double> knots_s, double factor);
 
-  /// The rate is as large as the limits allow, and nowhere above 1: the path stays as fast as it is
-  /// where it can, and is slowed where and before it has to be.
+  /// Returns the law whose rate is as large as the limits allow, and nowhere above 1. So the path
+  /// is slowed only where it would break a limit, and next to such places, to brake and to
+  /// accelerate.
   ///
   /// By reachability analysis (Pham & Pham 2018, "A new approach to time-optimal path
   /// parameterization based on reachability analysis"). With x the squared rate, dx/dt = 2u, and
@@ -40,17 +42,17 @@ class TimeLaw {
   ///   end is found by bisection.
   /// - x is kept above the largest constant that meets all limits. That constant is admissible at
   ///   each stage, so there is a solution for every path. Its duration is not longer than that of
-  ///   stretching all times alike so that the same knots meet the limits.
+  ///   multiplying all durations by one factor with which the same knots meet the limits.
   ///
   /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
   /// O(knots). Requires `path` not to be empty, `step_s > 0` and limits above 0.
   static TimeLaw within(const Path& path, const RateLimits& limits, double step_s);
 
-  /// Returns the law with new times at knots that are exact as sender's times, with `origin`. The
-  /// shifts of the times at `kept_s` are spread over the knots between them. There the given time
-  /// shifts with the new one, so the path by the law is as smooth as before. Returns nothing if
-  /// times are not fine enough for the knots. Requires those of `kept_s` within the law's span to
-  /// be knots and to increase.
+  /// Returns the law with its new times moved to times that are exact as sender's times, with
+  /// `origin`. The given times `kept_s` stay; the shifts of their new times are spread over the
+  /// knots between them. At those knots the given time shifts with the new one, so the path by the
+  /// law is as smooth as before. Returns nothing if the sender's times are not fine enough for the
+  /// knots. Requires that the times of `kept_s` within the law's span are knots and increase.
   [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
                                                 std::span<const double> kept_s) const;
 
@@ -68,7 +70,7 @@ class TimeLaw {
   std::span<const double> new_knots_s() const&& = delete;
 
   /// New duration divided by given duration; at least 1.
-  [[nodiscard]] double stretch() const;
+  [[nodiscard]] double slow_down() const;
 
  private:
   TimeLaw(std::vector<double> knots_s, std::vector<std::array<double, 3>> squares);

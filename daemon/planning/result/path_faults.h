@@ -23,8 +23,8 @@ namespace camway::planning {
 ///   both ends, which are orientations, have a length of at least `kLeastQuaternionLength`, and one
 ///   that rounding does not hide beside the longest control point.
 ///
-/// An orientation may vanish inside a segment: the search for collisions has to count as colliding
-/// what it cannot evaluate.
+/// An orientation may vanish inside a segment: the search for collisions counts a stretch that it
+/// cannot evaluate as colliding.
 std::optional<std::string> find_fault(std::span<const motion::Segment> segments);
 
 /// Squares of smaller coefficients stay finite, and so do the products of the degree-15 corner

@@ -130,7 +130,7 @@ struct PlanResult {
   /// Bounds that the body had to keep to: those of the request and those of the scene together.
   geometry::Bounds bounds;
   /// Duration of `path` as a multiple of the requested one. To meet motion limits it is slowed in
-  /// part or all the way (`planning/stages/limits.h`); every time of the result is a slowed one.
+  /// part or all the way (`planning/stages/slowing.h`); every time of the result is a slowed one.
   double time_scale = 1.0;
   std::vector<SlowedStretch> slowed;  ///< in order of time; times between them are only shifted
   std::vector<KeyframeFault> keyframe_faults;  ///< faults with kInvalid; else the repaired ones

@@ -74,7 +74,7 @@ SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request
   std::optional<Retimed> slowed;
   if (is_free) slowed = slowed_where_needed(too_fast, deadline.share_of_rest(kShareOfSlowing));
   plan.is_everywhere = !slowed;
-  if (!slowed) slowed = slowed_alike(too_fast, deadline.not_before_s(kLeastBudget_s));
+  if (!slowed) slowed = slowed_uniformly(too_fast, deadline.not_before_s(kLeastBudget_s));
   plan.is_too_fast = !slowed;
   if (slowed) {
     plan.law = slowed->law;

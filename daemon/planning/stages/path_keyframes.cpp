@@ -16,7 +16,7 @@ using motion::CubicPath;
 using motion::Keyframe;
 using motion::PathFrame;
 
-/// Largest coordinate of a path's control points, and least length of its images at joints.
+/// Largest coordinate of a path's control points, and least length of its images at knots.
 struct Sizes {
   double coordinate_m = 0.0;
   double image = std::numeric_limits<double>::infinity();

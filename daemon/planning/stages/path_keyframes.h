@@ -6,28 +6,29 @@
 #include "daemon/planning/result/result.h"
 #include "daemon/planning/stages/prepare.h"
 
-/// The keyframes of an answer. Where nothing was corrected or slowed, they are those of the
-/// request, and its frame if it has one. A corrected path has a keyframe at every joint of its
-/// spline, and a frame: the same request with these keyframes and this frame has the same path,
+/// The keyframes of an answer. If nothing was corrected or slowed, they are those of the
+/// request, and so is the frame, if there is one. A corrected path has a keyframe at every knot of
+/// its spline, and a frame: the same request with these keyframes and this frame has the same path,
 /// which collides nowhere else. The paper's method interpolates its inserted keyframes as a request
 /// does, so they need no frame. A slowed path has no frame, and its keyframes do not give it: its
 /// times follow a law, not a spline of the keyframes.
 namespace camway::planning {
 
-/// Makes the keyframes and the frame of `result` those of `path`, which was corrected. Returns
-/// false, and changes nothing, if they would not do what they are for: if a request may not hold
-/// them, or their path differs from `path` by more than `kMostReplanned_m` or `kMostReplanned_rad`.
+/// Sets the keyframes and the frame of `result` to those of `path`, which was corrected. Returns
+/// false, and changes nothing, if a request may not hold them, or if their path differs from `path`
+/// by more than `kMostReplanned_m` or `kMostReplanned_rad`.
 bool set_keyframes(const motion::CubicPath& path, const PlanRequest& request,
                    const PreparedPlan& prepared, PlanResult& result);
 
-/// Makes the keyframes and the frame of `result` those of the path as interpolated.
+/// Sets the keyframes and the frame of `result` to those of the path as interpolated.
 void reset_keyframes(const PreparedPlan& prepared, PlanResult& result);
 
-/// Takes away the frame of a path that the keyframes and a frame do not give.
+/// Removes the frame from `result`, for a path that keyframes and a frame do not give.
 void drop_frame(PlanResult& result);
 
-/// Largest distance of the two paths, in position and in orientation, at any instant. Rounding of
-/// coordinates adds to the first: `kReplanRoundings` epsilons of the largest coordinate.
+/// Largest differences of the two paths, in position and in orientation, at any instant. The
+/// rounding of coordinates adds `kReplanRoundings` epsilons of the largest coordinate to
+/// `kMostReplanned_m`.
 inline constexpr double kMostReplanned_m = 5e-10;
 inline constexpr double kMostReplanned_rad = 5e-10;
 inline constexpr double kReplanRoundings = 16.0;

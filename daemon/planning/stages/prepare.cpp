@@ -11,9 +11,9 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/motion/spline/path_frame.h"
-#include "daemon/planning/stages/check.h"
 #include "daemon/planning/stages/keyframe_faults.h"
 #include "daemon/planning/stages/keyframe_times.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/sentences.h"
 #include "daemon/planning/stages/stage_times.h"
 

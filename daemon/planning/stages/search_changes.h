@@ -14,10 +14,10 @@ struct SearchedPath {
   const std::vector<collision::CollisionInterval>& collisions;
 };
 
-/// Returns the collisions of a path that was made by changing a path that was searched before, at
-/// the cost of the changes: searches only segments that `known` does not have bit for bit at the
-/// same time, and takes the collisions of all others from `known`. `begun` holds what a search of
-/// the whole path found before it was given up.
+/// Returns the collisions of `path`, which was made by changing the path of `known`. Searches only
+/// segments that `known` does not have bit for bit at the same time, and takes the collisions of
+/// all others from `known`. So the cost is that of the changes. `begun`: the result of a search of
+/// the whole path, which may have been given up.
 ///
 /// Everything outside the intervals is proved free, as for `collision::detect_collisions`. Their
 /// ends may differ from those that `detect_collisions` finds for the whole path, by the tolerance

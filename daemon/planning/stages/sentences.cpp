@@ -201,8 +201,7 @@ std::string note_of_times(const PlanResult& result, bool slowed_everywhere) {
 std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
                          const motion::TimeOrigin& origin) {
   const std::string others =
-      breach.stretches > 1 ? fmt::format(" and at {}", counted(breach.stretches - 1, "other time"))
-                           : "";
+      breach.parts > 1 ? fmt::format(" and at {}", counted(breach.parts - 1, "other time")) : "";
   return fmt::format(
       "{}: the path is free, but too fast from {} s to {} s{}: {}; allow {}, or give later "
       "times",

@@ -11,7 +11,7 @@
 #include "daemon/motion/path/time_origin.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
-#include "daemon/planning/stages/limits.h"
+#include "daemon/planning/stages/slowing.h"
 
 /// Messages for people: phrases of `PlanResult::message`.
 /// Thread-safe.

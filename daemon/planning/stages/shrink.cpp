@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "daemon/planning/stages/keyframe_times.h"
-#include "daemon/planning/stages/limits.h"
 #include "daemon/planning/stages/sentences.h"
+#include "daemon/planning/stages/slowing.h"
 
 namespace camway::planning {
 

@@ -19,7 +19,8 @@ struct SocketAddress {
   socklen_t size = 0;
 };
 
-/// Returns nothing if `address.ip` is no address.
+/// Returns `address` for system calls; nothing if `address.ip` is no IPv4 or IPv6 address. Does not
+/// check the range of the port, whose lower 16 bits it takes.
 std::optional<SocketAddress> socket_address(const HttpAddress& address);
 
 /// Returns whether `text` is an IPv4 or IPv6 address.

@@ -129,8 +129,8 @@ class MicroHttpPage final : public HttpPage {
     const bool started = what == MHD_CONNECTION_NOTIFY_STARTED;
     page.connections_ += started ? 1 : -1;
     page.one_has_gone_ |= !started;
-    if (started && page.connections_ >= page.limits_.connections && page.content_.full) {
-      page.content_.full();
+    if (started && page.connections_ >= page.limits_.connections && page.content_.on_full) {
+      page.content_.on_full();
     }
   }
 

@@ -11,8 +11,8 @@
 namespace camway::process {
 
 /// Serves one page of text over HTTP on a thread of its own, to a limited number of connections at
-/// a time. Idle connections are closed; further ones wait for a free place; other paths and methods
-/// are refused. The only place that sees the HTTP library (libmicrohttpd). The destructor ends and
+/// a time. Closes idle connections. Further connections wait for a free place. Refuses other paths
+/// and methods. The only place that sees the HTTP library (libmicrohttpd). The destructor ends and
 /// joins the thread.
 class HttpPage {
  public:
@@ -28,10 +28,10 @@ struct HttpLimits {
 
 /// Content of a page. Both functions are called on the page's thread and must not throw.
 struct HttpContent {
-  std::string path;                      ///< "/metrics"
-  std::string type;                      ///< content type of the text
-  std::function<std::string()> text;     ///< called anew for each request
-  std::function<void()> full = nullptr;  ///< called when no connection is free; may be null
+  std::string path;                         ///< "/metrics"
+  std::string type;                         ///< content type of the text
+  std::function<std::string()> text;        ///< called anew for each request
+  std::function<void()> on_full = nullptr;  ///< called when no connection is free; may be null
 };
 
 /// Returns the page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in

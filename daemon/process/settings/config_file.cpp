@@ -114,7 +114,7 @@ void read_table(const toml::table& table, std::string_view name,
     } else if (const std::string fault = apply(*found, node, folder); !fault.empty()) {
       faults.add(node.source(), fmt::format("{}: {}", path, fault));
     } else {
-      options.said_at[path] = fmt::format("{}: {}", faults.place(node.source()), path);
+      options.set_at[path] = fmt::format("{}: {}", faults.place(node.source()), path);
     }
   }
 }
@@ -183,7 +183,7 @@ std::optional<SceneArgument> read_scene(const toml::table& table, Faults& faults
     } else if (const std::string why = apply_to_scene(key.str(), node, scene); !why.empty()) {
       fault(node.source(), fmt::format("scene.{}: {}", key.str(), why));
     } else if (key == "file") {
-      scene.said_at = faults.place(node.source());
+      scene.set_at = faults.place(node.source());
     }
   }
   for (const char* const needed : {"name", "file"}) {

@@ -55,7 +55,7 @@ void declare_switch(CLI::App& app, const std::string& flag, std::string_view key
                     const std::string& meaning, DaemonOptions& options) {
   const auto turn_on = [&options, key, flag] {
     setting_of(key, options).turn(true);
-    options.said_at[std::string(key)] = flag;
+    options.set_at[std::string(key)] = flag;
   };
   app.add_flag_callback(flag, turn_on, meaning);
 }
@@ -68,7 +68,7 @@ void declare_setting(CLI::App& app, const std::string& flag, std::string_view ke
   const auto apply = [setting, flag, key, &options](const std::string& word) {
     const std::string fault = setting().set_word(word);
     if (!fault.empty()) throw CLI::ValidationError(flag, fault);
-    options.said_at[std::string(key)] = flag;
+    options.set_at[std::string(key)] = flag;
   };
   app.add_option_function<std::string>(flag, apply,
                                        meaning + " [" + usual.value_or(setting().text()) + "]")
@@ -164,7 +164,7 @@ std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneA
     if (!parsed) return "--scene: " + parsed.error;
     const std::string& name = parsed->name;
     if (!names.insert(name).second) return "--scene: the name '" + name + "' is given twice";
-    parsed->said_at = "--scene";
+    parsed->set_at = "--scene";
     std::erase_if(scenes, [&](const SceneArgument& scene) { return scene.name == name; });
     scenes.push_back(*std::move(parsed));
   }

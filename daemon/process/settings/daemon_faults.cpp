@@ -15,7 +15,7 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
   if (limits.default_s <= limits.max_s) return;
   const std::string usual = table + ".deadline_s";
   const std::string longest = table + ".max_deadline_s";
-  if (options.said_at.contains(usual) || !options.said_at.contains(longest)) {
+  if (options.set_at.contains(usual) || !options.set_at.contains(longest)) {
     faults.push_back(fmt::format("{}: is {:g}, but must be at most {}, which is {:g}",
                                  options.where(usual), limits.default_s, longest, limits.max_s));
   } else {
@@ -28,7 +28,7 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
 /// effect.
 void check_share(const DaemonOptions& options, const std::string& share, std::size_t value,
                  const std::string& whole, std::size_t most, std::vector<std::string>& faults) {
-  if (value <= most || !options.said_at.contains(share)) return;
+  if (value <= most || !options.set_at.contains(share)) return;
   faults.push_back(fmt::format("{}: is {}, but must be at most {}, which is {}",
                                options.where(share), value, whole, most));
 }
@@ -65,7 +65,7 @@ std::vector<std::string> missing_things(const DaemonOptions& options) {
     if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);
   }
   const bool address_counts =
-      options.metrics.port != 0 || options.said_at.contains("metrics.address");
+      options.metrics.port != 0 || options.set_at.contains("metrics.address");
   if (address_counts && !is_address_of_this_machine(options.metrics.ip)) {
     faults.push_back(fmt::format("{}: {} is no address of this machine",
                                  options.where("metrics.address"), options.metrics.ip));

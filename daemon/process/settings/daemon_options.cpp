@@ -12,8 +12,8 @@ std::string url_of_environment() {
 }
 
 std::string DaemonOptions::where(std::string_view key) const {
-  const auto said = said_at.find(key);
-  return said == said_at.end() ? std::string(key) : said->second;
+  const auto said = set_at.find(key);
+  return said == set_at.end() ? std::string(key) : said->second;
 }
 
 std::optional<scene::SceneCache> scene_cache(const DaemonOptions& options) {
@@ -29,7 +29,7 @@ DaemonOptions default_options() {
   if (options.lcm_url.empty()) {
     options.lcm_url = kDefaultLcmUrl;
   } else {
-    options.said_at["lcm.url"] = "LCM_DEFAULT_URL";
+    options.set_at["lcm.url"] = "LCM_DEFAULT_URL";
   }
   options.service.workers = 0;
   return options;

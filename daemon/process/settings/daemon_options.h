@@ -53,7 +53,7 @@ struct DaemonOptions {
   service::ServiceConfig service;
   /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",
   /// "LCM_DEFAULT_URL". Settings with their defaults are not here.
-  std::map<std::string, std::string, std::less<>> said_at = {};
+  std::map<std::string, std::string, std::less<>> set_at = {};
 
   /// Returns where the setting of that key was set, for messages; the key itself if it was not.
   [[nodiscard]] std::string where(std::string_view key) const;

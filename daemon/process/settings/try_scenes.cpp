@@ -17,7 +17,7 @@ TriedScenes try_scenes(const std::vector<SceneArgument>& scenes,
   scene::SceneStore store(limits);
   const auto fail = [&tried](const SceneArgument& scene, const std::string& why,
                              scene::Limit limit) {
-    tried.faults.push_back(fmt::format("{}: scene '{}': {}", scene.said_at, scene.name,
+    tried.faults.push_back(fmt::format("{}: scene '{}': {}", scene.set_at, scene.name,
                                        service::with_setting(why, limit)));
   };
   for (const SceneArgument& scene : scenes) {

@@ -31,7 +31,15 @@ static_assert(sizeof(Vec3) == 24 && sizeof(std::array<std::uint32_t, 3>) == 12);
 static_assert(sizeof(IndexNode) == 96 && sizeof(ByteBoxes) == 48);
 
 constexpr std::array<std::uint64_t, layout::kSectionCount> kElementBytes = {
-    sizeof(layout::Facts), 1, sizeof(layout::Object), sizeof(Vec3), 12, 1, sizeof(IndexNode), 4, 4,
+    sizeof(layout::Metadata),
+    1,
+    sizeof(layout::Object),
+    sizeof(Vec3),
+    12,
+    1,
+    sizeof(IndexNode),
+    4,
+    4,
     sizeof(ByteBoxes)};
 
 /// Smaller files are read by one thread: starting another one takes as long.
@@ -62,12 +70,12 @@ class Sections {
   Sections(const std::string& scene_file, const PreparedScene& prepared) {
     const Mesh& mesh = *prepared.indexed->mesh;
     const IndexArrays& tree = prepared.indexed->tree.arrays();
-    fill_facts(prepared, tree.depth);
+    fill_metadata(prepared, tree.depth);
     add_texts(scene_file, prepared);
     for (const MeshObject& object : mesh.objects) {
       objects_.push_back({object.triangle_count, static_cast<std::uint32_t>(object.name.size())});
     }
-    set(layout::kFacts, std::span(&facts_, 1));
+    set(layout::kMetadata, std::span(&metadata_, 1));
     set(layout::kText, std::span(text_));
     set(layout::kObjects, std::span(objects_));
     set(layout::kVertices, std::span(mesh.vertices));
@@ -104,35 +112,35 @@ class Sections {
     bytes_[section] = std::as_bytes(values);
   }
 
-  void fill_facts(const PreparedScene& prepared, std::uint32_t depth) {
+  void fill_metadata(const PreparedScene& prepared, std::uint32_t depth) {
     const ImportReport& report = prepared.report;
-    facts_.degenerate_triangles = report.degenerate_triangles;
-    facts_.dropped_nonfinite = report.dropped_nonfinite;
-    facts_.dropped_bad_index = report.dropped_bad_index;
-    facts_.dropped_points_and_lines = report.dropped_points_and_lines;
-    facts_.dropped_freeform = report.dropped_freeform;
-    facts_.ignored_statements = report.ignored_statements;
-    facts_.single_precision = report.single_precision ? 1 : 0;
-    facts_.rounding_m = report.rounding_m;
-    facts_.mesh_bounds_m = corners_of(report.bounds_m);
-    facts_.tree_bounds_m = corners_of(prepared.indexed->tree.bounds());
-    facts_.tree_depth = depth;
+    metadata_.degenerate_triangles = report.degenerate_triangles;
+    metadata_.dropped_nonfinite = report.dropped_nonfinite;
+    metadata_.dropped_bad_index = report.dropped_bad_index;
+    metadata_.dropped_points_and_lines = report.dropped_points_and_lines;
+    metadata_.dropped_freeform = report.dropped_freeform;
+    metadata_.ignored_statements = report.ignored_statements;
+    metadata_.single_precision = report.single_precision ? 1 : 0;
+    metadata_.rounding_m = report.rounding_m;
+    metadata_.mesh_bounds_m = corners_of(report.bounds_m);
+    metadata_.tree_bounds_m = corners_of(prepared.indexed->tree.bounds());
+    metadata_.tree_depth = depth;
     if (!prepared.field) return;
-    facts_.field_resolution_m = prepared.field->statistics().resolution_m;
-    facts_.field_settled_share = prepared.field->statistics().settled_share;
+    metadata_.field_resolution_m = prepared.field->statistics().resolution_m;
+    metadata_.field_settled_share = prepared.field->statistics().settled_share;
   }
 
   void add_texts(const std::string& scene_file, const PreparedScene& prepared) {
     std::string names;
     for (const MeshObject& object : prepared.indexed->mesh->objects) names += object.name;
-    facts_.file_bytes = scene_file.size();
-    facts_.digest_bytes = prepared.digest.size();
-    facts_.format_bytes = prepared.report.format.size();
-    facts_.why_no_field_bytes = prepared.why_no_field.size();
+    metadata_.file_bytes = scene_file.size();
+    metadata_.digest_bytes = prepared.digest.size();
+    metadata_.format_bytes = prepared.report.format.size();
+    metadata_.why_no_field_bytes = prepared.why_no_field.size();
     text_ = scene_file + prepared.digest + prepared.report.format + prepared.why_no_field + names;
   }
 
-  layout::Facts facts_;
+  layout::Metadata metadata_;
   std::string text_;
   std::vector<layout::Object> objects_;
   std::array<std::span<const std::byte>, layout::kSectionCount> bytes_;
@@ -172,8 +180,8 @@ struct Content {
     const std::span<const std::byte> bytes = section(name);
     return digest_of(bytes.data(), bytes.size()) == header.sections[name].digest;
   }
-  [[nodiscard]] const layout::Facts& facts() const {
-    return values<layout::Facts>(layout::kFacts).front();
+  [[nodiscard]] const layout::Metadata& metadata() const {
+    return values<layout::Metadata>(layout::kMetadata).front();
   }
   [[nodiscard]] std::string_view text() const {
     const std::span<const char> text = values<char>(layout::kText);
@@ -188,8 +196,8 @@ bool is_placed_well(const layout::Section& section, std::uint64_t element_bytes,
          section.offset <= file_bytes && section.bytes <= file_bytes - section.offset;
 }
 
-/// Returns the content if the header is whole, its sections lie in the file, and there are facts.
-/// The sections may be damaged.
+/// Returns the content if the header is whole, its sections lie in the file, and there is a
+/// `Metadata`. The sections may be damaged.
 base::Result<Content> open_content(int fd, FileBytes::Use use) {
   Content content{FileBytes::of(fd, use), {}};
   if (!content.file) return Failure{"the file cannot be read"};
@@ -203,7 +211,7 @@ base::Result<Content> open_content(int fd, FileBytes::Use use) {
       return Failure{"a section does not lie in the file"};
     }
   }
-  if (content.values<layout::Facts>(layout::kFacts).size() != 1) {
+  if (content.values<layout::Metadata>(layout::kMetadata).size() != 1) {
     return Failure{"there are no facts"};
   }
   return content;
@@ -264,13 +272,13 @@ bool is_digest(const std::string& text) {
 
 /// Sets texts and objects of the scene. Returns false if they are wrong.
 bool take_texts(const Content& content, PreparedScene& prepared, Mesh& mesh) {
-  const layout::Facts& facts = content.facts();
+  const layout::Metadata& metadata = content.metadata();
   TextReader reader(content.text());
   std::string scene_file;
-  if (!reader.take(facts.file_bytes, scene_file) ||
-      !reader.take(facts.digest_bytes, prepared.digest) || !is_digest(prepared.digest) ||
-      !reader.take(facts.format_bytes, prepared.report.format) ||
-      !reader.take(facts.why_no_field_bytes, prepared.why_no_field)) {
+  if (!reader.take(metadata.file_bytes, scene_file) ||
+      !reader.take(metadata.digest_bytes, prepared.digest) || !is_digest(prepared.digest) ||
+      !reader.take(metadata.format_bytes, prepared.report.format) ||
+      !reader.take(metadata.why_no_field_bytes, prepared.why_no_field)) {
     return false;
   }
   std::uint64_t first = 0;
@@ -286,61 +294,61 @@ bool take_texts(const Content& content, PreparedScene& prepared, Mesh& mesh) {
 }
 
 /// Sets the report. Returns false if a number in it is not valid.
-bool take_report(const layout::Facts& facts, const Mesh& mesh, const ImportOptions& options,
+bool take_report(const layout::Metadata& metadata, const Mesh& mesh, const ImportOptions& options,
                  ImportReport& report) {
   report.scale = options.scale;
   report.up = options.up;
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
   report.objects = mesh.objects.size();
-  report.bounds_m = box_of(facts.mesh_bounds_m);
-  report.degenerate_triangles = facts.degenerate_triangles;
-  report.dropped_nonfinite = facts.dropped_nonfinite;
-  report.dropped_bad_index = facts.dropped_bad_index;
-  report.dropped_points_and_lines = facts.dropped_points_and_lines;
-  report.dropped_freeform = facts.dropped_freeform;
-  report.ignored_statements = facts.ignored_statements;
-  report.single_precision = facts.single_precision != 0;
-  report.rounding_m = facts.rounding_m;
-  return facts.rounding_m >= 0.0 && std::isfinite(facts.rounding_m);
+  report.bounds_m = box_of(metadata.mesh_bounds_m);
+  report.degenerate_triangles = metadata.degenerate_triangles;
+  report.dropped_nonfinite = metadata.dropped_nonfinite;
+  report.dropped_bad_index = metadata.dropped_bad_index;
+  report.dropped_points_and_lines = metadata.dropped_points_and_lines;
+  report.dropped_freeform = metadata.dropped_freeform;
+  report.ignored_statements = metadata.ignored_statements;
+  report.single_precision = metadata.single_precision != 0;
+  report.rounding_m = metadata.rounding_m;
+  return metadata.rounding_m >= 0.0 && std::isfinite(metadata.rounding_m);
 }
 
 /// Sets the field. Returns why it is wrong, or an empty text.
 std::string take_field(const Content& content, PreparedScene& prepared) {
-  const layout::Facts& facts = content.facts();
+  const layout::Metadata& metadata = content.metadata();
   base::Array<std::uint8_t> codes = content.array<std::uint8_t>(layout::kFieldCodes);
   const bool has_field = !codes.empty();
   if (has_field != prepared.why_no_field.empty()) return "there is a field and no field";
   if (!has_field) return {};
   base::Result<std::shared_ptr<const DistanceField>> field =
-      DistanceField::of_codes(prepared.report.bounds_m, facts.field_resolution_m, std::move(codes),
-                              facts.field_settled_share);
+      DistanceField::of_codes(prepared.report.bounds_m, metadata.field_resolution_m,
+                              std::move(codes), metadata.field_settled_share);
   if (field) prepared.field = *std::move(field);
   return field.error;
 }
 
 base::Result<IndexTree> tree_of(const Content& content, std::size_t triangles) {
-  const layout::Facts& facts = content.facts();
-  if (facts.tree_depth > kMaxIndexDepth) return Failure{"the tree is too deep"};
+  const layout::Metadata& metadata = content.metadata();
+  if (metadata.tree_depth > kMaxIndexDepth) return Failure{"the tree is too deep"};
   IndexArrays arrays{
       content.array<IndexNode>(layout::kNodes), content.array<std::uint32_t>(layout::kLeafBegin),
       content.array<std::uint32_t>(layout::kReferences), content.array<ByteBoxes>(layout::kBoxes),
-      static_cast<std::uint32_t>(facts.tree_depth)};
-  return IndexTree::of_arrays(std::move(arrays), triangles, box_of(facts.tree_bounds_m));
+      static_cast<std::uint32_t>(metadata.tree_depth)};
+  return IndexTree::of_arrays(std::move(arrays), triangles, box_of(metadata.tree_bounds_m));
 }
 
 /// Makes the scene of what was read. Returns why it is wrong, or an empty text.
 std::string assemble(const Content& content, const ImportOptions& options, unsigned threads,
                      Mesh mesh, PreparedScene& prepared) {
-  const layout::Facts& facts = content.facts();
+  const layout::Metadata& metadata = content.metadata();
   const base::Result<Box> bounds = checked_bounds(mesh, threads);
   if (!bounds) return bounds.error;
   const std::array<double, 6> corners = corners_of(*bounds);
-  if (facts.mesh_bounds_m != corners || facts.tree_bounds_m != corners) {
+  if (metadata.mesh_bounds_m != corners || metadata.tree_bounds_m != corners) {
     return "the bounds are not those of the triangles";
   }
   if (!take_texts(content, prepared, mesh)) return "the texts are wrong";
-  if (!take_report(facts, mesh, options, prepared.report)) return "the report is wrong";
+  if (!take_report(metadata, mesh, options, prepared.report)) return "the report is wrong";
   if (std::string fault = take_field(content, prepared); !fault.empty()) return fault;
   base::Result<IndexTree> tree = tree_of(content, mesh.triangles.size());
   if (!tree) return tree.error;
@@ -398,19 +406,20 @@ base::Result<PreparedScene> read_prepared(int fd, const SceneKey& key,
   return prepared;
 }
 
-base::Result<PreparedFacts> read_prepared_facts(int fd) {
+base::Result<PreparedMetadata> read_prepared_metadata(int fd) {
   const base::Result<Content> content = open_content(fd, FileBytes::Use::kBrief);
   if (!content) return Failure{content.error};
-  if (!content->is_whole(layout::kFacts) || !content->is_whole(layout::kText)) {
+  if (!content->is_whole(layout::kMetadata) || !content->is_whole(layout::kText)) {
     return Failure{"the facts are damaged"};
   }
-  PreparedFacts facts;
-  if (!TextReader(content->text()).take(content->facts().file_bytes, facts.scene_file)) {
+  PreparedMetadata metadata;
+  if (!TextReader(content->text()).take(content->metadata().file_bytes, metadata.scene_file)) {
     return Failure{"the texts are wrong"};
   }
-  facts.triangles = content->section(layout::kTriangles).size() / kElementBytes[layout::kTriangles];
-  facts.build = printable({content->header.build.data(), content->header.build.size()});
-  return facts;
+  metadata.triangles =
+      content->section(layout::kTriangles).size() / kElementBytes[layout::kTriangles];
+  metadata.build = printable({content->header.build.data(), content->header.build.size()});
+  return metadata;
 }
 
 }  // namespace camway::scene

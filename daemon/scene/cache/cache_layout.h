@@ -18,16 +18,17 @@ inline constexpr std::uint64_t kMagic = 0x31454e4543534d43;  ///< "CMSCENE1"
 inline constexpr std::uint64_t kAlignment = 64;
 
 enum SectionName : std::size_t {
-  kFacts,       ///< one `Facts`
-  kText,        ///< texts one after the other, their sizes in `Facts`
+  kMetadata,    ///< one `Metadata`
+  kText,        ///< texts one after the other, their sizes in `Metadata`
   kObjects,     ///< `Object` of each object of the mesh
   kVertices,    ///< `geometry::Vec3`
   kTriangles,   ///< three numbers of vertices each
   kFieldCodes,  ///< a byte for each cell; none without a field
-  kNodes,       ///< `IndexArrays`
-  kLeafBegin,
-  kReferences,
-  kBoxes,
+  // Arrays of `IndexArrays`:
+  kNodes,       ///< `IndexNode`
+  kLeafBegin,   ///< a 32-bit number for each leaf, and one more
+  kReferences,  ///< 32-bit numbers of triangles
+  kBoxes,       ///< `ByteBoxes`
   kSectionCount,
 };
 
@@ -46,12 +47,13 @@ struct Header {
   std::array<Section, kSectionCount> sections{};
 };
 
-struct Facts {
-  // Sizes of the texts, in their order.
+struct Metadata {
+  // Sizes of the texts, in their order. After these texts come the names of the objects
+  // (`Object::name_bytes`).
   std::uint64_t file_bytes = 0;  ///< name of the scene file, for lists
   std::uint64_t digest_bytes = 0;
   std::uint64_t format_bytes = 0;
-  std::uint64_t why_no_field_bytes = 0;  ///< the names of the objects follow
+  std::uint64_t why_no_field_bytes = 0;
   // `ImportReport`; what is not here follows from the mesh and the options.
   std::uint64_t degenerate_triangles = 0;
   std::uint64_t dropped_nonfinite = 0;
@@ -59,9 +61,9 @@ struct Facts {
   std::uint64_t dropped_points_and_lines = 0;
   std::uint64_t dropped_freeform = 0;
   std::uint64_t ignored_statements = 0;
-  std::uint64_t single_precision = 0;
+  std::uint64_t single_precision = 0;  ///< 0 or 1
   double rounding_m = 0.0;
-  // Bounds as they were computed: equal numbers, but 0 and -0 are kept apart.
+  // Bounds, bit for bit as computed: recomputing them could give 0 in place of -0.
   std::array<double, 6> mesh_bounds_m{};  ///< lowest corner, highest corner
   std::array<double, 6> tree_bounds_m{};
   // `DistanceField`; 0 without one.
@@ -77,6 +79,6 @@ struct Object {
 
 // No padding, so that every byte of a file has a value.
 static_assert(sizeof(Section) == 32 && sizeof(Header) == 72 + 32 * kSectionCount);
-static_assert(sizeof(Facts) == 27 * sizeof(double));
+static_assert(sizeof(Metadata) == 27 * sizeof(double));
 
 }  // namespace camway::scene::cache_layout

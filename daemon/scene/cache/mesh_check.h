@@ -9,8 +9,8 @@ namespace camway::scene {
 
 /// Checks that an import could have made the vertices and triangles of `mesh`: there are triangles,
 /// their vertices exist, all coordinates are within geometry::kLargestCoordinate_m, and each
-/// triangle has an area, exactly. Returns the bounds of the triangles, or the fault. Objects are
-/// not looked at. Runs on `threads` threads. [Limit: threads >= 1]
+/// triangle has a non-zero area in exact arithmetic. Returns the bounds of the triangles, or the
+/// fault. Does not check `mesh.objects`. Runs on `threads` threads. [Limit: threads >= 1]
 base::Result<geometry::Box> checked_bounds(const Mesh& mesh, unsigned threads);
 
 }  // namespace camway::scene

@@ -19,10 +19,11 @@ struct PreparationOptions {
   std::optional<DistanceFieldOptions> field;  ///< nothing: no field
 };
 
-/// All that is computed from a mesh file before anything is planned in it, but for the occupancy
-/// mirror. The object stands where its file has it. Parts are shared with the scenes made of it.
+/// Everything that is computed from a mesh file before the first request, except the occupancy
+/// mirror. Coordinates are those of the import: no placement is applied. Scenes made from it share
+/// its parts.
 struct PreparedScene {
-  std::shared_ptr<const IndexedMesh> indexed;  ///< never null; has a triangle at least
+  std::shared_ptr<const IndexedMesh> indexed;  ///< never null; has at least one triangle
   ImportReport report;                         ///< report on the import of the mesh
   std::shared_ptr<const DistanceField> field;  ///< null if there is none
   std::string why_no_field;                    ///< empty exactly when `field` is set

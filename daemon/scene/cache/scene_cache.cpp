@@ -202,15 +202,15 @@ std::vector<CachedScene> SceneCache::scenes() const {
     struct stat status {};
     const FileDescriptor file = open_file(folder, found.name, status);
     if (!file.is_open() || !is_scene_name(found.name)) continue;
-    base::Result<PreparedFacts> facts = read_prepared_facts(file.get());
-    if (!facts) continue;
+    base::Result<PreparedMetadata> metadata = read_prepared_metadata(file.get());
+    if (!metadata) continue;
     CachedScene& scene = scenes.emplace_back();
     scene.key = found.name.substr(0, found.name.size() - kSuffix.size());
-    scene.scene_file = std::move(facts->scene_file);
-    scene.triangles = facts->triangles;
+    scene.scene_file = std::move(metadata->scene_file);
+    scene.triangles = metadata->triangles;
     scene.bytes = found.bytes;
     scene.last_used = std::chrono::system_clock::from_time_t(found.last_used_s);
-    scene.is_of_this_build = facts->build == scene_build();
+    scene.is_of_this_build = metadata->build == scene_build();
   }
   return scenes;
 }

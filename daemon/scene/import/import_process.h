@@ -20,8 +20,8 @@ struct ImportProcessResult {
     kNotStarted,   ///< `detail` says why
   };
   End end = End::kNotStarted;
-  std::vector<std::byte> output;
-  std::string detail;
+  std::vector<std::byte> output;  ///< the record; meaningful only for `kFinished`
+  std::string detail;             ///< only for `kCrashed` and `kNotStarted`
 };
 
 /// Runs `camway-import` on `file` and waits for it. Looks for the program beside the running
@@ -29,6 +29,11 @@ struct ImportProcessResult {
 /// streams, no descriptors but that of its output, no environment, default signals. It is killed
 /// when this process ends, and confines itself before it opens the file (`import_confinement.h`). A
 /// stop ends it within milliseconds.
+///
+/// `time_limit_s` applies to the wall clock, and, rounded up to seconds plus one, to the processor
+/// time; it is clamped to [0, 1e6]. `memory_limit_bytes`: limit of the address space and of the
+/// output.
+///
 /// Thread-safe: no code of this process runs in the child before exec.
 ImportProcessResult run_import_process(const std::filesystem::path& file,
                                        std::size_t memory_limit_bytes, double time_limit_s,

@@ -26,9 +26,9 @@ struct BoxGaps {
   unsigned near;  ///< bit i is set unless box i is proved to be beyond the reach
 };
 
-/// Largest relative excess of a bound over the true square. The difference of two floats, its
-/// square and the sum of three squares are rounded, 2^-24 each: (1 + 2^-24)^2·(1 + 2^-24)^3 at
-/// most.
+/// A lower bound may exceed the true square by this relative amount, through rounding. The
+/// difference of two floats, its square and the sum of three squares are rounded, 2^-24 each: (1 +
+/// 2^-24)^2·(1 + 2^-24)^3 at most.
 inline constexpr double kBoxGapRelativeError = 8.0 * 0x1p-24;
 
 /// Computes the bounds between `box` and the eight `boxes` of `frame`, and which boxes are near:
@@ -53,9 +53,9 @@ struct ObliqueSides {
 
 /// Raises the bounds in `gaps`, which `box_gaps` computed for the same boxes and a box around
 /// `body`: along the axes of the body, boxes are often farther away than along those of the world.
-/// The bounds allow for rounding in units of the steps, as those of `box_gaps`. The rounding of
-/// coordinates far from each other adds up to the error of
-/// `OrientedBox::squared_distance_bound_m2`, which the reach must allow for.
+/// As in `box_gaps`, the bounds allow for rounding in units of the steps. They do not allow for the
+/// rounding of coordinates far from each other. The caller must enlarge the reach by that error,
+/// which is that of `OrientedBox::squared_distance_bound_m2`.
 void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
                   double squared_reach_m2, BoxGaps& gaps);
 

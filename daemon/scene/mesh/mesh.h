@@ -19,22 +19,24 @@ struct MeshObject {
   std::uint32_t triangle_count = 0;
 };
 
-/// Triangles in the world frame, metres. Every index is valid and every coordinate finite.
+/// Triangles, in the frame of the world unless a name says otherwise (`mesh_O`). Every index is
+/// valid and every coordinate finite. [Units: metres]
 struct Mesh {
   std::vector<geometry::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<MeshObject> objects;  ///< in order; cover all triangles together
+  std::vector<MeshObject>
+      objects;  ///< in order of their triangles; together they cover all triangles
 
   [[nodiscard]] geometry::Triangle triangle(std::size_t index) const {
     const std::array<std::uint32_t, 3>& t = triangles[index];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
   }
   [[nodiscard]] geometry::Box bounds() const;
-  /// Memory of vertices and triangles.
+  /// Returns the memory of vertices and triangles. [Units: bytes]
   [[nodiscard]] std::uint64_t memory_bytes() const;
 };
 
-/// One of the meshes of an object, shared by all revisions that have it. The parts of an object are
+/// One of the meshes of an object. All revisions that have it share it. The parts of an object are
 /// ordered by their keys, which are unique.
 struct MeshPart {
   static MeshPart of(std::uint64_t key, Mesh mesh);
@@ -44,7 +46,7 @@ struct MeshPart {
   geometry::Box bounds;              ///< bounds of the mesh
 };
 
-/// Joins the parts, in their order, to a mesh with one unnamed object. Vertices are not merged.
+/// Returns one mesh of all parts, in their order, with one unnamed object. Does not merge vertices.
 Mesh joined(std::span<const MeshPart> parts);
 
 }  // namespace camway::scene

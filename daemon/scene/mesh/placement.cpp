@@ -15,7 +15,7 @@ Placement Placement::make(const Vec3& position_W, const Quat& orientation_WO, st
   const double length = orientation_WO.coeffs().cwiseAbs().maxCoeff();
   if (!position_W.allFinite() || !orientation_WO.coeffs().allFinite()) {
     fault = "pose: is not finite";
-  } else if ((position_W.array().abs() > kLargestCoordinateM).any()) {
+  } else if ((position_W.array().abs() > kLargestPlacedCoordinate_m).any()) {
     fault = "pose: the position is more than 1e9 m from the origin";
   } else if (length < kShortest || length > kLongest) {
     fault = "pose: the orientation has no direction";

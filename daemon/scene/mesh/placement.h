@@ -10,30 +10,35 @@
 namespace camway::scene {
 
 /// The placement of an object in the world: a proper rotation, then a translation. A value type.
+///
+/// The suffix _W marks coordinates in the frame of the world, _O those in the frame of the object.
+/// `orientation_WO` is the rotation that maps from O to W.
 class Placement {
  public:
-  /// Limit of coordinates of positions, and of placed objects.
-  static constexpr double kLargestCoordinateM = 1e9;
+  /// Largest coordinate of a position, and of a placed object. [Units: metres]
+  static constexpr double kLargestPlacedCoordinate_m = 1e9;
 
   /// The identity.
   Placement() = default;
 
-  /// Makes a placement; `orientation_WO` need not be of unit length. Sets `fault`, and returns the
-  /// identity, if a number is not finite, the position is beyond kLargestCoordinateM, or the
-  /// orientation is too near to zero, or too long, to be normalised.
+  /// Returns a placement. `orientation_WO` need not be of unit length: it is normalised. Sets
+  /// `fault`, and returns the identity, if a number is not finite, the position is beyond
+  /// kLargestPlacedCoordinate_m, or the orientation is too near to zero, or too long, to be
+  /// normalised.
   static Placement make(const geometry::Vec3& position_W, const geometry::Quat& orientation_WO,
                         std::string& fault);
 
   [[nodiscard]] const geometry::Vec3& position_W() const { return position_W_; }
-  /// The rotation, of unit length but for rounding.
+  /// Returns the rotation, of unit length up to rounding.
   [[nodiscard]] const geometry::Quat& orientation_WO() const { return orientation_WO_; }
-  /// Whether both map every point to the same bits.
+  /// Returns whether both placements hold equal numbers. Then they map every point to equal
+  /// coordinates (0 and -0 count as equal).
   bool operator==(const Placement& other) const {
     return position_W_ == other.position_W_ && R_WO_ == other.R_WO_ &&
            orientation_WO_.coeffs() == other.orientation_WO_.coeffs() &&
            is_identity_ == other.is_identity_;
   }
-  /// Whether it is exactly the identity, which keeps coordinates bit for bit.
+  /// Returns whether this is exactly the identity, which keeps coordinates bit for bit.
   [[nodiscard]] bool is_identity() const { return is_identity_; }
 
   /// Maps a point from the frame of the object to the world. Rounded; see `error_m`.
@@ -65,7 +70,7 @@ class Placement {
   bool is_identity_ = true;
 };
 
-/// `mesh_O` in the world. Paths are proved against these very coordinates, rounded as they are.
+/// Returns `mesh_O` in the world. Paths are proved against these coordinates, as rounded.
 Mesh placed_mesh(const Mesh& mesh_O, const Placement& placement);
 
 }  // namespace camway::scene

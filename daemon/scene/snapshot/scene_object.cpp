@@ -103,7 +103,7 @@ ObjectMirror::BuildResult mirror_of(const SceneObject& object, const ObjectOptio
 bool is_too_far(const geometry::Box& bounds) {
   return !bounds.isEmpty() &&
          !(bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() <=
-           Placement::kLargestCoordinateM);
+           Placement::kLargestPlacedCoordinate_m);
 }
 
 }  // namespace

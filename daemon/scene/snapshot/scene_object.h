@@ -106,8 +106,8 @@ struct ObjectResult {
 
 /// Places an object in the world. The cost depends on its triangles, without the parts that
 /// `before` (may be null) has in the same place: these are shared. Fails if the placement moves it
-/// beyond Placement::kLargestCoordinateM, if the mirror cannot hold it, or if a stop is requested
-/// while parts or mirror are made. Requires that `before` was placed with equal options.
+/// beyond Placement::kLargestPlacedCoordinate_m, if the mirror cannot hold it, or if a stop is
+/// requested while parts or mirror are made. Requires that `before` was placed with equal options.
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
                           const Placement& placement, const ObjectOptions& options,
                           const SceneObject* before = nullptr, const std::stop_token& stop = {});

@@ -37,7 +37,7 @@ SceneStore::ChangeLock::~ChangeLock() {
   store_.turn_ended_.notify_all();
 }
 
-SceneStore::Load SceneStore::load_of(const Snapshot& snapshot) {
+SceneStore::Usage SceneStore::usage_of(const Snapshot& snapshot) {
   return {snapshot.index.size(),
           snapshot.occupancy ? snapshot.occupancy->statistics().memory_bytes : 0};
 }
@@ -48,10 +48,10 @@ std::uint64_t SceneStore::next_revision(std::string_view scene) const {
   return 1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
 }
 
-StoreResult SceneStore::over_limit(const Snapshot& next, const Load& load) const {
+std::optional<StoreResult> SceneStore::over_limit(const Snapshot& next, const Usage& usage) const {
   const auto found = scenes_.find(next.name);
   const bool is_new = found == scenes_.end();
-  const Load before = is_new ? Load{} : found->second.load;
+  const Usage before = is_new ? Usage{} : found->second.usage;
   const auto over = [&](Limit limit, const std::string& what) {
     return StoreResult{nullptr, StoreFault::kLimit, "scene '" + next.name + "': " + what, limit};
   };
@@ -61,21 +61,21 @@ StoreResult SceneStore::over_limit(const Snapshot& next, const Load& load) const
   if (is_new && scenes_.size() >= limits_.scenes) {
     return over(Limit::kScenes, "there are " + std::to_string(limits_.scenes) + " scenes already");
   }
-  if (total_.triangles - before.triangles + load.triangles > limits_.triangles) {
+  if (total_.triangles - before.triangles + usage.triangles > limits_.triangles) {
     return over(Limit::kTriangles, "with it there would be more than " +
                                        std::to_string(limits_.triangles) +
                                        " triangles in all scenes");
   }
-  if (total_.occupancy_bytes - before.occupancy_bytes + load.occupancy_bytes >
+  if (total_.occupancy_bytes - before.occupancy_bytes + usage.occupancy_bytes >
       limits_.occupancy_bytes) {
     return over(Limit::kOccupancyBytes,
                 "with it the occupancy maps of all scenes would take more than " +
                     std::to_string(limits_.occupancy_bytes) + " bytes");
   }
-  return {};
+  return std::nullopt;
 }
 
-void SceneStore::count(const Load& before, const Load& after) {
+void SceneStore::count(const Usage& before, const Usage& after) {
   total_.triangles += after.triangles - before.triangles;
   total_.occupancy_bytes += after.occupancy_bytes - before.occupancy_bytes;
 }
@@ -91,19 +91,20 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
     numbered->revision = next;
     snapshot = std::move(numbered);
   }
-  Entry entry{snapshot, load_of(*snapshot),
+  Entry entry{snapshot, usage_of(*snapshot),
               SceneHistory(*snapshot, limits_.history, std::move(note))};
   {
     const std::lock_guard lock(mutex_);
-    if (StoreResult over = over_limit(*snapshot, entry.load); !over.error.empty()) return over;
+    if (std::optional<StoreResult> over = over_limit(*snapshot, entry.usage))
+      return *std::move(over);
     if (!ticket.try_commit()) return cancelled();
     if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
       old = std::move(found->second);
     }
-    count(old ? old->load : Load{}, entry.load);
+    count(old ? old->usage : Usage{}, entry.usage);
     scenes_.insert_or_assign(snapshot->name, std::move(entry));
   }
-  tell();
+  notify();
   return {std::move(snapshot), StoreFault::kNone, ""};
 }
 
@@ -155,19 +156,21 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
             result.limit};
   }
-  const Load load = load_of(*result.snapshot);
+  const Usage usage = usage_of(*result.snapshot);
   note.when = std::chrono::system_clock::now();
   {
     const std::lock_guard lock(mutex_);
-    if (StoreResult over = over_limit(*result.snapshot, load); !over.error.empty()) return over;
+    if (std::optional<StoreResult> over = over_limit(*result.snapshot, usage)) {
+      return *std::move(over);
+    }
     if (!ticket.try_commit()) return cancelled();
     Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
-    count(std::exchange(entry.load, load), load);
+    count(std::exchange(entry.usage, usage), usage);
     entry.history.add(std::move(changes), {result.snapshot->revision, std::move(note)});
     forget_history();
   }
-  tell();
+  notify();
   return {std::move(result.snapshot), StoreFault::kNone, ""};
 }
 
@@ -193,20 +196,20 @@ bool SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
     if (found == scenes_.end() || !ticket.try_commit()) return false;
     highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
     old = std::move(found->second);
-    count(old->load, {});
+    count(old->usage, {});
     scenes_.erase(found);
   }
-  tell();
+  notify();
   return true;
 }
 
 void SceneStore::on_change(std::function<void()> listener) {
-  const std::lock_guard telling(telling_);
+  const std::lock_guard notifying(notify_mutex_);
   listener_ = std::move(listener);
 }
 
-void SceneStore::tell() {
-  const std::lock_guard telling(telling_);
+void SceneStore::notify() {
+  const std::lock_guard notifying(notify_mutex_);
   if (listener_) listener_();
 }
 

@@ -28,7 +28,8 @@ struct SceneStoreLimits {
   std::uint64_t triangles = 20'000'000;  ///< limit for all scenes together
   /// Limit of the occupancy mirrors of all scenes together.
   std::uint64_t occupancy_bytes = std::uint64_t{4} << 30;
-  SceneHistory::Limits history;  ///< changes of each scene, bytes of all scenes together
+  SceneHistory::Limits history;  ///< limits of the changes of each scene, and of the bytes of all
+                                 ///< histories together
 };
 
 /// The reason why the store refused a change.
@@ -54,8 +55,9 @@ class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
 
-  /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
-  /// of the snapshot or, if that is higher, the next one of the name.
+  /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is the
+  /// larger of `snapshot->revision` and the next revision of that name. Requires that `snapshot` is
+  /// not null.
   StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {},
                   const ChangeTicket& ticket = {});
 
@@ -63,8 +65,8 @@ class SceneStore {
   StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
                      const ChangeTicket& ticket = {});
 
-  /// Makes a new revision with the objects of a kept one. If it is not kept, the error names those
-  /// that are.
+  /// Makes a new revision with the objects of `revision`. If the history does not hold `revision`,
+  /// returns an error that names those that it holds.
   StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {},
                       const ChangeTicket& ticket = {});
 
@@ -103,14 +105,14 @@ class SceneStore {
   [[nodiscard]] const SceneStoreLimits& limits() const { return limits_; }
 
  private:
-  /// Amounts that count towards the limits, of one scene or of all.
-  struct Load {
+  /// The amounts that count towards the limits: of one scene, or of all together.
+  struct Usage {
     std::uint64_t triangles = 0;
     std::uint64_t occupancy_bytes = 0;
   };
   struct Entry {
     std::shared_ptr<const Snapshot> newest;
-    Load load;
+    Usage usage;
     SceneHistory history;
   };
   using Scenes = std::map<std::string, Entry, std::less<>>;
@@ -128,7 +130,7 @@ class SceneStore {
     std::set<std::string, std::less<>>::iterator scene_;
   };
 
-  static Load load_of(const Snapshot& snapshot);
+  static Usage usage_of(const Snapshot& snapshot);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
   /// Requires that the caller holds the scene's `ChangeLock` and that `before` is its newest
   /// snapshot.
@@ -139,24 +141,30 @@ class SceneStore {
   /// `ChangeLock` is held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  /// Returns the fault that `next` would have in the place of the scene of its name; without an
-  /// error if it would have none. This and the next two functions require that mutex_ is held.
-  [[nodiscard]] StoreResult over_limit(const Snapshot& next, const Load& load) const;
-  /// Replaces a scene's load in `total_`; the load of no scene is empty.
-  void count(const Load& before, const Load& after);
-  /// Shortens the longest histories until the limit of all together is kept.
+  // The next three functions require that mutex_ is held.
+
+  /// Checks the limits as if `next` replaced the scene of its name. Returns `StoreFault::kLimit`
+  /// and an error if a limit would be exceeded, and nothing otherwise.
+  [[nodiscard]] std::optional<StoreResult> over_limit(const Snapshot& next,
+                                                      const Usage& usage) const;
+  /// Subtracts `before` from `total_` and adds `after`. An empty `Usage` stands for a scene that
+  /// does not exist.
+  void count(const Usage& before, const Usage& after);
+  /// Drops the oldest changes of the largest histories until all together are within
+  /// `limits_.history.bytes`.
   void forget_history();
 
-  void tell();
+  /// Calls the listener, if there is one.
+  void notify();
 
   const SceneStoreLimits limits_;
-  std::mutex telling_;              ///< held while the listener is called; locked before mutex_
-  std::function<void()> listener_;  ///< guarded by telling_
+  std::mutex notify_mutex_;         ///< held while the listener is called; locked before mutex_
+  std::function<void()> listener_;  ///< guarded by notify_mutex_
   mutable std::mutex mutex_;        ///< guards all below; held for short times only
   std::condition_variable turn_ended_;
   std::set<std::string, std::less<>> changing_;  ///< scenes whose `ChangeLock` is held
   Scenes scenes_;
-  Load total_;                         ///< sum over `scenes_`
+  Usage total_;                        ///< sum over `scenes_`
   std::uint64_t highest_removed_ = 0;  ///< highest revision of removed scenes
 };
 

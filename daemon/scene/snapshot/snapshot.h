@@ -61,8 +61,8 @@ struct SnapshotResult {
   bool is_from_cache = false;                ///< whether the scene was found in the cache
 };
 
-/// Assembles a scene from objects. The cost depends on the number of objects and of their parts,
-/// not on the size of these. Requires objects in the order of their names, each once, that were
+/// Assembles a scene from objects. The cost depends on the number of objects and parts, not on
+/// their numbers of triangles. Requires objects in the order of their names, each once, that were
 /// built with `options`.
 std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
                                          SceneObjects objects, const ObjectOptions& options);
@@ -72,8 +72,11 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 
 /// Makes a scene with one object, which is read from `file` and has the name of the scene. Fails
 /// within milliseconds after a stop is requested while the file is read or an occupancy mirror is
-/// built. Takes the scene from `cache`, or puts it there, if there is one; the scene is the same to
-/// the bit. Occupancy maps, and formats without a reader of our own, are not kept.
+/// built.
+///
+/// If `cache` is not null, takes the scene from it, or stores it there after the import. Both give
+/// the same scene, bit for bit. Occupancy maps, and files in formats that assimp reads, are not
+/// cached.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options = {}, const std::stop_token& stop = {},
                              const SceneCache* cache = nullptr);

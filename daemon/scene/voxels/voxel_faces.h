@@ -11,10 +11,10 @@
 
 namespace camway::scene {
 
-/// Returns the mesh of the faces between the voxels of `set`, of edge `voxel_m`, and all other
-/// voxels. Each face is two triangles that point outwards and share vertices with their neighbours.
-/// So the mesh is a closed surface, up to the rounding of i * voxel_m. Returns nothing if it would
-/// have more than `max_triangles`.
+/// Returns the mesh of all faces that separate a voxel of `set` from a voxel outside it. Voxels are
+/// cubes with the edge `voxel_m`. Each face is two triangles that point outwards and share vertices
+/// with their neighbours. So the mesh is a closed surface, up to the rounding of i * voxel_m.
+/// Returns nothing if it would have more than `max_triangles`.
 std::optional<Mesh> faces_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
 
 /// The faces of a set of voxels, with a mesh of its own for each brick of 16 x 16 x 16 voxels that
@@ -27,8 +27,8 @@ class VoxelFaces {
   /// faster, and smaller ones enlarge the upper tree of the scene's index.
   static constexpr unsigned kBrickLevels = 1;
 
-  /// The faces of `set`. Returns nothing if there are more than `max_triangles` triangles. Works on
-  /// all processors; the result does not depend on their number.
+  /// Returns the faces of `set`, or nothing if there are more than `max_triangles` triangles. Works
+  /// on all processors; the result does not depend on their number.
   static std::optional<VoxelFaces> of(const VoxelSet& set, double voxel_m,
                                       std::size_t max_triangles);
 

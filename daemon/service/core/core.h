@@ -33,40 +33,46 @@ using Planner = std::function<planning::PlanResult(
 
 using wire::utime_now;
 
-/// State that all services share. Owned by `Service`. All members except `mailbox`, `workers`,
-/// `scenes` and `log` belong to the loop thread.
+/// State that all services share. Owned by `Service`.
+///
+/// Not thread-safe, except for the members `mailbox`, `workers`, `scenes` and `log`: all others,
+/// and the functions, are for the loop thread.
 struct Core {
+  /// Requires that `inner_transport` and `scene_store` outlive this object.
   Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
        std::shared_ptr<Log> service_log);
 
-  /// Publishes CAMWAY_ERROR about `message` on `channel`, whose sender is not known.
+  /// Publishes CAMWAY_ERROR about `message`, which came in on `channel` and whose sender is not
+  /// known.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
                            std::string_view reason);
 
-  /// Decodes `message`, which came in on `channel`. Returns nothing if the message cannot be read
-  /// or its client id is not valid. Then it calls `refuse` as `on_malformed` does. Requires that
-  /// the type begins with client_id and request_id.
+  /// Decodes `message`, which came in on `channel`. If the message cannot be read or its client
+  /// id is not valid, calls `refuse` as `on_malformed` does and returns nothing. Requires that the
+  /// type begins with client_id and request_id.
   template <class Message, class Refuse>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message,
                               const Refuse& refuse);
-  /// Does the same for messages whose senders get no answer: publishes CAMWAY_ERROR with the fault.
+  /// Does the same for messages whose senders get no answer: publishes CAMWAY_ERROR with the fault
+  /// instead of calling `refuse`.
   template <class Message>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
 
   /// Counts and logs a message that cannot be read. If the message names its sender
   /// (`wire::Sender`), calls `refuse(sender, reason)`; otherwise publishes CAMWAY_ERROR. Does
-  /// neither if there were too many such messages lately.
+  /// neither for messages beyond `CoreConfig::malformed_answers_per_s`.
   template <class Message, class Refuse>
   void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
                     std::string_view reason, const Refuse& refuse);
 
-  /// Queues `job`. If the queue refuses or drops a job, abandons that job before it returns.
+  /// Queues `job`. If the queue has no room, calls `Job::abandon` of `job`, or of the waiting job
+  /// that `job` displaces, before it returns.
   void submit(Job job);
 
-  /// Abandons the jobs that waited for too long.
+  /// Removes the jobs that have expired from the queue and calls `Job::abandon` of each.
   void expire_jobs();
 
-  /// Returns the message to the sender of a job that is refused.
+  /// Returns the error text for the sender of a job that was refused for the reason `why`.
   [[nodiscard]] std::string refusal_text(Refusal why) const;
 
   /// Counts and logs a message that could not be read. Returns whether its sender may be answered.

@@ -5,20 +5,20 @@
 
 namespace camway::service {
 
-void LimitedLog::write(std::string_view event, LogFields facts, Clock::time_point now) {
+void LimitedLog::write(std::string_view event, LogFields fields, Clock::time_point now) {
   if (!log_->writes(level_)) return;
-  tell_left_out(now);
+  report_suppressed(now);
   if (!bucket_.take(now)) {
-    ++left_out_;
+    ++suppressed_;
     return;
   }
-  log_->write(level_, event, facts);
+  log_->write(level_, event, fields);
 }
 
-void LimitedLog::tell_left_out(Clock::time_point now) {
-  if (left_out_ == 0 || now < tell_at_ || !bucket_.take(now)) return;
-  tell_at_ = now + kTellEvery;
-  const std::int64_t lines = std::exchange(left_out_, 0);
+void LimitedLog::report_suppressed(Clock::time_point now) {
+  if (suppressed_ == 0 || now < report_at_ || !bucket_.take(now)) return;
+  report_at_ = now + kReportPeriod;
+  const std::int64_t lines = std::exchange(suppressed_, 0);
   log_->write(level_, "lines left out", {{"kind", kind_}, {"lines", lines}});
 }
 
@@ -31,10 +31,10 @@ LimitedLogs::LimitedLogs(const std::shared_ptr<Log>& log, const LimitedLog::Limi
       refused(log, LogLevel::kWarn, "refused", limits),
       trouble(log, LogLevel::kWarn, "trouble", limits) {}
 
-void LimitedLogs::tell_left_out(LimitedLog::Clock::time_point now) {
+void LimitedLogs::report_suppressed(LimitedLog::Clock::time_point now) {
   for (LimitedLog* const kind :
        {&answers, &occupancy, &scenes, &watches, &malformed, &refused, &trouble}) {
-    kind->tell_left_out(now);
+    kind->report_suppressed(now);
   }
 }
 

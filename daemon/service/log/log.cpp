@@ -94,20 +94,20 @@ std::string as_value(std::string_view text) {
 std::string as_value(std::int64_t number) { return std::to_string(number); }
 std::string as_value(double number) { return fmt::format("{:g}", number); }
 
-std::string text_line(std::string_view event, LogFields facts) {
+std::string text_line(std::string_view event, LogFields fields) {
   std::string line;
   for (const char c : event) line += is_control(c) || is_beyond_ascii(c) ? '?' : c;
-  for (const LogField& fact : facts) {
-    line += fmt::format(" {}={}", fact.key,
-                        std::visit([](const auto& value) { return as_value(value); }, fact.value));
+  for (const LogField& field : fields) {
+    line += fmt::format(" {}={}", field.key,
+                        std::visit([](const auto& value) { return as_value(value); }, field.value));
   }
   return line;
 }
 
-std::string json_line(std::string_view event, LogFields facts) {
+std::string json_line(std::string_view event, LogFields fields) {
   nlohmann::ordered_json object{{"event", event}};
-  for (const LogField& fact : facts) {
-    std::visit([&](const auto& value) { object[std::string(fact.key)] = value; }, fact.value);
+  for (const LogField& field : fields) {
+    std::visit([&](const auto& value) { object[std::string(field.key)] = value; }, field.value);
   }
   using Json = nlohmann::ordered_json;
   constexpr bool kEscapeBeyondAscii = true;
@@ -152,11 +152,11 @@ Log::Log(std::ostream& out, LogFormat format, LogLevel level)
 
 Log::~Log() = default;
 
-void Log::write(LogLevel level, std::string_view event, LogFields facts) noexcept {
+void Log::write(LogLevel level, std::string_view event, LogFields fields) noexcept {
   try {
     if (!writes(level)) return;
     const std::string line =
-        library_->format == LogFormat::kText ? text_line(event, facts) : json_line(event, facts);
+        library_->format == LogFormat::kText ? text_line(event, fields) : json_line(event, fields);
     library_->logger.log(library_level(level), spdlog::string_view_t(line));
   } catch (...) {
     // Want of memory must not end the work that the line is about.

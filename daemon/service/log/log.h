@@ -20,7 +20,8 @@ inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "i
                                                             "warn",  "error", "off"};
 inline constexpr std::array<std::string_view, 2> kLogFormats{"text", "json"};
 
-/// A key with a value in a line of the log. Does not copy its texts.
+/// A key with a value in a line of the log. Does not copy its texts, which must outlive the call
+/// that logs them. Integers above INT64_MAX wrap to negative numbers.
 struct LogField {
   using Value = std::variant<std::string_view, std::int64_t, double>;
 
@@ -46,21 +47,22 @@ using LogFields = std::initializer_list<LogField>;
 /// data.
 class Log {
  public:
-  /// `out` must outlive this, and nothing else may write to it.
+  /// Requires that `out` outlives this object and that nothing else writes to it.
   Log(std::ostream& out, LogFormat format, LogLevel level);
   ~Log();
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  void write(LogLevel level, std::string_view event, LogFields facts = {}) noexcept;
-  void info(std::string_view event, LogFields facts = {}) noexcept {
-    write(LogLevel::kInfo, event, facts);
+  /// Writes a line, unless `level` is below that of the log. A line that cannot be written is lost.
+  void write(LogLevel level, std::string_view event, LogFields fields = {}) noexcept;
+  void info(std::string_view event, LogFields fields = {}) noexcept {
+    write(LogLevel::kInfo, event, fields);
   }
-  void warn(std::string_view event, LogFields facts = {}) noexcept {
-    write(LogLevel::kWarn, event, facts);
+  void warn(std::string_view event, LogFields fields = {}) noexcept {
+    write(LogLevel::kWarn, event, fields);
   }
-  void error(std::string_view event, LogFields facts = {}) noexcept {
-    write(LogLevel::kError, event, facts);
+  void error(std::string_view event, LogFields fields = {}) noexcept {
+    write(LogLevel::kError, event, fields);
   }
 
   /// Returns whether lines of that level are written.

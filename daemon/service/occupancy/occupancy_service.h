@@ -17,14 +17,14 @@
 
 namespace camway::service {
 
-/// Answers batches of occupancy queries. Workers query the map; all else runs on the loop thread.
-/// Nothing is cached: the map of a revision never changes and querying it again costs little, so a
-/// repeated request gets equal lists. Deadlines count from the receipt. A batch that is sent again
-/// while it waits or is being answered is ignored.
-/// Not thread-safe: for the loop thread.
+/// Answers batches of occupancy queries. Workers query the mirror; everything else runs on the loop
+/// thread. The deadline of a batch counts from its receipt. A batch that is sent again while it
+/// waits or is being answered is ignored. One that is sent again later is answered again: answers
+/// are not cached, because the mirror of a revision never changes and a query costs little. Not
+/// thread-safe: for the loop thread.
 class OccupancyService {
  public:
-  /// `core` must outlive the service; `deadline` applies to batches.
+  /// Requires that `core` outlives the service. `deadline`: limits of the deadlines of batches.
   OccupancyService(Core& core, const messages::DeadlineLimits& deadline)
       : core_(core), deadline_(deadline) {}
 
@@ -51,7 +51,7 @@ class OccupancyService {
   void on_request(const Request& request);
   void begin(const Request& request, std::shared_ptr<const scene::Snapshot> snapshot);
   void abandon(const Request& request, Refusal why);
-  /// Sends the answer to a batch, unless that was cancelled.
+  /// Sends the answer to a batch, unless the batch was cancelled.
   void finish(const Request& request, occupancy_response_t answer);
   void send(occupancy_response_t answer);
 

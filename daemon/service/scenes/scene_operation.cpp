@@ -272,7 +272,7 @@ class SceneOperation {
 
 }  // namespace
 
-bool only_looks(const scene_request_t& request) {
+bool is_query(const scene_request_t& request) {
   return request.operation == scene_request_t::LIST ||
          request.operation == scene_request_t::DESCRIBE ||
          request.operation == scene_request_t::HISTORY;

@@ -13,8 +13,8 @@
 
 namespace camway::service {
 
-/// Returns whether the operation is a query, which may be repeated at any time.
-bool only_looks(const scene_request_t& request);
+/// Returns whether the operation is a query: it changes no scene, and may be repeated at any time.
+bool is_query(const scene_request_t& request);
 
 /// Returns the name of the scene that the operation changes or queries.
 const std::string& target_of(const scene_request_t& request);
@@ -29,10 +29,12 @@ struct SceneReply {
 };
 
 /// Carries out a request and returns its answer, with `utime` 0; the import process reads a file or
-/// upload. `upload` is the one that the request names, null if it is not there. A cancelled request
-/// fails; its message is discarded. May take as long as the import of a file. Thread-safe, but the
-/// changes of one scene must be made one after the other, or a change that is made in between may
-/// be lost.
+/// upload. `upload` is the one that the request names, null if it is not there. If
+/// the request is cancelled meanwhile, the caller must discard the reply. May take as long as the
+/// import of a file.
+///
+/// Thread-safe, but the caller must run the changes of one scene one after the other: a scan reads
+/// the map before it changes it, so a concurrent change may be lost.
 SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
                    const OperationContext& context);
 

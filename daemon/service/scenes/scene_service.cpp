@@ -13,8 +13,8 @@
 #include <camway/cancel_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
+#include "daemon/service/scenes/ineffective_members.h"
 #include "daemon/service/scenes/scene_answers.h"
-#include "daemon/service/scenes/scene_idle.h"
 #include "lcmtypes/wire/check.h"
 
 namespace camway::service {
@@ -89,9 +89,9 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded->object = wire::printable(decoded->object);
   decoded->restore_as = wire::printable(decoded->restore_as);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded));
-  if (const std::string idle = idle_member(*request); !idle.empty()) {
+  if (const std::string idle = ineffective_member(*request); !idle.empty()) {
     send(plain_scene_answer(*request, scene_response_t::STATUS_INVALID, idle));
-  } else if (only_looks(*request)) {
+  } else if (is_query(*request)) {
     finish(*request, reply_to(*request, nullptr, context({})).answer);
   } else if (!(request->deadline_s >= 0.0)) {
     send(plain_scene_answer(
@@ -217,10 +217,10 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
                                   {"status", messages::status_name(answer.status)},
                                   {"revision", answer.scene.revision},
                                   {"message", answer.message}});
-  const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
+  const bool changed = !is_query(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
-  if (!only_looks(request)) {
+  if (!is_query(request)) {
     forget(key_of(request));
     cache_.finish(key_of(request), std::move(pages));
   }

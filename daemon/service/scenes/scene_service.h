@@ -22,23 +22,25 @@ namespace camway::service {
 
 /// Lets clients query and change scenes. Queries are answered at once. Changes run on threads of
 /// their own, so that planning does not wait for the import of a large file. Changes of different
-/// scenes run in parallel. Changes of one scene run one after the other, so that two moves of one
-/// client keep their order. Clients take turns as for planning (`FairQueue`), and no client uses
-/// all threads (if there are several), so that imports of one client leave room for moves of
-/// others. Not thread-safe: for the loop thread.
+/// scenes run in parallel. Changes of one scene run one after the other, in the order of their
+/// arrival for each client. Clients take turns as for planning (`FairQueue`). If there are several
+/// threads, no client uses all of them, so that a long import of one client does not delay the
+/// changes of others.
 ///
-/// A change has a deadline, which counts from its receipt, and a client can cancel it. A change
-/// that is cancelled, or whose deadline passes, is answered at once, whatever a worker is doing,
-/// and changes nothing. A change that is committed cannot be cancelled any more; its answer is on
-/// the way.
+/// The deadline of a change counts from its receipt. A client can cancel a change. A change that is
+/// cancelled, or whose deadline passes, is answered at once, even if a worker is still at it, and
+/// changes nothing. A change that is committed cannot be cancelled any more: its answer is on the
+/// way.
 ///
 /// A change that is sent again, with equal ids and content, is not made again: it gets the same
 /// answer.
+///
+/// Not thread-safe: for the loop thread.
 class SceneService {
  public:
   using Clock = Job::Clock;
 
-  /// `core` and `scenes` must outlive the service.
+  /// Requires that `core` and `scenes` outlive the service.
   SceneService(Core& core, scene::SceneStore& scenes, const SceneConfig& config);
 
   /// Handles a message on the scene request channel. Throws only if memory runs out.
@@ -55,18 +57,19 @@ class SceneService {
 
   /// Answers the changes whose deadline has passed by `now`.
   void tick(Clock::time_point now);
-  /// Returns when `tick` is due next; the end of time if never.
+  /// Returns the time at which `tick` is due next; `time_point::max()` if there is none.
   [[nodiscard]] Clock::time_point next_tick() const;
 
   /// Accepts no more changes, and refuses all that are not committed yet.
   void close();
-  /// Refuses all changes that are not answered yet, and waits no longer for cancelled ones.
+  /// Refuses all changes that are not answered yet. `unfinished` no longer counts cancelled ones
+  /// that a worker is still at.
   void give_up();
-  /// Returns how many changes wait, are being made (cancelled ones included), or are made and not
-  /// answered yet.
+  /// Returns the number of changes that wait, are being made (cancelled ones included), or are made
+  /// and not answered yet.
   [[nodiscard]] std::size_t unfinished() const { return unanswered_.size() + left_behind_.size(); }
-  /// Cancels all changes that are not committed, and waits for the workers. To be called before
-  /// `Core` is destroyed.
+  /// Cancels all changes that are not committed, and waits for the workers. The owner must call it
+  /// before it destroys `core`.
   void stop();
 
  private:

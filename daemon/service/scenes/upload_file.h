@@ -9,13 +9,14 @@
 
 namespace camway::service {
 
-/// An upload as a temporary file, since the import process opens files by name. The destructor
-/// removes it. The file is locked as long as this process lives, so that other processes can tell
-/// it from a file that was left behind.
+/// A temporary file with the bytes of an upload, because the import process opens files by name.
+/// The destructor removes it. The file is locked as long as this object lives, so that
+/// `remove_left_upload_files` of other processes can distinguish it from a file that was left
+/// behind.
 class UploadFile {
  public:
-  /// Writes the file into the folder for temporary files. Its name ends with `.extension`, by which
-  /// the importer knows the format.
+  /// Writes the file into the folder for temporary files. Its name ends with `.extension`, which
+  /// tells the importer the format.
   UploadFile(const UploadRoom& bytes, const std::string& extension);
   ~UploadFile();
   UploadFile(const UploadFile&) = delete;
@@ -31,7 +32,8 @@ class UploadFile {
   bool is_good_ = false;
 };
 
-/// Removes upload files that killed processes of this user left, and no others. Returns how many.
+/// Removes the upload files that killed processes of this user left behind, and no others. Returns
+/// their number.
 std::size_t remove_left_upload_files();
 
 }  // namespace camway::service

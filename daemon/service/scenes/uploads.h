@@ -16,8 +16,8 @@
 
 namespace camway::service {
 
-/// Memory for bytes that arrive in any order. It is not initialised, so it takes only the memory of
-/// the bytes that arrived, and allocating it takes no time.
+/// Memory for bytes that arrive in any order. It is not initialised. So its allocation takes no
+/// time, and the system provides only the memory pages to which bytes were written.
 class UploadRoom {
  public:
   explicit UploadRoom(std::size_t size)
@@ -32,11 +32,11 @@ class UploadRoom {
   std::size_t size_;
 };
 
-/// A complete upload. Shared, so that it can be read while the store forgets it.
+/// A complete upload. It is shared, so that it can be read after `Uploads` has dropped it.
 using UploadedBytes = std::shared_ptr<const UploadRoom>;
 
-/// Identifies an upload by its sender and content. So an interrupted upload continues where it
-/// stopped, even if the client was restarted.
+/// Identifies an upload by its sender and content. So an interrupted upload continues where it was
+/// interrupted, even if the client was restarted.
 struct UploadKey {
   std::string client_id;
   std::int64_t total_bytes = 0;
@@ -45,26 +45,27 @@ struct UploadKey {
   auto operator<=>(const UploadKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Joins the pages of uploads, which arrive in any order and any number of times. To make room,
-/// forgets an upload of the client that takes the most: the one that was not touched during the
-/// longest time. So a client that begins many uploads displaces only its own.
-/// Not thread-safe.
+/// Joins the pages of uploads. Pages arrive in any order and any number of times. To make room,
+/// chooses the client with the most uploads, or the most bytes of uploads, and drops that of its
+/// uploads to which no page came for the longest time. So a client that begins many uploads
+/// displaces only its own. Not thread-safe.
 class Uploads {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Limits {
-    std::size_t uploads = 16;                   ///< uploads that are begun or complete
+    std::size_t uploads = 16;                   ///< number of uploads, incomplete or complete
     std::size_t bytes = std::size_t{64} << 20;  ///< size of one upload
-    /// Size of all uploads, including those that are forgotten but still read.
+    /// Size of all uploads, including dropped ones that are still read.
     std::size_t total_bytes = std::size_t{256} << 20;
-    std::chrono::milliseconds idle{600'000};  ///< time after which an untouched one is forgotten
+    std::chrono::milliseconds idle{
+        600'000};  ///< time without a page after which an upload is dropped
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
 
-  /// Takes a page. Returns whether to answer it, and with what (`upload_status_t`). Requires a
-  /// valid client id.
+  /// Takes a page. Returns whether the caller must answer it, and the answer. Requires a valid
+  /// client id (`wire::is_client_id`).
   struct Taken {
     bool answer = false;
     upload_status_t status;
@@ -74,7 +75,7 @@ class Uploads {
   /// Returns the complete upload, or null.
   [[nodiscard]] UploadedBytes find(const UploadKey& key) const;
 
-  /// Returns the size of all uploads that can be found, begun or complete.
+  /// Returns the size of all uploads that are not dropped, incomplete or complete. [Units: bytes]
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
@@ -108,7 +109,7 @@ class Uploads {
   Limits limits_;
   Map uploads_;
   std::size_t bytes_ = 0;
-  std::vector<std::weak_ptr<const UploadRoom>> held_;  ///< forgotten uploads that may still be read
+  std::vector<std::weak_ptr<const UploadRoom>> held_;  ///< dropped uploads that may still be read
 };
 
 }  // namespace camway::service

@@ -13,12 +13,13 @@
 namespace camway::service {
 
 /// A transport that signs all outgoing messages. It drops incoming messages without a valid
-/// signature, counts them, and logs them within limits. Not thread-safe: for the thread that owns
-/// the transport.
+/// signature, counts them, and logs them within limits.
+///
+/// Not thread-safe, except for `wake`: all other calls come from the thread that owns the
+/// transport.
 class AuthTransport final : public Transport {
  public:
-  /// Numbers of messages by the reason why they were not trusted: the index is the
-  /// `wire::Distrust`.
+  /// The number of messages that were not trusted, for each `wire::Distrust`, which is the index.
   using Distrusted = std::array<std::int64_t, wire::kDistrusts>;
 
   /// `inner` must outlive this. If signatures are not `required`, unsigned messages are counted and
@@ -35,10 +36,10 @@ class AuthTransport final : public Transport {
   }
   void wake() noexcept override { inner_.wake(); }
 
-  /// Returns the numbers since this was made.
+  /// Returns the numbers since this object was made.
   [[nodiscard]] const Distrusted& distrusted() const { return distrusted_; }
-  /// See `LimitedLog`.
-  void tell_left_out() { log_.tell_left_out(); }
+  /// Logs how many lines were suppressed (`LimitedLog::report_suppressed`).
+  void report_suppressed() { log_.report_suppressed(); }
 
  private:
   void take(const std::string& channel, std::span<const std::uint8_t> message,

@@ -36,33 +36,34 @@ struct WatchableAnswer {
   double colliding_s = 0.0;
 };
 
-/// The watched paths of all clients: their leases, their states, and which state each client knows.
-/// A path is watched until its lease ends, unless the client renews it. A new state is sent at
-/// once. It is repeated with growing pauses until the client confirms it. So the protocol tolerates
-/// lost messages, and restarts of the client or the daemon.
+/// The watched paths of all clients: their leases, their states, and the states that the clients
+/// know. A path is watched until its lease ends, unless the client renews it. A new state is sent
+/// at once, and repeated with growing pauses until the client confirms it. So the protocol
+/// tolerates lost messages, and restarts of the client or the daemon.
 ///
 /// When a path was replaced because it collided, the replacement stays in use even after the
 /// obstacle is gone. To notice that, up to three former paths are watched too: the path as
 /// interpolated, if it collided from the beginning, the first one and the most recent one. When a
 /// former path collides for less time than before, the request is planned again. Only one request
-/// is planned so at a time, and each request at most once per pause, which grows
-/// (`kFirstImprovePause`). If the new answer is better (`is_better`), the client is offered it and
-/// decides whether to accept it. An offer that a change breaks is withdrawn.
+/// is planned for this reason at a time. Each request waits between two attempts for a pause that
+/// grows (`kFirstImprovePause`). If the new answer is better (`is_better`), the client gets it as
+/// an offer and decides whether to accept it. An offer whose path collides after a change is
+/// withdrawn.
 ///
 /// Not thread-safe: for the loop thread.
 class Watches {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `core` and `scenes` must outlive this.
+  /// Requires that `core` and `scenes` outlive this object.
   Watches(Core& core, scene::SceneStore& scenes, const WatchLimits& limits);
 
   /// Watches the path of a first answer, or replaces the path that is watched under its key.
-  /// Returns false if a limit prevents that, and tells the client.
+  /// If a limit prevents that, sends the client a report and returns false.
   bool begin(const WatchableAnswer& answer, Clock::time_point now);
 
-  /// The client asked again: renews the lease and reports the state. Returns false if nothing is
-  /// watched under that key.
+  /// Renews the lease of a path whose request came in again, and reports its state. Returns false
+  /// if nothing is watched under that key.
   bool renew(const RequestKey& key, Clock::time_point now);
 
   /// Handles a message on the watch channel. Throws only if memory runs out.
@@ -90,8 +91,8 @@ class Watches {
   /// Notes that the answer that was sent has no proved path. The previous path remains watched.
   void answered(const RequestKey& key, std::int64_t answer_revision, Clock::time_point now);
 
-  /// Returns a request whose path is free, but for which there may be a better one by now. Requires
-  /// a call of `offer`, `no_offer` or `not_improved` before the next is taken.
+  /// Returns a request whose path is free, but for which there may be a better path by now.
+  /// Requires a call of `offer`, `no_offer` or `not_improved` before the next call.
   std::optional<Request> take_improvable(Clock::time_point now);
   /// Notes that the request was planned, with this answer. Offers the answer to the client if it is
   /// better.
@@ -101,7 +102,7 @@ class Watches {
   /// Notes that the request was not planned; it is tried again later.
   void not_improved(const RequestKey& key, Clock::time_point now);
 
-  /// An offer that a client accepted. Its answer is the answer to the request from now on.
+  /// An offer that a client accepted. Its answer replaces the earlier answer to the request.
   struct Accepted {
     WatchableAnswer answer;
     Pages pages;
@@ -125,7 +126,8 @@ class Watches {
     Pages pages;
     WatchChecker::Id id = 0;
     std::size_t bytes = 0;
-    bool is_checked = false;  ///< checked and free: the client is told of it
+    bool is_checked =
+        false;  ///< whether its path is checked and free, and the client knows the offer
   };
   struct Watch {
     WatchableAnswer answer;
@@ -133,16 +135,16 @@ class Watches {
     std::size_t bytes = 0;
     Clock::duration lease{};
     Clock::time_point until;
-    bool is_checked = false;  ///< it has a verdict
+    bool is_checked = false;  ///< whether `collisions` and `revision` are set
     std::vector<collision::CollisionInterval> collisions;
     std::uint64_t revision = 0;  ///< revision of the scene that `collisions` hold for
     std::int64_t answer_revision = 0;
     std::int64_t serial = 0;  ///< number of the newest state
-    bool is_known = false;    ///< the client knows the newest state
+    bool is_known = false;    ///< whether the client knows the newest state
     Clock::time_point tell_at;
     Clock::duration pause{};  ///< until the state is sent again
     Planning planning = Planning::kNot;
-    bool is_outdated = false;     ///< something near the path has changed since planning began
+    bool is_outdated = false;     ///< whether the scene near the path changed since planning began
     Clock::time_point due;        ///< its place in `due_`
     std::vector<Former> formers;  ///< as interpolated, the first path, and the one before this
     std::optional<Offer> offer;

@@ -28,29 +28,41 @@ class MessageKeys {
     std::string error;  ///< names file and line; empty exactly when `keys` is set
   };
   /// Reads a file with a key on each line: an id from 0 to 2147483647, and 64 hexadecimal digits.
-  /// `#` begins a remark. The first key signs; every key is accepted.
+  /// `#` begins a remark. `sign` uses the first key; `verify` accepts every key.
   ///
   /// Requires a regular file that belongs to the user of this process and that nobody else may use;
-  /// or a file of root's that at most its group may read, for a service whose user owns no files.
-  /// (An access control list shows as rights of the group, so files of systemd's LoadCredential
-  /// pass.)
+  /// or a regular file that root owns, that only root may write, and that only root and the file's
+  /// group may read. The second form is for a service whose user owns no files. (An access control
+  /// list shows as rights of the group, so files of systemd's LoadCredential pass.)
+  ///
+  /// Returns an error for any other file, for one of more than 16 KiB, without a key, with more
+  /// than `kMaxKeys` keys, with an id that occurs twice, or with a line of another form.
   static Read from_file(const std::string& file);
-  /// Reads the text of such a file. `file` is its name for messages.
+  /// Reads the text of such a file, of any size. `file` is its name for messages.
   static Read from_text(std::string_view text, const std::string& file);
 
   ~MessageKeys();
   MessageKeys(const MessageKeys&) = delete;
   MessageKeys& operator=(const MessageKeys&) = delete;
 
-  /// Sets `key_id` and `tag` of an envelope. Requires all its other members to be set.
+  /// Signs an envelope with the first key: sets `key_id` and `tag`. Requires all its other members
+  /// to be set. The tag is the keyed BLAKE2b hash (libsodium's generichash) of a constant, the
+  /// channel and all other members.
   void sign(std::string_view channel, envelope_t& envelope) const;
 
-  enum class Verdict : std::uint8_t { kGood, kUnknownKey, kAltered };
+  enum class Verdict : std::uint8_t {
+    kGood,
+    kUnknownKey,  ///< no key has the envelope's `key_id`
+    kAltered,     ///< the tag is not that of the channel and the other members
+  };
+  /// Returns whether the tag of an envelope that came in on `channel` is that which `sign` gives
+  /// with the key `key_id`. Compares tags in constant time. Does not check `utime` and `counter`.
   [[nodiscard]] Verdict verify(std::string_view channel, const envelope_t& envelope) const;
 
+  /// Returns the ids of the keys, in the order of the file.
   [[nodiscard]] std::vector<std::int32_t> ids() const;
 
-  /// Returns a cryptographically secure random number.
+  /// Returns a cryptographically secure random number, any value of std::int64_t.
   static std::int64_t random_number();
 
  private:

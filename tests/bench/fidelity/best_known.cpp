@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "tests/bench/fidelity/assembly.h"
 #include "tests/bench/fidelity/changed_ranges.h"
 #include "tests/bench/fidelity/local_search.h"

@@ -9,7 +9,7 @@
 #include "daemon/correction/path/free_space.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/spline/cubic_path.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/bench/request_set.h"
 

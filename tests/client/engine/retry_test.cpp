@@ -102,7 +102,7 @@ TEST(Retry, GivesUpADaemonThatEndsUnlessAnotherIsHeard) {
   Retry retry(rules, kStart + seconds(100), 1);
   EXPECT_EQ(retry.next(kStart), Action::kSend);
   retry.note_stopping(kStart + milliseconds(200));
-  retry.note_stopping(kStart + milliseconds(900));  // again, as the question was repeated
+  retry.note_stopping(kStart + milliseconds(900));  // again, as the request was repeated
   Clock::time_point now = kStart + milliseconds(200);
   while (retry.next(now) != Action::kSilence) now = retry.wake();
   EXPECT_EQ(now, kStart + milliseconds(1700));
@@ -121,7 +121,7 @@ TEST(Retry, GivesUpADaemonThatEndsUnlessAnotherIsHeard) {
   EXPECT_EQ(patient.next(kStart + seconds(2)), Action::kSend) << "as long as the retries last";
 }
 
-TEST(Retry, AnotherQuestionIsSentAtOnceAndAsPatiently) {
+TEST(Retry, AnotherRequestIsSentAtOnceAndAsPatiently) {
   Retry retry(kRules, kStart + seconds(100), 1);
   Clock::time_point now = kStart;
   for (int i = 0; i < 3; ++i) {
@@ -136,7 +136,7 @@ TEST(Retry, AnotherQuestionIsSentAtOnceAndAsPatiently) {
   EXPECT_EQ(retry.wake(), now + seconds(1));
 }
 
-TEST(Retry, AQuestionWithLittleTimeIsRepeatedWithinIt) {
+TEST(Retry, ARequestWithLittleTimeIsRepeatedWithinIt) {
   Retry retry(kRules, kStart + seconds(100), 1);
   EXPECT_EQ(retry.next(kStart), Action::kSend);
   const Clock::time_point now = kStart + milliseconds(500);

@@ -100,7 +100,6 @@ TEST_F(CorrectedPathTest, JoinsChangesThatOverlap) {
   EXPECT_EQ(corrected.changed_parts()[0].begin_s, 3.0);
   EXPECT_EQ(corrected.changed_parts()[0].end_s, 17.0);
   EXPECT_FALSE(corrected.changed_parts()[0].turns);
-  EXPECT_EQ(corrected.changed_parts()[0].corrections, 5);
 }
 
 TEST_F(CorrectedPathTest, RestoresOneChangedPartAndKeepsTheOthersBitForBit) {

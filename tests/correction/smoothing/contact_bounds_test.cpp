@@ -116,7 +116,7 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
 
 TEST(ContactBounds, RememberForcesForTheNextTime) {
   Draw draw(6204);
-  ContactBounds bounds(Objective::kClosest, kBallRadius_m, kViewingDistance_m);
+  ContactBounds bounds(Objective::kClosest, true, kBallRadius_m, kViewingDistance_m);
   std::vector<Contact> near = contacts(draw, {0.01, 0.2});
   bounds.add(0, StackedPoint::Zero(), kReply, near);
   double force = 1.0;

@@ -86,7 +86,7 @@ TEST(Bump, KeepsThePathSmooth) {
 }
 
 // Knots are a few nanoseconds apart, or as far from time 0 as seconds since 1970. The rows have
-// their knots where the path has joints, and the path stays smooth by the numbers that are sent.
+// their knots where the path has knots, and the path stays smooth by the numbers that are sent.
 TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
   Random random(817);
   for (int round = 0; round < 200; ++round) {
@@ -97,7 +97,7 @@ TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
     places->taken_s.push_back(path.end_s());
     places->same_s = 1e-5;
     BumpRow row = random_row(random, path, 0.05);
-    // One of its inner knots is next to a joint.
+    // One of its inner knots is next to a knot of the path.
     const double near_s = path.pieces[2].t0_s + random.log_uniform(1e-12, 5e-6);
     const double spacing_s = row.knots.spacing_s();
     row.knots = {near_s - 2.0 * spacing_s, near_s + 2.0 * spacing_s, 4, places};

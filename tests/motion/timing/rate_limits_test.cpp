@@ -12,7 +12,7 @@ using testing::Random;
 double sampled_stretch(const Segment& segment, const RateLimits& limits) {
   double factor = 0.0;
   for (int i = 0; i <= 2000; ++i)
-    factor = std::max(factor, needed_stretch(segment, i / 2000.0, limits));
+    factor = std::max(factor, needed_slow_down(segment, i / 2000.0, limits));
   return factor;
 }
 
@@ -37,7 +37,7 @@ TEST(RateLimits, NoLimitIsAlwaysMet) {
   for (int round = 0; round < 50; ++round) {
     const Segment segment = test::random_segment(random, 0.4);
     EXPECT_TRUE(meets(segment, RateLimits{}));
-    EXPECT_EQ(needed_stretch(segment, 0.5, RateLimits{}), 0.0);
+    EXPECT_EQ(needed_slow_down(segment, 0.5, RateLimits{}), 0.0);
   }
 }
 
@@ -51,8 +51,8 @@ TEST(RateLimits, AreMetExactlyWhereDenseSamplesSaySo) {
     const double factor = sampled_stretch(segment, limits);
     EXPECT_TRUE(meets(slower(segment, 1.001 * factor), limits)) << "round " << round;
     EXPECT_FALSE(meets(slower(segment, 0.999 * factor), limits)) << "round " << round;
-    EXPECT_TRUE(meets(segment, stretched(limits, 1.001 * factor))) << "round " << round;
-    EXPECT_FALSE(meets(segment, stretched(limits, 0.999 * factor))) << "round " << round;
+    EXPECT_TRUE(meets(segment, scaled_limits(limits, 1.001 * factor))) << "round " << round;
+    EXPECT_FALSE(meets(segment, scaled_limits(limits, 0.999 * factor))) << "round " << round;
   }
 }
 
@@ -62,8 +62,8 @@ TEST(RateLimits, TheNeededStretchIsWhatMakesThePathSlowEnough) {
     const Segment segment = test::random_segment(random, 0.4);
     const RateLimits limits = random_limits(random);
     const double u = random.uniform(0.0, 1.0);
-    const Segment slowed = slower(segment, needed_stretch(segment, u, limits));
-    EXPECT_NEAR(needed_stretch(slowed, u, limits), 1.0, 1e-12);
+    const Segment slowed = slower(segment, needed_slow_down(segment, u, limits));
+    EXPECT_NEAR(needed_slow_down(slowed, u, limits), 1.0, 1e-12);
   }
 }
 

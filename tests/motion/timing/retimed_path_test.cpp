@@ -35,7 +35,7 @@ TEST(RetimedPath, IsSmoothAndMeetsThePathAtTheKnots) {
     SCOPED_TRACE(::testing::Message() << "round " << round);
     const CubicPath path = random_path(random, random.integer(2, 9));
     const TimeLaw law = TimeLaw::within(path.path(), kBiting, random.log_uniform(0.02, 0.5));
-    ASSERT_GT(law.stretch(), 1.0);
+    ASSERT_GT(law.slow_down(), 1.0);
     const CubicPath slowed = retimed(path, law);
     // The rounding of the solution of a tridiagonal system, instead of a few sums.
     test::expect_smooth(slowed.path(), 8.0);
@@ -77,8 +77,8 @@ TEST(RetimedPath, IsTheSamePathByTheLawThatChangesNothing) {
 TEST(RetimedPath, StretchedKeepsEveryControlPoint) {
   Random random(3304);
   const CubicPath path = random_path(random, 7);
-  const TimeLaw law = TimeLaw::alike({path.begin_s(), path.end_s()}, 1.7);
-  const CubicPath slower = stretched(path, law);
+  const TimeLaw law = TimeLaw::uniform({path.begin_s(), path.end_s()}, 1.7);
+  const CubicPath slower = with_new_times(path, law);
   ASSERT_EQ(slower.pieces.size(), path.pieces.size());
   for (std::size_t i = 0; i < path.pieces.size(); ++i) {
     EXPECT_EQ(slower.pieces[i].position, path.pieces[i].position);

@@ -17,11 +17,11 @@ Path random_segments(Random& random, int count) {
   return interpolate(test::with_times(test::random_poses(random, count)));
 }
 
-double largest_stretch(const Path& path, const RateLimits& limits) {
+double largest_slow_down(const Path& path, const RateLimits& limits) {
   double factor = 0.0;
   for (const Segment& segment : path.segments()) {
     for (int i = 0; i <= 64; ++i)
-      factor = std::max(factor, needed_stretch(segment, i / 64.0, limits));
+      factor = std::max(factor, needed_slow_down(segment, i / 64.0, limits));
   }
   return factor;
 }
@@ -34,7 +34,7 @@ RateLimits biting_limits(Random& random, const Path& path) {
     if (random.chance(0.5)) limits.speed_m_per_s = random.log_uniform(0.2, 5.0);
     if (random.chance(0.5)) limits.acceleration_m_per_s2 = random.log_uniform(0.05, 5.0);
     if (random.chance(0.5)) limits.turn_rate_rad_per_s = random.log_uniform(0.2, 5.0);
-  } while (!(largest_stretch(path, limits) > 1.05));
+  } while (!(largest_slow_down(path, limits) > 1.05));
   return limits;
 }
 
@@ -59,9 +59,9 @@ TEST(TimeLaw, LeavesAPathThatMeetsItsLimitsAsItIs) {
   Random random(3201);
   for (int round = 0; round < 20; ++round) {
     const Path path = random_segments(random, 6);
-    const double factor = largest_stretch(path, {1.0, 1.0, 1.0});
-    const TimeLaw law = TimeLaw::within(path, stretched({1.0, 1.0, 1.0}, 1.05 * factor), 0.05);
-    EXPECT_EQ(law.stretch(), 1.0);
+    const double factor = largest_slow_down(path, {1.0, 1.0, 1.0});
+    const TimeLaw law = TimeLaw::within(path, scaled_limits({1.0, 1.0, 1.0}, 1.05 * factor), 0.05);
+    EXPECT_EQ(law.slow_down(), 1.0);
     EXPECT_EQ(law.knots_s().size(), path.segments().size() + 1);
     const double time_s = random.uniform(path.begin_s(), path.end_s());
     EXPECT_NEAR(law.new_time_s(time_s), time_s, 1e-12 * path.end_s());
@@ -73,7 +73,7 @@ TEST(TimeLaw, OfAConstantSpeedIsConstant) {
   const std::vector<Keyframe> keyframes = {{1.0, {Vec3::Zero(), Quat::Identity()}},
                                            {3.0, {Vec3(3, 0, 0), Quat::Identity()}}};
   const TimeLaw law = TimeLaw::within(interpolate(keyframes), {.speed_m_per_s = 0.5}, 0.1);
-  EXPECT_NEAR(law.stretch(), 3.0, 1e-12);
+  EXPECT_NEAR(law.slow_down(), 3.0, 1e-12);
   EXPECT_EQ(law.new_time_s(1.0), 1.0);
   EXPECT_NEAR(law.new_time_s(2.0), 4.0, 1e-12);
   EXPECT_NEAR(law.rate(2.7), 1.0 / 3.0, 1e-12);
@@ -166,8 +166,8 @@ TEST(TimeLaw, IsSmoothNeverFasterAndNoLongerThanStretchingAllTimesAlike) {
     const Path path = random_segments(random, random.integer(2, 8));
     const RateLimits limits = biting_limits(random, path);
     const TimeLaw law = TimeLaw::within(path, limits, random.log_uniform(0.02, 1.0));
-    EXPECT_GE(law.stretch(), 1.0);
-    EXPECT_LE(law.stretch(), largest_stretch(path, limits) * (1.0 + 1e-3));
+    EXPECT_GE(law.slow_down(), 1.0);
+    EXPECT_LE(law.slow_down(), largest_slow_down(path, limits) * (1.0 + 1e-3));
     EXPECT_EQ(law.new_time_s(path.begin_s()), path.begin_s());
     double given_s = path.begin_s();
     double new_s = given_s;
@@ -214,9 +214,9 @@ TEST(TimeLaw, ConvergesToTheFastest) {
   for (int round = 0; round < 10; ++round) {
     const Path path = random_segments(random, 5);
     const RateLimits limits = biting_limits(random, path);
-    const double coarse = TimeLaw::within(path, limits, 0.08).stretch();
-    const double middle = TimeLaw::within(path, limits, 0.02).stretch();
-    const double fine = TimeLaw::within(path, limits, 0.005).stretch();
+    const double coarse = TimeLaw::within(path, limits, 0.08).slow_down();
+    const double middle = TimeLaw::within(path, limits, 0.02).slow_down();
+    const double fine = TimeLaw::within(path, limits, 0.005).slow_down();
     EXPECT_LE(middle, coarse * 1.001);
     EXPECT_LE(fine, middle * 1.001);
     EXPECT_LT(middle - fine, 0.03 * fine);
@@ -224,8 +224,8 @@ TEST(TimeLaw, ConvergesToTheFastest) {
 }
 
 TEST(TimeLaw, AlikeStretchesAllTimes) {
-  const TimeLaw law = TimeLaw::alike({2.0, 6.0}, 1.5);
-  EXPECT_NEAR(law.stretch(), 1.5, 1e-14);
+  const TimeLaw law = TimeLaw::uniform({2.0, 6.0}, 1.5);
+  EXPECT_NEAR(law.slow_down(), 1.5, 1e-14);
   EXPECT_EQ(law.new_time_s(2.0), 2.0);
   EXPECT_NEAR(law.new_time_s(3.0), 3.5, 1e-14);
   EXPECT_EQ(law.new_time_s(6.0), law.new_knots_s().back());

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "daemon/motion/spline/interpolate.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 

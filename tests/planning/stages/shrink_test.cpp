@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/planning/stages/limits.h"
+#include "daemon/planning/stages/slowing.h"
 
 namespace camway::planning {
 namespace {
@@ -152,7 +152,7 @@ TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
         ends.origin = motion::TimeOrigin{100.0};
         const double factor = is_full ? full_factor : small_factor;
         if (factor == 1.0) return ends;
-        ends.law = motion::TimeLaw::alike({0, 10}, factor);
+        ends.law = motion::TimeLaw::uniform({0, 10}, factor);
         move_times(*ends.law, ends.result);
         return ends;
       };

@@ -97,7 +97,7 @@ TEST(HttpPage, ASilentConnectionIsClosed) {
 TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
   std::atomic<int> full = 0;
   HttpContent content = hello();
-  content.full = [&full] { ++full; };
+  content.on_full = [&full] { ++full; };
   const auto opened = open_http_page({}, content, {.connections = 3, .idle_s = 600});
   ASSERT_TRUE(opened) << opened.error;
   const int port = (*opened)->port();

@@ -157,7 +157,7 @@ TEST_F(ConfigFile, SaysWhereEachValueWasSaid) {
   const std::string file = (folder_ / "c.toml").string();
   EXPECT_EQ(options_.where("queue.requests"), file + ":2: queue.requests");
   EXPECT_EQ(options_.where("queue.answers"), "queue.answers") << "it is the default";
-  EXPECT_EQ(options_.scenes.at(0).said_at, file + ":6");
+  EXPECT_EQ(options_.scenes.at(0).set_at, file + ":6");
 }
 
 TEST_F(ConfigFile, SwitchesAreTrueOrFalse) {

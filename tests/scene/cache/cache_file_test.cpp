@@ -111,8 +111,8 @@ template <class Value>
 Value& first_of(std::span<std::uint8_t> bytes, layout::SectionName name) {
   return values_in<Value>(bytes, name).front();
 }
-layout::Facts& facts_of(std::span<std::uint8_t> bytes) {
-  return first_of<layout::Facts>(bytes, layout::kFacts);
+layout::Metadata& metadata_of(std::span<std::uint8_t> bytes) {
+  return first_of<layout::Metadata>(bytes, layout::kMetadata);
 }
 std::span<IndexNode> nodes_of(std::span<std::uint8_t> bytes) {
   return values_in<IndexNode>(bytes, layout::kNodes);
@@ -152,8 +152,8 @@ const Forgery kForgeries[] = {
     {"CoordinateThatIsNoNumber", [](Bytes b) { first_of<double>(b, layout::kVertices) = kNan; }},
     {"CoordinateTooLarge", [](Bytes b) { first_of<double>(b, layout::kVertices) = 0x1p200; }},
     {"MovedVertex", [](Bytes b) { first_of<double>(b, layout::kVertices) = -50.0; }},
-    {"MeshBounds", [](Bytes b) { facts_of(b).mesh_bounds_m[3] += 1.0; }},
-    {"TreeBounds", [](Bytes b) { facts_of(b).tree_bounds_m[0] = kNan; }},
+    {"MeshBounds", [](Bytes b) { metadata_of(b).mesh_bounds_m[3] += 1.0; }},
+    {"TreeBounds", [](Bytes b) { metadata_of(b).tree_bounds_m[0] = kNan; }},
     {"ObjectWithMoreTriangles",
      [](Bytes b) { first_of<layout::Object>(b, layout::kObjects).triangles += 1; }},
     {"ObjectWithoutTriangles",
@@ -163,21 +163,21 @@ const Forgery kForgeries[] = {
        objects[0].triangles = 0;
      }},
     {"LongName", [](Bytes b) { first_of<layout::Object>(b, layout::kObjects).name_bytes = 4000; }},
-    {"LongText", [](Bytes b) { facts_of(b).file_bytes = ~std::uint64_t{0}; }},
+    {"LongText", [](Bytes b) { metadata_of(b).file_bytes = ~std::uint64_t{0}; }},
     {"TextThatNobodyPrints", [](Bytes b) { first_of<char>(b, layout::kText) = '\n'; }},
-    {"DigestThatIsNone", [](Bytes b) { facts_of(b).digest_bytes -= 1; }},
-    {"RoundingThatIsNoNumber", [](Bytes b) { facts_of(b).rounding_m = kNan; }},
-    {"NegativeRounding", [](Bytes b) { facts_of(b).rounding_m = -1.0; }},
-    {"FieldOfOtherCells", [](Bytes b) { facts_of(b).field_resolution_m *= 0.5; }},
-    {"FieldWithoutCells", [](Bytes b) { facts_of(b).field_resolution_m = 0.0; }},
-    {"FieldThatIsNoNumber", [](Bytes b) { facts_of(b).field_resolution_m = kNan; }},
-    {"ShareAboveOne", [](Bytes b) { facts_of(b).field_settled_share = 1.5; }},
+    {"DigestThatIsNone", [](Bytes b) { metadata_of(b).digest_bytes -= 1; }},
+    {"RoundingThatIsNoNumber", [](Bytes b) { metadata_of(b).rounding_m = kNan; }},
+    {"NegativeRounding", [](Bytes b) { metadata_of(b).rounding_m = -1.0; }},
+    {"FieldOfOtherCells", [](Bytes b) { metadata_of(b).field_resolution_m *= 0.5; }},
+    {"FieldWithoutCells", [](Bytes b) { metadata_of(b).field_resolution_m = 0.0; }},
+    {"FieldThatIsNoNumber", [](Bytes b) { metadata_of(b).field_resolution_m = kNan; }},
+    {"ShareAboveOne", [](Bytes b) { metadata_of(b).field_settled_share = 1.5; }},
     {"FieldAndReasonWhyNot",
      [](Bytes b) {
-       facts_of(b).why_no_field_bytes = 1;
+       metadata_of(b).why_no_field_bytes = 1;
        first_of<layout::Object>(b, layout::kObjects).name_bytes -= 1;
      }},
-    {"DeepTree", [](Bytes b) { facts_of(b).tree_depth = kMaxIndexDepth + 1; }},
+    {"DeepTree", [](Bytes b) { metadata_of(b).tree_depth = kMaxIndexDepth + 1; }},
     {"TriangleThatDoesNotExist", [](Bytes b) { numbers_of(b, layout::kReferences).front() = 72; }},
     {"LeafThatBeginsBeforeTheOneBefore",
      [](Bytes b) { numbers_of(b, layout::kLeafBegin)[1] = 4'000'000; }},
@@ -214,7 +214,7 @@ const Forgery kForgeries[] = {
      }},
     {"NoFacts",
      [](Bytes b) {
-       reinterpret_cast<layout::Header*>(b.data())->sections[layout::kFacts].bytes = 0;
+       reinterpret_cast<layout::Header*>(b.data())->sections[layout::kMetadata].bytes = 0;
      }},
     {"NoTree",
      [](Bytes b) {

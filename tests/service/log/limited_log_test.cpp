@@ -28,9 +28,9 @@ TEST(LimitedLog, ABurstThenTheRateAndWhatWasLeftOutIsSaid) {
   for (int i = 0; i < 10; ++i) limited.write("line", {{"number", i}}, kBegin);
   EXPECT_EQ(log.text(), "warning line number=0\nwarning line number=1\nwarning line number=2\n");
   log.clear();
-  limited.tell_left_out(kBegin + 400ms);
+  limited.report_suppressed(kBegin + 400ms);
   EXPECT_EQ(log.text(), "");
-  limited.tell_left_out(kBegin + 500ms);
+  limited.report_suppressed(kBegin + 500ms);
   EXPECT_EQ(log.text(), "warning lines left out kind=answers lines=7\n");
   log.clear();
   limited.write("line", {}, kBegin + 1s);
@@ -44,7 +44,7 @@ TEST(LimitedLog, AFloodIsCountedButEveryTenSeconds) {
   std::size_t written = 0;
   for (Time now = kBegin; now < kBegin + 35s; now += 10ms, ++written) {
     limited.write("line", {}, now);
-    limited.tell_left_out(now);
+    limited.report_suppressed(now);
   }
   std::size_t told = 0;
   const std::string text = log.text();
@@ -79,7 +79,7 @@ TEST(LimitedLog, NoStretchOfTimeHoldsMoreThanTheLimitsSayAndNothingIsForgotten) 
       ASSERT_LE(static_cast<double>(last - first + 1), kBurst + kRate * span.count() + 1e-6);
     }
   }
-  limited.tell_left_out(now + 1h);
+  limited.report_suppressed(now + 1h);
   std::istringstream text(log.text());
   std::int64_t counted = 0;
   for (std::string line; std::getline(text, line);) {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "daemon/planning/result/path_faults.h"
+#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/sentences.h"
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"

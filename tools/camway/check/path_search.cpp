@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "daemon/planning/result/path_faults.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 
 namespace camway::tools {
 namespace {

@@ -21,8 +21,8 @@ enum class ExitCode : int {
 /// negative result, success.
 ExitCode worse(ExitCode a, ExitCode b);
 
-/// Each of these adds a subcommand to `app`. The subcommand that the user called runs inside
-/// `app.parse` and sets `exit_code`, which must outlive `app`.
+/// The next functions each add a subcommand to `app`. The subcommand that the user called runs
+/// inside `app.parse` and sets `exit_code`. Require that `exit_code` outlives `app`.
 void add_plan_command(CLI::App& app, ExitCode& exit_code);
 void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
@@ -40,7 +40,8 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code);
 void print_error(std::string_view message);
 
 /// Returns the paragraph on exit codes at the end of a subcommand's help. `negative` defines code
-/// 3; if it is empty, code 3 is left out. `asks_daemon` includes code 4.
+/// 3; if it is empty, code 3 is left out. `asks_daemon`: whether
+/// the command asks a daemon, so that code 4 is included.
 std::string exit_code_help(std::string_view negative, bool asks_daemon = false);
 
 }  // namespace camway::tools

@@ -23,7 +23,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 struct DoctorFlags {
-  DoctorQuestions questions;
+  DoctorOptions options;
   std::string key_file;
   bool json = false;
 };
@@ -49,7 +49,7 @@ void print_json(const std::vector<Finding>& findings, std::ptrdiff_t problems) {
 }
 
 ExitCode run_doctor(DoctorFlags flags) {
-  if (!wire::is_prefix(flags.questions.prefix)) {
+  if (!wire::is_prefix(flags.options.prefix)) {
     print_error("--prefix: must be of 1 to 11 letters, digits, '_' and '-'");
     return ExitCode::kInvalidInput;
   }
@@ -58,8 +58,8 @@ ExitCode run_doctor(DoctorFlags flags) {
     print_error(fault);
     return ExitCode::kInvalidInput;
   }
-  flags.questions.authentication = signing.authentication;
-  const std::vector<Finding> findings = diagnose(gather_facts(flags.questions));
+  flags.options.authentication = signing.authentication;
+  const std::vector<Finding> findings = diagnose(gather_facts(flags.options));
   const auto problems = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
     return finding.severity == Severity::kProblem;
   });
@@ -75,23 +75,23 @@ ExitCode run_doctor(DoctorFlags flags) {
 
 void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<DoctorFlags>();
-  flags->questions.url = process::default_options().lcm_url;
+  flags->options.url = process::default_options().lcm_url;
   CLI::App* command = app.add_subcommand(
       "doctor",
       "Say what keeps Camway from working on this machine, and the command that mends it");
-  command->add_option("--url", flags->questions.url, "LCM network [LCM_DEFAULT_URL]")
+  command->add_option("--url", flags->options.url, "LCM network [LCM_DEFAULT_URL]")
       ->capture_default_str();
-  command->add_option("--prefix", flags->questions.prefix, "Prefix of the daemon's channels")
+  command->add_option("--prefix", flags->options.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
   command
-      ->add_option("--config", flags->questions.config_file,
+      ->add_option("--config", flags->options.config_file,
                    "Configuration of a daemon, to be looked at with its scene files")
       ->type_name("FILE");
   add_key_file(*command, flags->key_file);
-  command->add_flag("--other-hosts", flags->questions.other_hosts,
+  command->add_flag("--other-hosts", flags->options.other_hosts,
                     "Daemon and clients are to be on several hosts");
   command
-      ->add_option("--timeout-s", flags->questions.timeout_s,
+      ->add_option("--timeout-s", flags->options.timeout_s,
                    "How long to listen for a daemon, seconds")
       ->check(cli_support::between(0.0, 3600.0))
       ->capture_default_str();

@@ -85,7 +85,7 @@ struct Finding {
 /// Thread-safe.
 std::vector<Finding> diagnose(const HostFacts& facts);
 
-struct DoctorQuestions {
+struct DoctorOptions {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string config_file;
@@ -95,6 +95,6 @@ struct DoctorQuestions {
 };
 
 /// Collects the facts about this machine. Changes nothing.
-HostFacts gather_facts(const DoctorQuestions& questions);
+HostFacts gather_facts(const DoctorOptions& options);
 
 }  // namespace camway::tools

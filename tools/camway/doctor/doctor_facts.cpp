@@ -169,23 +169,23 @@ class StatusListener {
 };
 
 /// Opens LCM and listens for a status. Writes both outcomes into `facts`.
-void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
-  const wire::OpenedLcm opened = wire::open_lcm(questions.url);
-  StatusListener listener(questions.authentication);
-  const wire::Channels channels{questions.prefix};
+void listen_for_daemon(const DoctorOptions& options, HostFacts& facts) {
+  const wire::OpenedLcm opened = wire::open_lcm(options.url);
+  StatusListener listener(options.authentication);
+  const wire::Channels channels{options.prefix};
   if (!opened.lcm ||
       opened.lcm->subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {
-    facts.lcm_error = "LCM cannot be opened at '" + questions.url + "'";
+    facts.lcm_error = "LCM cannot be opened at '" + options.url + "'";
     return;
   }
   facts.unguarded = opened.unguarded;
   const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                         std::chrono::duration<double>(questions.timeout_s));
+      Clock::now() +
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.timeout_s));
   while (!listener.is_done() && Clock::now() < end) {
     constexpr int kLook_ms = 50;
     if (opened.lcm->handleTimeout(kLook_ms) < 0) {
-      facts.lcm_error = "LCM failed at '" + questions.url + "'";
+      facts.lcm_error = "LCM failed at '" + options.url + "'";
       return;
     }
   }
@@ -212,17 +212,17 @@ void look_at_config(const std::string& file, HostFacts& facts) {
 
 }  // namespace
 
-HostFacts gather_facts(const DoctorQuestions& questions) {
+HostFacts gather_facts(const DoctorOptions& options) {
   HostFacts facts;
-  facts.network = service::parse_lcm_url(questions.url);
-  facts.other_hosts = questions.other_hosts;
+  facts.network = service::parse_lcm_url(options.url);
+  facts.other_hosts = options.other_hosts;
   facts.own_version = service::kVersion;
   if (facts.network.multicast) facts.route = route_to(facts.network);
   facts.receive_buffer_bytes = number_in_file("/proc/sys/net/core/rmem_default");
   facts.largest_receive_buffer_bytes = number_in_file("/proc/sys/net/core/rmem_max");
   facts.dropped_datagrams = dropped_datagrams();
-  listen_for_daemon(questions, facts);
-  look_at_config(questions.config_file, facts);
+  listen_for_daemon(options, facts);
+  look_at_config(options.config_file, facts);
   return facts;
 }
 

@@ -44,15 +44,15 @@ ExitCode invalid_input(std::string_view message) {
   return ExitCode::kInvalidInput;
 }
 
-/// The questions and their scene.
+/// The requests and their scene.
 struct LoadPlan {
   LoadScene scene;
-  std::vector<LoadQuestion> questions;
+  std::vector<LoadRequest> requests;
 };
 
-/// Returns the questions of the command line with their local answers. On an error, prints it and
+/// Returns the requests of the command line with their local answers. On an error, prints it and
 /// returns none.
-LoadPlan make_questions(const LoadFlags& flags) {
+LoadPlan make_plan(const LoadFlags& flags) {
   const auto parsed = process::parse_scene_argument(flags.scene);
   if (!parsed) {
     print_error("--scene " + flags.scene + ": " + parsed.error);
@@ -74,8 +74,8 @@ LoadPlan make_questions(const LoadFlags& flags) {
       return {};
     }
     warn_of_reading(source_of(file), *request);
-    plan.questions.push_back({source_of(file), to_client_request(*request, parsed->name),
-                              planning::plan(*scene.result.snapshot, *request)});
+    plan.requests.push_back({source_of(file), to_client_request(*request, parsed->name),
+                             planning::plan(*scene.result.snapshot, *request)});
   }
   return plan;
 }
@@ -210,9 +210,9 @@ ExitCode run_command(LoadFlags flags) {
     const std::string fault = why_unwritable(flags.json_file);
     if (!fault.empty()) return invalid_input(fault);
   }
-  const LoadPlan plan = make_questions(flags);
-  if (plan.questions.empty()) return ExitCode::kInvalidInput;
-  const LoadResult result = run_load(plan.scene, plan.questions, flags.run);
+  const LoadPlan plan = make_plan(flags);
+  if (plan.requests.empty()) return ExitCode::kInvalidInput;
+  const LoadResult result = run_load(plan.scene, plan.requests, flags.run);
   if (!result.error.empty()) return report_failure(result.status, result.error, flags.key_file);
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {

@@ -21,9 +21,9 @@ constexpr std::size_t kKinds = 6;
 constexpr std::uint64_t kBatches = 8;
 
 /// Makes queries in the box, with lengths up to a fifth of its size.
-class Questions {
+class RandomBatches {
  public:
-  Questions(const geometry::Box& bounds_W, std::uint64_t seed)
+  RandomBatches(const geometry::Box& bounds_W, std::uint64_t seed)
       : bounds_W_(bounds_W), length_m_(0.2 * bounds_W.sizes().maxCoeff()), random_(seed) {}
 
   OccupancyBatch batch(const std::string& scene, std::size_t queries) {
@@ -99,10 +99,10 @@ struct Asked {
   OccupancyAnswer expected;
 };
 
-void ask(Client& client, const std::vector<Asked>& questions, std::size_t first,
+void ask(Client& client, const std::vector<Asked>& batches, std::size_t first,
          Clock::time_point until, OccupancyLoad& load) {
   for (std::size_t turn = first; Clock::now() < until; ++turn) {
-    const Asked& asked = questions[turn % questions.size()];
+    const Asked& asked = batches[turn % batches.size()];
     const Clock::time_point begun = Clock::now();
     const OccupancyAnswer answer = client.occupancy(asked.batch);
     const std::chrono::duration<float, std::milli> taken = Clock::now() - begun;
@@ -137,11 +137,11 @@ OccupancyLoad run_occupancy_load(const scene::SceneMirror& map, const geometry::
                                  const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options) {
   OccupancyLoad load;
-  std::vector<Asked> questions;
+  std::vector<Asked> batches;
   for (std::uint64_t seed = 1; seed <= kBatches; ++seed) {
-    OccupancyBatch batch = Questions(bounds_W, seed).batch(scene.name, queries);
+    OccupancyBatch batch = RandomBatches(bounds_W, seed).batch(scene.name, queries);
     OccupancyAnswer expected = answer_offline(map, batch);
-    questions.push_back({std::move(batch), std::move(expected)});
+    batches.push_back({std::move(batch), std::move(expected)});
   }
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < options.clients; ++i) {
@@ -165,7 +165,7 @@ OccupancyLoad run_occupancy_load(const scene::SceneMirror& map, const geometry::
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < clients.size(); ++i) {
-      threads.emplace_back([&, i] { ask(*clients[i], questions, i, until, parts[i]); });
+      threads.emplace_back([&, i] { ask(*clients[i], batches, i, until, parts[i]); });
     }
   }
   load.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();

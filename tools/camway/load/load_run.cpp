@@ -85,7 +85,7 @@ LoadFault fault_of_daemon(Client& client, const LoadScene& scene) {
                       scene.name, held.scene.digest, held.scene.revision, scene.digest)};
 }
 
-LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& questions,
+LoadResult run_load(const LoadScene& scene, const std::vector<LoadRequest>& requests,
                     const LoadOptions& options) {
   LoadResult result;
   base::Result<Clients> made = make_clients(options);
@@ -106,8 +106,8 @@ LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& que
   const auto work = [&](std::size_t number) {
     for (std::size_t turn = number; seconds_since(start) < options.seconds; ++turn) {
       if (options.requests > 0 && begun.fetch_add(1) >= options.requests) return;
-      const LoadQuestion& question = questions[turn % questions.size()];
-      tallies[number].add(question, clients[number]->plan(question.request));
+      const LoadRequest& sent = requests[turn % requests.size()];
+      tallies[number].add(sent, clients[number]->plan(sent.request));
     }
   };
   {

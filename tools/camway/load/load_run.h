@@ -45,9 +45,9 @@ struct LoadResult {
   std::vector<MemorySample> memory;
 };
 
-/// Runs `options.clients` clients, each on a thread of its own. Each sends the questions in turn,
+/// Runs `options.clients` clients, each on a thread of its own. Each sends the requests in turn,
 /// the next one as soon as the last is answered, until time or requests are used up.
-LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& questions,
+LoadResult run_load(const LoadScene& scene, const std::vector<LoadRequest>& requests,
                     const LoadOptions& options);
 
 }  // namespace camway::tools

@@ -63,22 +63,21 @@ bool is_expected(const planning::PlanResult& expected, const PlanResponse& answe
          same(expected.certificate.clearance_lower_bound_m, answer.clearance_lower_bound_m);
 }
 
-void LoadTally::add(const LoadQuestion& question, const PlanResponse& answer) {
+void LoadTally::add(const LoadRequest& sent, const PlanResponse& answer) {
   ++asked;
   ++by_status[to_string(answer.status)];
   retries += std::max(0, answer.tries - 1);
-  if (answer.status == Status::kInvalid) invalid.emplace(question.name, answer.error);
+  if (answer.status == Status::kInvalid) invalid.emplace(sent.name, answer.error);
   const auto complain = [&](const std::string& what) {
     if (complaints.size() < kMostComplaints) {
-      complaints.push_back(
-          fmt::format("{}, request {}: {}", question.name, answer.request_id, what));
+      complaints.push_back(fmt::format("{}, request {}: {}", sent.name, answer.request_id, what));
     }
   };
   const bool from_daemon = static_cast<int>(answer.status) < 100;
   if (!from_daemon) {
     ++lost;
     complain(answer.error);
-  } else if (is_expected(question.expected, answer)) {
+  } else if (is_expected(sent.expected, answer)) {
     ++answered;
     const double elapsed_ms = 1e3 * answer.elapsed_s;
     latency_ms.push_back(static_cast<float>(elapsed_ms));
@@ -89,7 +88,7 @@ void LoadTally::add(const LoadQuestion& question, const PlanResponse& answer) {
   } else {
     ++wrong;
     complain(fmt::format("the daemon's answer ({}) is not what planning here gives ({})",
-                         to_string(answer.status), to_string(question.expected.status)));
+                         to_string(answer.status), to_string(sent.expected.status)));
   }
 }
 

@@ -13,7 +13,7 @@
 namespace camway::tools {
 
 /// A request that is sent repeatedly, and the result of planning it locally.
-struct LoadQuestion {
+struct LoadRequest {
   std::string name;
   PlanRequest request;
   planning::PlanResult expected;
@@ -32,12 +32,12 @@ struct LoadTally {
   std::int64_t lost = 0;      ///< requests without an answer
   std::int64_t retries = 0;   ///< repetitions of requests
   std::map<std::string, std::int64_t> by_status;
-  std::map<std::string, std::string> invalid;  ///< questions answered `invalid`, and the reasons
+  std::map<std::string, std::string> invalid;  ///< requests answered `invalid`, and the reasons
   std::vector<float> latency_ms;               ///< time from call to return, of answered requests
   std::vector<float> overhead_ms;       ///< latency minus planning: transport, queue, conversions
   std::vector<std::string> complaints;  ///< texts about the first wrong or lost answers
 
-  void add(const LoadQuestion& question, const PlanResponse& answer);
+  void add(const LoadRequest& sent, const PlanResponse& answer);
   void add(const LoadTally& other);
 
   static constexpr std::size_t kMostComplaints = 5;

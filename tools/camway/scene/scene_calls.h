@@ -8,12 +8,12 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/scene/scene_command_flags.h"
 
-/// The calls of `camway scene`. Each opens a client as the flags say, asks the daemon, prints its
-/// answer or why there is none, and returns the exit code. The first signal to end cancels the
-/// call, the second ends the process.
+/// The calls of `camway scene`. Each opens a client with the options of the flags, sends a request,
+/// prints the answer or the reason why there is none, and returns the exit code. The first signal
+/// to end cancels the call, the second ends the process.
 namespace camway::tools {
 
-/// Asks the daemon what `call` asks.
+/// Runs `call` with a client, as the other functions do with calls of their own.
 ExitCode ask_daemon(const SceneCommandFlags& flags,
                     const std::function<SceneAnswer(Client&)>& call);
 

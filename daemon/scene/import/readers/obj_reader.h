@@ -8,13 +8,16 @@
 
 namespace camway::scene::mesh_readers {
 
-/// Reads Wavefront OBJ: vertices (three coordinates, then perhaps a weight w, by which they are
-/// divided, or a colour), faces, groups and materials; `\` at the end of a line, indices from the
-/// end, comments. Counts lines, points, free-form curves and surfaces (`surf`, `curv`, and `bzp`
-/// and the like of old versions), and unknown statements, since a misspelt one may have been a
-/// face. Any text is an OBJ file, perhaps one without faces. Materials are not loaded, but divide
-/// objects, whose names are those that assimp gives: the last `o` or `g`, followed by `/material`
-/// where the material changes within.
+/// Reads Wavefront OBJ. Never fails: any text is an OBJ file, perhaps one without faces.
+///
+/// - A vertex has three coordinates, then perhaps a weight w, by which they are divided, or a
+/// colour.
+/// - Faces may count vertices from the end. `\` continues a line. Comments are skipped.
+/// - Lines, points, free-form curves and surfaces (`surf`, `curv`, and `bzp` and the like of old
+///   versions) are counted. So are unknown statements, because a misspelt one may have been a face.
+/// - Materials are not loaded, but a change of material begins an object. An object has the name
+/// that
+///   assimp gives it: the last `o` or `g`, followed by `/material` if the material changes within.
 void read_obj(std::string_view bytes, MeshCollector& mesh);
 
 }  // namespace camway::scene::mesh_readers

@@ -15,21 +15,21 @@
 
 namespace camway::scene {
 
-/// The answer of the import process, checked as if an enemy had written it.
+/// The answer of the import process, which is checked like any untrusted input.
 struct ImportRecordResult {
   std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
   std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null if there is none
-  std::string refusal;         ///< why the reader refused the file, in printable ASCII; else empty
-  Limit limit = Limit::kNone;  ///< limit that the refusal is about
-  bool broken = false;         ///< the bytes are no record; nothing else is set
+  std::string refusal;             ///< the reason of the refusal, in printable ASCII; else empty
+  Limit limit = Limit::kNone;      ///< limit that the refusal is about
+  bool broken = false;             ///< whether the bytes are no record; then nothing else is set
   double relative_rounding = 0.0;  ///< as in the record's header; never negative or NaN
   double absolute_rounding = 0.0;
 };
 
-/// Parses the record of `record_layout.h`: believes no count before its bytes are seen, checks
-/// every index and coordinate, applies scale and axes. Leaves out unusable triangles and counts
-/// them in `report`, which also gets the name of the format. The mesh of an occupancy map is the
-/// faces of its voxels.
+/// Parses the record of `record_layout.h`. Uses a count only after checking that the record has its
+/// bytes. Checks every index and coordinate, and applies scale and axes. Leaves out unusable
+/// triangles and counts them in `report`, whose format it sets, too. The mesh of an occupancy map
+/// consists of the faces of its voxels.
 ///
 /// Degenerate triangles are left out only if they have no area at all, in exact arithmetic on the
 /// scaled coordinates: any triangle with an area, however thin, is an obstacle.

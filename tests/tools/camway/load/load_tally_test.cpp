@@ -57,21 +57,21 @@ class LoadTallyTest : public ::testing::Test {
  protected:
   LoadTallyTest() {
     camway::testing::Random random(kTallySeed);
-    question_.name = "q.json";
-    question_.expected = camway::testing::sample_result(5, random);
-    question_.expected.status = planning::Status::kOk;
+    sent_.name = "q.json";
+    sent_.expected = camway::testing::sample_result(5, random);
+    sent_.expected.status = planning::Status::kOk;
   }
 
-  LoadQuestion question_;
+  LoadRequest sent_;
 };
 
 TEST_F(LoadTallyTest, TheSameBitsAreExpectedAndNothingElse) {
-  const PlanResponse good = answer_of(question_.expected);
-  EXPECT_TRUE(is_expected(question_.expected, good));
+  const PlanResponse good = answer_of(sent_.expected);
+  EXPECT_TRUE(is_expected(sent_.expected, good));
   const auto changed = [&](const std::function<void(PlanResponse&)>& change) {
     PlanResponse answer = good;
     change(answer);
-    return is_expected(question_.expected, answer);
+    return is_expected(sent_.expected, answer);
   };
   const auto change_segment = [](PlanResponse& answer, const std::function<void(Segment&)>& how) {
     std::vector<Segment> segments = answer.path.segments();
@@ -94,22 +94,22 @@ TEST_F(LoadTallyTest, TheSameBitsAreExpectedAndNothingElse) {
 
 TEST_F(LoadTallyTest, CountsWhatBecameOfEachRequest) {
   LoadTally tally;
-  PlanResponse answer = answer_of(question_.expected);
+  PlanResponse answer = answer_of(sent_.expected);
   answer.tries = 3;
   answer.elapsed_s = 0.010;
   answer.timing.total_ms = 8.0;
-  tally.add(question_, answer);
+  tally.add(sent_, answer);
   answer.status = Status::kOverloaded;
-  tally.add(question_, answer);
+  tally.add(sent_, answer);
   answer.status = Status::kPartial;
-  tally.add(question_, answer);
+  tally.add(sent_, answer);
   answer.status = Status::kInvalid;
   answer.error = "keyframes[1] collides";
-  tally.add(question_, answer);
+  tally.add(sent_, answer);
   answer.status = Status::kNoAnswer;
   answer.error = "the daemon fell silent";
   LoadTally other;
-  other.add(question_, answer);
+  other.add(sent_, answer);
   tally.add(other);
   EXPECT_EQ(tally.asked, 5);
   EXPECT_EQ(tally.answered, 1);
@@ -125,15 +125,15 @@ TEST_F(LoadTallyTest, CountsWhatBecameOfEachRequest) {
 }
 
 TEST_F(LoadTallyTest, NamesInvalidRequestsOnceThoughTheAnswerIsExpected) {
-  question_.expected = {};
-  question_.expected.status = planning::Status::kInvalid;
-  PlanResponse answer = answer_of(question_.expected);
+  sent_.expected = {};
+  sent_.expected.status = planning::Status::kInvalid;
+  PlanResponse answer = answer_of(sent_.expected);
   answer.status = Status::kInvalid;
   answer.error = "keyframes: holds 1; a path needs 2 to 100000";
   LoadTally tally;
   LoadTally other;
-  for (int i = 0; i < 3; ++i) tally.add(question_, answer);
-  other.add(question_, answer);
+  for (int i = 0; i < 3; ++i) tally.add(sent_, answer);
+  other.add(sent_, answer);
   tally.add(other);
   EXPECT_EQ(tally.answered, 4);
   EXPECT_EQ(tally.by_status.at("invalid"), 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/engine/link.h"
+#include "client/engine/lcm_connection.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -34,18 +34,18 @@ std::string url_or_default(const std::string& url) {
 
 }  // namespace
 
-Link::Link() {
+LcmConnection::LcmConnection() {
   int ends[2];
   if (::pipe2(ends, O_NONBLOCK | O_CLOEXEC) == 0) wake_ = {ends[0], ends[1]};
 }
 
-Link::~Link() {
+LcmConnection::~LcmConnection() {
   for (const int end : {wake_.read_end, wake_.write_end}) {
     if (end >= 0) ::close(end);
   }
 }
 
-std::string Link::open(const std::string& url) {
+std::string LcmConnection::open(const std::string& url) {
   url_ = url_or_default(url);
   if (wake_.read_end < 0) return "this process has no file descriptors left";
   wire::OpenedLcm opened = wire::open_lcm(url_);
@@ -57,15 +57,15 @@ std::string Link::open(const std::string& url) {
          "multicast on; ip route add 224.0.0.0/4 dev lo";
 }
 
-void Link::authenticate(std::unique_ptr<Authentication::Session> session) {
+void LcmConnection::authenticate(std::unique_ptr<Authentication::Session> session) {
   authentication_ = std::move(session);
 }
 
-void Link::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                      Listener* listener) {
+void LcmConnection::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                               Listener* listener) {
   try {
     const auto* const bytes = static_cast<const std::uint8_t*>(buffer->data);
-    const auto& authentication = listener->link->authentication_;
+    const auto& authentication = listener->connection->authentication_;
     const std::optional<Bytes> message =
         authentication ? authentication->open(channel, bytes, buffer->data_size)
                        : wire::payload_unchecked({bytes, buffer->data_size});
@@ -76,21 +76,21 @@ void Link::on_message(const lcm::ReceiveBuffer* buffer, const std::string& chann
   }
 }
 
-void Link::listen(const std::string& channel, int capacity, Handler handler) {
+void LcmConnection::listen(const std::string& channel, int capacity, Handler handler) {
   listeners_.push_back({this, std::move(handler)});
   lcm::Subscription* const subscription =
-      lcm_->subscribeFunction(channel, &Link::on_message, &listeners_.back());
+      lcm_->subscribeFunction(channel, &LcmConnection::on_message, &listeners_.back());
   subscription->setQueueCapacity(capacity);
 }
 
-bool Link::publish(const std::string& channel, const Bytes& bytes) {
+bool LcmConnection::publish(const std::string& channel, const Bytes& bytes) {
   const auto send = [&](const Bytes& message) {
     return lcm_->publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0;
   };
   return authentication_ ? send(authentication_->seal(channel, bytes)) : send(bytes);
 }
 
-Link::Wait Link::wait(Clock::time_point until) {
+LcmConnection::Wait LcmConnection::wait(Clock::time_point until) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
   const int left_ms = static_cast<int>(std::clamp<long long>(left.count(), 0, 1000));
   // poll ignores negative descriptors.
@@ -110,12 +110,12 @@ Link::Wait Link::wait(Clock::time_point until) {
   return ready > 0 ? Wait::kSomething : Wait::kTimeUp;
 }
 
-void Link::wake() const {
+void LcmConnection::wake() const {
   // If the pipe is full, the wait ends anyway.
   [[maybe_unused]] const ssize_t written = ::write(wake_.write_end, "", 1);
 }
 
-void Link::clear_wake() const {
+void LcmConnection::clear_wake() const {
   std::array<char, 64> bytes;
   while (::read(wake_.read_end, bytes.data(), bytes.size()) > 0) {
   }

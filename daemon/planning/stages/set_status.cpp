@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/conclude.h"
+#include "daemon/planning/stages/set_status.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ std::string note_of_clearance(double clearance_m) {
                            : "";
 }
 
-void conclude_free(const Outcomes& plan, PlanResult& result) {
+void set_status_of_free(const Outcomes& plan, PlanResult& result) {
   if (plan.slowed.breach) {
     // It is proved free, and the certificate says so; it is not what was asked for.
     result.status = Status::kPartial;
@@ -43,7 +43,7 @@ void conclude_free(const Outcomes& plan, PlanResult& result) {
   }
 }
 
-void conclude_colliding(const Outcomes& plan, PlanResult& result) {
+void set_status_of_colliding(const Outcomes& plan, PlanResult& result) {
   result.status = plan.corrected.timed_out ? Status::kTimeout : Status::kPartial;
   // Names what the deadline left undone.
   const std::string haste = plan.slowed.is_too_fast ? "; it was not slowed to meet " +
@@ -68,15 +68,15 @@ void conclude_colliding(const Outcomes& plan, PlanResult& result) {
 
 }  // namespace
 
-void conclude(const Outcomes& plan, PlanResult& result) {
+void set_status(const Outcomes& plan, PlanResult& result) {
   if (result.remaining_collisions.empty()) {
-    conclude_free(plan, result);
+    set_status_of_free(plan, result);
   } else if (result.infeasibility) {
     result.status = Status::kInfeasible;
     result.message =
         why_infeasible(*result.infeasibility, may_shrink(plan.request)) + notes(plan, result);
   } else {
-    conclude_colliding(plan, result);
+    set_status_of_colliding(plan, result);
   }
 }
 

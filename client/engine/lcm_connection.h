@@ -27,18 +27,18 @@ using Clock = std::chrono::steady_clock;
 
 /// A connection to an LCM network that sends and receives raw bytes. The rest of the client does
 /// not use LCM. Not thread-safe, except for `wake`.
-class Link {
+class LcmConnection {
  public:
   using Handler = std::function<void(std::span<const std::uint8_t>)>;
 
-  Link();
-  ~Link();
-  Link(const Link&) = delete;
-  Link& operator=(const Link&) = delete;
+  LcmConnection();
+  ~LcmConnection();
+  LcmConnection(const LcmConnection&) = delete;
+  LcmConnection& operator=(const LcmConnection&) = delete;
 
-  /// Connects. Returns the fault and its remedy; empty on success. With ttl 0 only this host is
-  /// heard. An empty URL stands for LCM_DEFAULT_URL, or for multicast with ttl 0 if that is not
-  /// set.
+  /// Connects. Returns the fault and its remedy, or an empty text on success. With ttl 0 only this
+  /// host is heard. An empty URL stands for LCM_DEFAULT_URL or, if that is not set, for multicast
+  /// with ttl 0.
   std::string open(const std::string& url);
 
   /// Returns the URL of the network in use.
@@ -49,15 +49,15 @@ class Link {
 
   /// Returns whether messages are signed and checked.
   bool signs() const { return authentication_ != nullptr; }
-  /// Makes the link sign and check messages. Call it before `listen`; null changes nothing.
+  /// Makes the connection sign and check messages. Call it before `listen`; null changes nothing.
   void authenticate(std::unique_ptr<Authentication::Session> session);
 
   /// Makes `wait` call `handler` with the content of every message on `channel`. Drops messages
   /// that are not to be trusted, and messages that exceed a queue of `capacity`. Exceptions of
-  /// `handler` are ignored. Requires an open link.
+  /// `handler` are ignored. Requires an open connection.
   void listen(const std::string& channel, int capacity, Handler handler);
 
-  /// Sends a message. Returns whether LCM accepted it. Requires an open link.
+  /// Sends a message. Returns whether LCM accepted it. Requires an open connection.
   bool publish(const std::string& channel, const Bytes& bytes);
 
   enum class Wait { kSomething, kTimeUp, kBroken };
@@ -77,7 +77,7 @@ class Link {
 
   /// A subscription to a channel.
   struct Listener {
-    Link* link;
+    LcmConnection* connection;
     Handler handler;
   };
 

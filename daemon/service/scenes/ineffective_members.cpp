@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/scenes/scene_idle.h"
+#include "daemon/service/scenes/ineffective_members.h"
 
 #include <camway/members.h>
 #include <fmt/format.h>
@@ -70,7 +70,7 @@ std::vector<const void*> used_members(const Request& r) {
 
 }  // namespace
 
-std::string idle_member(const scene_request_t& request) {
+std::string ineffective_member(const scene_request_t& request) {
   const bool is_known = request.operation >= Request::LOAD &&
                         request.operation <= Request::RESTORE && request.kind >= Request::MESH &&
                         request.kind <= Request::MAP;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/limits.h"
+#include "daemon/planning/stages/slowing.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/motion/timing/retimed_path.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 
 namespace camway::planning {
 
@@ -41,7 +41,7 @@ constexpr double kLeast_s_per_knot = 2e-6;
 
 constexpr int kSamples = 32;  // of a segment, for breaches
 
-constexpr int kMostFits = 4;  // of a path that is stretched alike, slower each time
+constexpr int kMostFits = 4;  // of a path that is slowed uniformly, more each time
 
 /// The largest rate beside its limit, in words.
 std::string describe_rate(const Segment& segment, double u, const RateLimits& limits) {
@@ -53,7 +53,7 @@ std::string describe_rate(const Segment& segment, double u, const RateLimits& li
   };
   const double speed = at.velocity_m_per_s.norm();
   const double turn_rate = 2.0 * at.orientation_rate_per_s.norm();
-  const double needed = motion::needed_stretch(segment, u, limits);
+  const double needed = motion::needed_slow_down(segment, u, limits);
   if (needed == speed / limits.speed_m_per_s)
     return text("speed", speed, limits.speed_m_per_s, "m/s");
   if (needed == turn_rate / limits.turn_rate_rad_per_s) {
@@ -64,13 +64,13 @@ std::string describe_rate(const Segment& segment, double u, const RateLimits& li
               "m/s²");
 }
 
-/// An instant of a path, and how much slower it would have to be.
+/// An instant of a path, and the slow-down that it needs.
 struct Sample {
   const Segment* segment;
   double u;
-  double needed_stretch;
+  double needed_slow_down;
 
-  [[nodiscard]] bool is_too_fast() const { return needed_stretch > 1.0; }
+  [[nodiscard]] bool is_too_fast() const { return needed_slow_down > 1.0; }
   [[nodiscard]] double time_s() const { return motion::segment_time_s(*segment, u); }
 };
 
@@ -79,27 +79,28 @@ std::vector<Sample> samples_of(const Path& path, const RateLimits& limits) {
   for (const Segment& segment : path.segments()) {
     for (int i = 0; i <= kSamples; ++i) {
       const double u = static_cast<double>(i) / kSamples;
-      samples.push_back({&segment, u, motion::needed_stretch(segment, u, limits)});
+      samples.push_back({&segment, u, motion::needed_slow_down(segment, u, limits)});
     }
   }
   return samples;
 }
 
 /// The largest of the same samples; nothing if the deadline struck first.
-std::optional<double> largest_needed_stretch(const Path& path, const RateLimits& limits,
-                                             const base::Deadline& deadline) {
-  double largest = motion::needed_stretch(path.segments().front(), 0.0, limits);
+std::optional<double> largest_slow_down(const Path& path, const RateLimits& limits,
+                                        const base::Deadline& deadline) {
+  double largest = motion::needed_slow_down(path.segments().front(), 0.0, limits);
   for (const Segment& segment : path.segments()) {
     if (deadline.passed()) return std::nullopt;
     for (int i = 0; i <= kSamples; ++i) {
       const double u = static_cast<double>(i) / kSamples;
-      largest = std::max(largest, motion::needed_stretch(segment, u, limits));
+      largest = std::max(largest, motion::needed_slow_down(segment, u, limits));
     }
   }
   return largest;
 }
 
-/// How far any point of the body is, at samples between the knots of `law`, from where it was.
+/// Whether no point of the body is farther from its former place than the interval tolerance, at
+/// samples between the knots of `law`.
 bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw& law,
                  const base::Deadline& deadline) {
   const std::span<const double> knots_s = law.knots_s();
@@ -118,9 +119,9 @@ bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw&
   return true;
 }
 
-/// The spline through the points of the path at the law's knots, if it meets the limits, stays
-/// close to the path and keeps to the rule for orientations. Searched for collisions, unless the
-/// deadline strikes; free if the path was.
+/// The spline through the points of the path at the law's knots, with its check for collisions.
+/// Nothing if it breaks the limits, is not close to the path, violates the orientation policy, is
+/// not proved free although the path was, or if the deadline strikes.
 std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law, const base::Deadline& deadline) {
   CubicPath slowed = motion::retimed(problem.path, law);
   const Path slowed_path = slowed.path();
@@ -138,33 +139,33 @@ std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law, const base::D
   return Retimed{std::move(law), std::move(slowed), std::move(interpolated), std::move(check)};
 }
 
-/// The path by a law with knots `step_s` apart, if it is as it has to be.
+/// The path by a law with knots `step_s` apart, if `fitted` accepts it.
 std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path, double step_s,
                                         const base::Deadline& deadline) {
   std::optional<TimeLaw> law =
-      TimeLaw::within(path, stretched(problem.limits, 1.0 / kSlowerThanAllowed), step_s)
+      TimeLaw::within(path, scaled_limits(problem.limits, 1.0 / kSlowerThanAllowed), step_s)
           .sendable(problem.origin, problem.keyframes_s);
   if (!law || law->knots_s().size() > kMostPieces || deadline.passed()) return std::nullopt;
   return fitted(problem, std::move(*law), deadline);
 }
 
-/// Where `path` begins, its segments end and so on.
-std::vector<double> joints_of(const Path& path) {
-  std::vector<double> joints_s = {path.begin_s()};
-  for (const Segment& segment : path.segments()) joints_s.push_back(segment.t1_s);
-  return joints_s;
+/// The times at which segments of `path` begin or end, increasing.
+std::vector<double> knots_of(const Path& path) {
+  std::vector<double> knots_s = {path.begin_s()};
+  for (const Segment& segment : path.segments()) knots_s.push_back(segment.t1_s);
+  return knots_s;
 }
 
-/// The path with all times stretched by `factor`.
+/// The path with all times multiplied by `factor`.
 std::optional<Retimed> slowed_by(double factor, const TooFast& problem, const Path& path,
                                  const base::Deadline& deadline) {
   std::optional<TimeLaw> law =
-      TimeLaw::alike(joints_of(path), factor).sendable(problem.origin, problem.keyframes_s);
+      TimeLaw::uniform(knots_of(path), factor).sendable(problem.origin, problem.keyframes_s);
   if (!law) return std::nullopt;
-  if (!motion::stretches_alike(problem.path, *law))
+  if (!motion::slows_uniformly(problem.path, *law))
     return fitted(problem, std::move(*law), deadline);
-  CubicPath slowed = motion::stretched(problem.path, *law);
-  CubicPath interpolated = motion::stretched(problem.interpolated, *law);
+  CubicPath slowed = motion::with_new_times(problem.path, *law);
+  CubicPath interpolated = motion::with_new_times(problem.interpolated, *law);
   return Retimed{std::move(*law), std::move(slowed), std::move(interpolated), std::nullopt};
 }
 
@@ -192,13 +193,13 @@ void move(const TimeLaw& law, CollisionInterval& interval) {
 }  // namespace
 
 bool meets_limits(const Path& path, const RateLimits& limits) {
-  return motion::meets(path, stretched(limits, 1.0 + kLimitRounding));
+  return motion::meets(path, scaled_limits(limits, 1.0 + kLimitRounding));
 }
 
 std::optional<LimitBreach> find_limit_breach(const Path& path, const RateLimits& limits) {
   if (meets_limits(path, limits)) return std::nullopt;
   const std::vector<Sample> samples = samples_of(path, limits);
-  const auto worst = std::ranges::max_element(samples, {}, &Sample::needed_stretch);
+  const auto worst = std::ranges::max_element(samples, {}, &Sample::needed_slow_down);
   auto first = worst;
   auto last = worst;
   while (first != samples.begin() && std::prev(first)->is_too_fast()) --first;
@@ -207,7 +208,7 @@ std::optional<LimitBreach> find_limit_breach(const Path& path, const RateLimits&
                      describe_rate(*worst->segment, worst->u, limits)};
   for (auto sample = samples.begin(); sample != samples.end(); ++sample) {
     const bool begins = sample == samples.begin() || !std::prev(sample)->is_too_fast();
-    if (begins && sample->is_too_fast() && sample != first) ++breach.stretches;
+    if (begins && sample->is_too_fast() && sample != first) ++breach.parts;
   }
   return breach;
 }
@@ -224,9 +225,9 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem, const base::D
   return std::nullopt;
 }
 
-std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline& deadline) {
+std::optional<Retimed> slowed_uniformly(const TooFast& problem, const base::Deadline& deadline) {
   const Path path = problem.path.path();
-  const std::optional<double> needed = largest_needed_stretch(path, problem.limits, deadline);
+  const std::optional<double> needed = largest_slow_down(path, problem.limits, deadline);
   if (!needed) return std::nullopt;
   double factor = *needed;
   // Samples may miss a little of the largest rate, or much of one that peaks.
@@ -235,7 +236,7 @@ std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline
     factor *= margin;
     margin *= margin;
     if (!std::isfinite(factor)) return std::nullopt;
-    if (!motion::meets(path, stretched(problem.limits, factor))) continue;
+    if (!motion::meets(path, scaled_limits(problem.limits, factor))) continue;
     if (auto slowed = slowed_by(factor, problem, path, deadline)) return slowed;
     ++fits;
   }
@@ -243,7 +244,7 @@ std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline
 }
 
 void move_times(const TimeLaw& law, PlanResult& result) {
-  result.time_scale = law.stretch();
+  result.time_scale = law.slow_down();
   result.slowed = slowed_stretches(law);
   for (motion::Keyframe& keyframe : result.keyframes)
     keyframe.time_s = law.new_time_s(keyframe.time_s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/way_beyond.h"
+#include "daemon/planning/stages/path_outside_bounds.h"
 
 #include <fmt/format.h>
 
@@ -43,14 +43,15 @@ Excess largest_excess(const motion::Path& path, const motion::Body& body, const 
 
 }  // namespace
 
-bool may_have_way_beyond(const PlanRequest& request, const PlanResult& result) {
+bool may_have_path_outside_bounds(const PlanRequest& request, const PlanResult& result) {
   if (request.options.method != Method::kLadder || request.options.max_inserted_keyframes == 0)
     return false;
   const bool is_open = result.status == Status::kPartial || result.status == Status::kTimeout;
   return result.bounds.any() && is_open && !result.remaining_collisions.empty();
 }
 
-void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, PlanResult& result) {
+void add_path_outside_bounds(const PlanResult& unbounded, const PlanRequest& request,
+                             PlanResult& result) {
   result.timing.correct_ms += unbounded.timing.total_ms;
   result.timing.total_ms += unbounded.timing.total_ms;
   if (!unbounded.certificate.certified) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Motion limits end to end: a slowed path meets its limits and keeps its curve.
-#include "daemon/planning/stages/limits.h"
+#include "daemon/planning/stages/slowing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/motion/timing/retimed_path.h"
 #include "daemon/planning/plan.h"
-#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/path_check.h"
 #include "tests/motion/smooth_joins.h"
 #include "tests/planning/plan_fixture.h"
 #include "tests/support/scenes.h"
@@ -204,8 +204,8 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
                         keyframes_s,
                         /*is_free=*/true};
   EXPECT_FALSE(slowed_where_needed(problem, base::Deadline::after_s(0.0)));
-  EXPECT_FALSE(slowed_alike(problem, base::Deadline::after_s(0.0)));
-  const std::optional<Retimed> slowed = slowed_alike(problem, base::Deadline::never());
+  EXPECT_FALSE(slowed_uniformly(problem, base::Deadline::after_s(0.0)));
+  const std::optional<Retimed> slowed = slowed_uniformly(problem, base::Deadline::never());
   ASSERT_TRUE(slowed);
   EXPECT_TRUE(motion::meets(slowed->path.path(), request.options.limits));
   EXPECT_FALSE(slowed->check);
@@ -226,7 +226,7 @@ TEST(Limits, TheSameRequestGivesTheSameBits) {
   }
 }
 
-TEST(Limits, TheWorstStretchIsFoundAndTheOthersCounted) {
+TEST(Limits, TheWorstPartIsFoundAndTheOthersCounted) {
   const std::vector<motion::Keyframe> keyframes = {{0.0, {{0, 0, 0}, Quat::Identity()}},
                                                    {1.0, {{1, 0, 0}, Quat::Identity()}},
                                                    {2.0, {{1.2, 0, 0}, Quat::Identity()}},
@@ -234,7 +234,7 @@ TEST(Limits, TheWorstStretchIsFoundAndTheOthersCounted) {
   const motion::Path path = motion::interpolate(keyframes);
   const auto breach = find_limit_breach(path, {.speed_m_per_s = 0.9});
   ASSERT_TRUE(breach);
-  EXPECT_EQ(breach->stretches, 2U);
+  EXPECT_EQ(breach->parts, 2U);
   EXPECT_GT(breach->t_begin_s, 2.0);
   EXPECT_EQ(breach->t_end_s, 3.0);
   EXPECT_THAT(breach->rate, HasSubstr("its speed is up to 2."));

@@ -20,8 +20,8 @@ struct Outcomes {
   bool is_searched;  ///< whether the path as interpolated was searched for collisions
 };
 
-/// Sets the status of `result`, and the message that tells people why. Requires a path, its
-/// remaining collisions, its certificate and its corrections in `result`.
-void conclude(const Outcomes& outcomes, PlanResult& result);
+/// Sets the status of `result`, and the message that gives the reason. Requires that `result` has a
+/// path, its remaining collisions, its certificate and its corrections.
+void set_status(const Outcomes& outcomes, PlanResult& result);
 
 }  // namespace camway::planning

@@ -13,17 +13,17 @@ namespace camway::planning {
 /// Returns the options of the collision search for a request with these options.
 collision::DetectOptions detect_options(const PlanOptions& options);
 
-/// Result of checking a path, whoever made it.
+/// Result of checking a path.
 struct PathCheck {
-  bool complete = false;  ///< false: the deadline struck, and nothing is known
+  bool complete = false;  ///< false: the deadline struck, and nothing is known of the path
   std::vector<collision::CollisionInterval> collisions;
-  Certificate certificate;  ///< certified exactly if complete and without collisions
+  Certificate certificate;  ///< certified exactly if `complete` and without collisions
 };
 
 /// Searches the whole path for collisions and, if there are none, bounds its clearance. The search
-/// is the proof: all time that it does not list is free, at every instant and rounding included
-/// (`collision/probe.h`). If `clearance_deadline` strikes, the certificate has the required
-/// clearance.
+/// is the proof: outside of the listed collisions the path is free, at every instant and rounding
+/// included (`collision/probe.h`). If `clearance_deadline` strikes, the certificate has the
+/// required clearance.
 PathCheck check_path(const collision::Query& query, const motion::Path& path,
                      const base::Deadline& deadline, const base::Deadline& clearance_deadline);
 
