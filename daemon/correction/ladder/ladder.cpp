@@ -160,13 +160,9 @@ class Ladder {
   // is found, but not taken. Returns whether one was found.
   bool replace_leg(std::size_t index, Search search,
                    double most_cost = std::numeric_limits<double>::infinity()) {
-    Problem problem = this->problem(index);
     const std::size_t leg = collisions_[index].leg;
     const std::vector<std::size_t> same_leg = collisions_.open_in(leg);
-    std::erase_if(problem.foreign_collisions, [&](const CollisionInterval& other) {
-      return std::ranges::any_of(
-          same_leg, [&](std::size_t i) { return collisions_[i].correction.interval == other; });
-    });
+    const Problem problem = this->problem(same_leg);
     const ProofsOfNoWay proofs{
         .is_separated = [this] { return prover_.is_separated(); },
         .is_caged =

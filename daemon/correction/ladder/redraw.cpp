@@ -73,24 +73,7 @@ class Redrawer {
                           space_.closeness());
   }
 
-  /// Whether the part is free where the row does not reach: there it is as interpolated again.
-  [[nodiscard]] bool is_free_beside(const Candidate& candidate) const {
-    double begin_s = part_.end_s;
-    double end_s = part_.begin_s;
-    for (const motion::BumpRow& row : candidate.rows) {
-      begin_s = std::clamp(row.begin_s(), part_.begin_s, begin_s);
-      end_s = std::clamp(row.end_s(), end_s, part_.end_s);
-    }
-    const auto is_free = [&](double from_s, double to_s) {
-      return !(from_s < to_s) ||
-             !new_collision(candidate.path, from_s, to_s, problem_, space_, deadline_);
-    };
-    return is_free(part_.begin_s, begin_s) && is_free(end_s, part_.end_s);
-  }
-
-  [[nodiscard]] bool is_worth(const Drawing& drawing) const {
-    return drawing.cost <= most_cost_ && is_free_beside(drawing.drawn.candidate);
-  }
+  [[nodiscard]] bool is_worth(const Drawing& drawing) const { return drawing.cost <= most_cost_; }
 
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
   [[nodiscard]] std::optional<Drawing> drawing(std::vector<double> knots_s,
@@ -109,7 +92,7 @@ class Redrawer {
       }
       std::optional<Candidate> found =
           free_candidate(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
-      if (!found || !is_free_beside(*found)) continue;
+      if (!found) continue;
       const double drawn_cost = cost(found->path);
       return Drawing{std::move(knots_s), {std::move(offsets), *std::move(found)}, drawn_cost};
     }
@@ -141,10 +124,8 @@ class Redrawer {
   /// Moves the part away from what it passes. The last step: on other knots the room would not be
   /// the same, and without room the form of the cheapest path is seen more clearly.
   void make_room(Drawing& best) const {
-    Drawing roomy = best;
     base::Budget budget(kStepsOfRoom);
-    relax(roomy, {.may_turn = part_.turns, .makes_room = true}, budget);
-    if (is_free_beside(roomy.drawn.candidate)) best = std::move(roomy);
+    relax(best, {.may_turn = part_.turns, .makes_room = true}, budget);
   }
 
   /// Draws `best` on other knots; returns false if that is not worth it.
@@ -206,8 +187,10 @@ void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& c
   for (const ChangedPart& part : parts) {
     if (corrected.deadline().passed()) return;
     const ChangedPart wide = corrected.widened(part, kBeside);
-    const Problem problem =
+    Problem problem =
         collisions.with_open_collisions(corrected.restored(wide, origin, space.ball_radius_m()));
+    // What was corrected has to be free afterwards, wherever the new row begins and ends.
+    problem.interval = {part.begin_s, part.end_s};
     const CubicPath path = corrected.path().around(problem.path.begin_s(), problem.path.end_s());
     const std::optional<Candidate> drawn =
         Redrawer(problem, part, wide, path, space, corrected.deadline()).run();

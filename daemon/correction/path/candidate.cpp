@@ -102,7 +102,7 @@ double end_of_collision_s(const CollisionInterval& found, const Span& changed,
          !probe.check(motion::standing_at(candidate.path.pose(time_s))).free) {
     time_s += step_s;
   }
-  return std::min(time_s, changed.end_s);
+  return std::max(found.t_end_s, std::min(time_s, changed.end_s));
 }
 
 /// Returns the path with `rows`, and the range that they change; nothing if they do not fit, or if
@@ -120,17 +120,20 @@ std::optional<std::pair<Candidate, Span>> with_rows(const Problem& problem,
   return std::pair{std::move(candidate), *changed};
 }
 
-/// Returns a collision in the range that was changed. The corrected collision is checked first: it
-/// is the likeliest to remain.
+/// Returns a collision in the range that was changed or that has to become free: rows may reach
+/// less far than the problem's interval. The middle of the interval is checked first: there a
+/// collision is the likeliest to remain.
 std::optional<CollisionInterval> collision_in(const Span& changed, const Candidate& candidate,
                                               const Problem& problem, const FreeSpace& space,
                                               const base::Deadline& deadline) {
-  const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
-                                     changed.begin_s, changed.end_s);
+  const CollisionInterval& interval = problem.interval;
+  const double begin_s = std::min(changed.begin_s, interval.t_begin_s);
+  const double end_s = std::max(changed.end_s, interval.t_end_s);
+  const double middle_s = 0.5 * (interval.t_begin_s + interval.t_end_s);
   std::optional<CollisionInterval> found =
-      new_collision(candidate.path, middle_s, changed.end_s, problem, space, deadline);
+      new_collision(candidate.path, middle_s, end_s, problem, space, deadline);
   if (found) return found;
-  return new_collision(candidate.path, changed.begin_s, middle_s, problem, space, deadline);
+  return new_collision(candidate.path, begin_s, middle_s, problem, space, deadline);
 }
 
 }  // namespace

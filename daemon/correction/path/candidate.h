@@ -23,6 +23,7 @@ struct Problem {
   std::size_t leg = 0;              ///< the collision lies between keyframes `leg` and `leg + 1`
   bool has_path_begin = false;  ///< whether `path` starts at the first keyframe of the whole path
   bool has_path_end = false;    ///< whether `path` ends at the last keyframe of the whole path
+  /// What the correction is for: it has to be free afterwards, even where no row reaches.
   collision::CollisionInterval interval;
   /// Other collisions in this part. A correction of this problem may leave them, but must not
   /// enlarge them.
@@ -56,7 +57,8 @@ std::optional<collision::CollisionInterval> new_collision(const motion::CubicPat
 
 /// Adds `rows` to `problem.path`. Returns a candidate if each step between knots has enough times
 /// that are exact in the sender's clock (`KnotRow::fits`), all keyframes are still met, and
-/// everything that `rows` change is proved free and proved to meet the orientation policy.
+/// `problem.interval` and everything that `rows` change is proved free, and proved to meet the
+/// orientation policy.
 std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,
                                         const FreeSpace& space, const base::Deadline& deadline);
 
