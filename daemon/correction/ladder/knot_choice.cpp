@@ -189,7 +189,13 @@ std::vector<double> KnotChoice::extended(const std::vector<double>& all_s, doubl
   if (end_s - knots_s.back() >= kLeastExtension * last_s) {
     knots_s.push_back(std::min(end_s, knots_s.back() + last_s));
   }
-  return with_joints(std::move(knots_s));
+  // No knot moves: what was drawn on the old knots can be drawn on the new ones exactly.
+  for (const double joint_s : joints_s_) {
+    if (joint_s <= knots_s.front() || joint_s >= knots_s.back()) continue;
+    const auto next = std::ranges::lower_bound(knots_s, joint_s);
+    if (*next != joint_s) knots_s.insert(next, joint_s);
+  }
+  return completed(with_beyond(std::move(knots_s)));
 }
 
 std::vector<double> KnotChoice::trimmed(const std::vector<double>& all_s,

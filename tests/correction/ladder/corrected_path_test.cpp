@@ -121,6 +121,29 @@ TEST_F(CorrectedPathTest, RestoresOneChangedPartAndKeepsTheOthersBitForBit) {
   }
 }
 
+TEST_F(CorrectedPathTest, WidensAPartUpToOtherPartsAndTheEndsOfThePath) {
+  CorrectedPath corrected = with_limit(100);
+  EXPECT_TRUE(corrected.take(bump(corrected, 3.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 8.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 16.0, 0.5)));
+  const std::vector<ChangedPart> parts = corrected.changed_parts();  // 1-5, 6-10, 14-18
+  const auto range_of = [&](std::size_t i, double share) {
+    const ChangedPart wide = corrected.widened(parts[i], share);
+    return std::pair(wide.begin_s, wide.end_s);
+  };
+  EXPECT_EQ(range_of(1, 0.125), std::pair(5.5, 10.5));
+  EXPECT_EQ(range_of(1, 0.5), std::pair(5.0, 12.0));
+  EXPECT_EQ(range_of(1, 3.0), std::pair(5.0, 14.0));
+  EXPECT_EQ(range_of(0, 0.5), std::pair(0.0, 6.0));
+  const Problem problem = corrected.restored(corrected.widened(parts[2], 0.9), {}, 0.1);
+  EXPECT_EQ(problem.keyframes_s, (std::vector<double>{10.0, 20.0, 30.0}));
+  for (double time_s = 10.0; time_s <= 30.0; time_s += 0.125) {
+    const geometry::Vec3 difference =
+        problem.path.at(time_s).position - interpolated_.at(time_s).position;
+    EXPECT_LE(difference.norm(), 1e-14) << time_s;
+  }
+}
+
 TEST_F(CorrectedPathTest, TakesACandidateInsteadOfAPart) {
   CorrectedPath corrected = with_limit(10);
   EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));

@@ -76,6 +76,45 @@ TEST(KnotChoice, GoesOnBeyondAnEndOfThePath) {
             (std::vector<double>{36, 37, 38, 39, 40, 41, 42, 43}));
 }
 
+TEST(KnotChoice, ExtendsByOneStepWhereThereIsRoom) {
+  const ChoiceCase c = case_on({14, 15, 16, 17, 18});
+  const KnotChoice choice(c.problem, c.part);
+  EXPECT_EQ(choice.extended(c.knots_s, 12.0, 20.0),
+            (std::vector<double>{13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_EQ(choice.extended(c.knots_s, 13.25, 18.75),
+            (std::vector<double>{13.25, 14, 15, 16, 17, 18, 18.75}));
+  EXPECT_EQ(choice.extended(c.knots_s, 13.75, 18.25), c.knots_s);
+}
+
+// A knot is set at the keyframe, and the list stays valid.
+TEST(KnotChoice, ExtendsBeyondAKeyframe) {
+  const ChoiceCase c = case_on({10.5, 12, 13.5, 15, 16.5});
+  const KnotChoice choice(c.problem, c.part);
+  const std::vector<double> longer_s = choice.extended(c.knots_s, 5.0, 25.0);
+  EXPECT_TRUE(has(longer_s, 10.0));
+  EXPECT_LT(longer_s.front(), 10.0);
+  EXPECT_TRUE(choice.is_valid(longer_s));
+  for (const double knot_s : c.knots_s) EXPECT_TRUE(has(longer_s, knot_s)) << knot_s;
+}
+
+TEST(KnotChoice, ExtendsNotBeyondAnEndOfThePath) {
+  const ChoiceCase c = case_on({36, 37, 38, 39, 40});
+  const KnotChoice choice(c.problem, c.part);
+  EXPECT_EQ(choice.extended({36, 37, 38, 39, 40, 41, 42, 43}, 34.0, 40.0),
+            (std::vector<double>{35, 36, 37, 38, 39, 40, 41, 42, 43}));
+}
+
+TEST(KnotChoice, TrimsWhatChangesNothing) {
+  ChoiceCase c = case_on({14, 15, 16, 17, 18});
+  const KnotChoice choice(c.problem, c.part);
+  EXPECT_EQ(choice.trimmed({11, 12, 13, 14, 15, 16, 17, 18, 19}, c.path), c.knots_s);
+  EXPECT_EQ(choice.trimmed(c.knots_s, c.path), c.knots_s);
+  const std::vector<double> more_s = {13, 14, 15, 16, 17, 18};
+  EXPECT_EQ(choice.trimmed(more_s, c.problem.path), more_s) << "nothing is changed at all";
+  c.part.turns = true;
+  EXPECT_EQ(KnotChoice(c.problem, c.part).trimmed(more_s, c.path), more_s);
+}
+
 TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
   const ChoiceCase c =
       case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});

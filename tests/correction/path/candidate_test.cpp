@@ -94,6 +94,25 @@ TEST(Attempt, TakesWhatIsFreeAndNothingElse) {
   EXPECT_LT(low.collision->t_begin_s, 3.5);
 }
 
+// The row leads round the plate at 1 s. The plate at 3 s is beyond its end.
+TEST(Attempt, AlsoFreesTheIntervalWhereNoRowReaches) {
+  scene::Mesh mesh;
+  add_plate(mesh, 3.0);
+  add_plate(mesh, 1.0);
+  const SearchScene scene(std::move(mesh));
+  const FreeSpace space = scene.space();
+  Problem problem = middle_problem();
+  const BumpRow early{{0.0, 2.0, 4}, 2, {{Vec3(0.3, 0, 0) / motion::kBumpPeak, Vec4::Zero()}}};
+  const Attempt tried = attempt(problem, {early}, space, Deadline::never());
+  EXPECT_FALSE(tried.candidate);
+  ASSERT_TRUE(tried.collision);
+  EXPECT_GT(tried.collision->t_begin_s, early.end_s());
+  EXPECT_GE(tried.collision->t_end_s, tried.collision->t_begin_s);
+  EXPECT_FALSE(free_candidate(problem, {early}, space, Deadline::never()));
+  problem.interval = {0.5, 1.5};
+  EXPECT_TRUE(attempt(problem, {early}, space, Deadline::never()).candidate);
+}
+
 TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
   testing::Random random(1);
   const Problem problem = middle_problem();
