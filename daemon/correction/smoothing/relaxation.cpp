@@ -31,9 +31,9 @@ constexpr double kHorizon = 0.7;   // largest gap that is measured; `kSafest` ad
 constexpr double kSettled = 0.05;  // a step that moves the body less is the last
 constexpr double kGained = 0.01;   // share of the objective: a step that gains less is the last
 constexpr int kMostSteps = 12;
-constexpr double kPriceOfRoom = 1.3;  // largest growth of the cost for wider gaps
-constexpr int kMostCuts = 3;          // attempts at a step, each with more contacts
-constexpr int kRounds = 3;            // rounds of relaxing, with more samples each time
+constexpr double kPriceOfRoom = 1.25;  // largest growth of the cost for wider gaps
+constexpr int kMostCuts = 3;           // attempts at a step, each with more contacts
+constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;  // moves back towards the initial correction
 
@@ -91,12 +91,17 @@ class Relaxation {
   /// Avoiding obstacles may cost more than the other terms gain, and room has its price. Always
   /// true for `kSafest`, which gains gaps that the form does not contain.
   [[nodiscard]] bool is_no_worse(const Relaxed& now, const Relaxed& before) const {
-    if (objective_ == Objective::kClosest) {
-      return closeness_cost(now.candidate.path, problem_.original, closeness_) <=
-             most_growth_ * closeness_cost(before.candidate.path, problem_.original, closeness_);
-    }
+    if (objective_ == Objective::kClosest) return cost(now) <= most_growth_ * cost(before);
     return is_safest_ || form_.value(free_.variables_of(now.offsets, lever_m_)) <=
                              form_.value(free_.variables_of(before.offsets, lever_m_));
+  }
+
+  /// The share of the way from `before` to `now` that is tried first if `now` is too dear. The cost
+  /// is convex, so on this share of the way it has grown by no more than room may cost.
+  [[nodiscard]] double first_share(const Relaxed& now, const Relaxed& before) const {
+    if (objective_ != Objective::kClosest || most_growth_ <= 1.0) return kRetreat;
+    const double old = cost(before);
+    return std::min(kRetreat, (most_growth_ - 1.0) * old / (cost(now) - old));
   }
 
   /// Takes steps until the budget is spent, or a step gains little.
@@ -138,6 +143,10 @@ class Relaxation {
   }
 
  private:
+  [[nodiscard]] double cost(const Relaxed& correction) const {
+    return closeness_cost(correction.candidate.path, problem_.original, closeness_);
+  }
+
   /// Makes the form of the closest path touch the cost at the path as it is.
   void bound_cost() {
     if (objective_ != Objective::kClosest) return;
@@ -286,6 +295,7 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
 Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
                base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   Offsets better = free.offsets;
+  double share = kRetreat;
   for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
     relaxation.run(budget, deadline);
     better = relaxation.offsets();
@@ -294,12 +304,12 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     if (tried.candidate) {
       Relaxed found{better, std::move(*tried.candidate), free.paths};
       if (relaxation.is_no_worse(found, free)) return found;
+      share = relaxation.first_share(found, free);
       break;
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);
   }
-  double share = kRetreat;
   for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
     const Offsets between = mixed(free.offsets, better, share);
     std::optional<Candidate> tried =

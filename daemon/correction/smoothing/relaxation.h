@@ -27,7 +27,7 @@ struct Relaxed {
 ///
 /// The result is proved. If the path collides between the samples, a sample is added there and the
 /// change is reverted as far as needed. Returns `free` if no proof succeeds or the objective became
-/// worse. Exception: with `kClosest` and `makes_room` the cost may grow by 0.3.
+/// worse. Exception: with `kClosest` and `makes_room` the cost may grow by a quarter.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 
