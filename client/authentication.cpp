@@ -51,7 +51,7 @@ LoadedAuthentication authentication_from(const std::string& key_file, double win
   if (!(window_s > 0.0) || !(window_s <= kLongestWindow_s)) {
     return {nullptr, "window_s: must be above 0 and at most 86400"};
   }
-  wire::MessageKeys::Read read = wire::MessageKeys::from_file(key_file);
+  wire::MessageKeys::ReadResult read = wire::MessageKeys::from_file(key_file);
   if (!read.keys) return {nullptr, std::move(read.error)};
   wire::ReplayGuard::Limits limits;
   // A client lives briefly, and the daemon's clock may be behind, so messages from before its start

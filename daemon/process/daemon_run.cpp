@@ -61,7 +61,7 @@ void add_distrusted(const service::AuthTransport::Distrusted& counts, status_t& 
 /// Returns the signer and checker of messages; null without a key file.
 base::Result<std::shared_ptr<wire::MessageAuth>> open_auth(const AuthOptions& options) {
   if (options.key_file.empty()) return std::shared_ptr<wire::MessageAuth>();
-  wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.key_file);
+  wire::MessageKeys::ReadResult read = wire::MessageKeys::from_file(options.key_file);
   if (!read.keys) return base::Failure{std::move(read.error)};
   wire::ReplayGuard::Limits limits;
   limits.senders = options.senders;

@@ -106,7 +106,7 @@ void Reloader::reload(const std::stop_token& stop) {
     record_.failed(service::utime_now(), fmt::format("{}", fmt::join(parsed.faults, "; ")));
     return;
   }
-  wire::MessageKeys::Read keys;
+  wire::MessageKeys::ReadResult keys;
   if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
   if (!keys.error.empty()) {
     const std::string setting = running_.where("auth.key_file");

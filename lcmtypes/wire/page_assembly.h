@@ -51,7 +51,7 @@ class PageAssembly {
   /// starts the message anew, as its sender did. The body is that of page 0.
   Outcome add(Message page, Clock::time_point now = Clock::now());
 
-  /// Returns questions for the missing pages of messages for which no page arrived for a while by
+  /// Returns requests for the missing pages of messages for which no page arrived for a while by
   /// `now`: for each message up to `kMostAsked` times, with growing pauses. The caller sets
   /// `utime`.
   std::vector<missing_pages_t> take_missing(Clock::time_point now);

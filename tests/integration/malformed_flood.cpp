@@ -303,7 +303,7 @@ int main(int argc, char** argv) {
   }
   std::optional<Signatures> with_keys;
   if (argc > 4) {
-    wire::MessageKeys::Read keys = wire::MessageKeys::from_file(argv[4]);
+    wire::MessageKeys::ReadResult keys = wire::MessageKeys::from_file(argv[4]);
     if (!keys.keys) {
       std::fprintf(stderr, "malformed_flood: %s\n", keys.error.c_str());
       return 2;

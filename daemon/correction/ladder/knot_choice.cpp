@@ -19,6 +19,7 @@ constexpr double kEven = 0.3;            // weight of even spacing, relative to 
 constexpr double kNearStep = 0.4;        // in steps: a knot that is nearer to a joint moves there
 constexpr double kLeastExtension = 0.5;  // in steps
 constexpr double kNegligible = 0.003;    // share of the largest change of the position
+constexpr double kSmallEnd = 0.3;        // the same
 constexpr int kTimesAStep = 4;           // at which changes are measured
 
 geometry::Vec3 third_derivative(const CubicPath& path, double time_s) {
@@ -198,11 +199,9 @@ std::vector<double> KnotChoice::extended(const std::vector<double>& all_s, doubl
   return completed(with_beyond(std::move(knots_s)));
 }
 
-std::vector<double> KnotChoice::trimmed(const std::vector<double>& all_s,
-                                        const CubicPath& path) const {
-  if (part_.turns) return all_s;
-  const std::vector<double> knots_s = within(all_s);
-  std::vector<double> changes_m;  // the largest of each step
+std::vector<double> KnotChoice::changes_m(const std::vector<double>& knots_s,
+                                          const CubicPath& path) const {
+  std::vector<double> changes_m;
   for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
     double most_m = 0.0;
     for (int k = 0; k <= kTimesAStep; ++k) {
@@ -213,16 +212,50 @@ std::vector<double> KnotChoice::trimmed(const std::vector<double>& all_s,
     }
     changes_m.push_back(most_m);
   }
+  return changes_m;
+}
+
+// The knots from `first` to `last`, and what else a valid list needs; nothing if there is none.
+std::vector<double> KnotChoice::kept(const std::vector<double>& knots_s, std::size_t first,
+                                     std::size_t last) const {
+  if (last <= first) return {};
+  std::vector<double> list_s =
+      completed(with_beyond({knots_s.begin() + static_cast<std::ptrdiff_t>(first),
+                             knots_s.begin() + static_cast<std::ptrdiff_t>(last) + 1}));
+  if (!is_valid(list_s)) list_s.clear();
+  return list_s;
+}
+
+std::vector<double> KnotChoice::trimmed(const std::vector<double>& all_s,
+                                        const CubicPath& path) const {
+  if (part_.turns) return all_s;
+  const std::vector<double> knots_s = within(all_s);
+  const std::vector<double> changes_m = this->changes_m(knots_s, path);
   const double least_m = kNegligible * *std::ranges::max_element(changes_m);
   std::size_t first = 0;
   std::size_t last = changes_m.size();
   while (first < last && changes_m[first] <= least_m) ++first;
   while (last > first && changes_m[last - 1] <= least_m) --last;
-  const std::vector<double> kept_s(knots_s.begin() + static_cast<std::ptrdiff_t>(first),
-                                   knots_s.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  if (kept_s.size() < 2) return all_s;
-  const std::vector<double> list_s = completed(with_beyond(kept_s));
-  return is_valid(list_s) ? list_s : all_s;
+  std::vector<double> list_s = kept(knots_s, first, last);
+  return list_s.empty() ? all_s : list_s;
+}
+
+std::vector<double> KnotChoice::cut_at_keyframes(const std::vector<double>& all_s,
+                                                 const CubicPath& path) const {
+  if (part_.turns) return all_s;
+  const std::vector<double> knots_s = within(all_s);
+  const std::vector<double> changes_m = this->changes_m(knots_s, path);
+  const double small_m = kSmallEnd * *std::ranges::max_element(changes_m);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < changes_m.size() && changes_m[i] <= small_m; ++i) {
+    if (is_keyframe(knots_s[i + 1])) first = i + 1;
+  }
+  std::size_t last = changes_m.size();
+  for (std::size_t i = last; i-- > first && changes_m[i] <= small_m;) {
+    if (is_keyframe(knots_s[i])) last = i;
+  }
+  std::vector<double> list_s = kept(knots_s, first, last);
+  return list_s.empty() ? all_s : list_s;
 }
 
 std::vector<double> KnotChoice::spaced(const std::vector<double>& all_s, const CubicPath& path,

@@ -38,6 +38,12 @@ class KnotChoice {
   [[nodiscard]] std::vector<double> trimmed(const std::vector<double>& knots_s,
                                             const motion::CubicPath& path) const;
 
+  /// Returns `knots_s`, on which `path` was drawn, cut at the outermost keyframes beyond which the
+  /// change of the position is small; and what else a valid list needs. Returns `knots_s` if the
+  /// part turns the body.
+  [[nodiscard]] std::vector<double> cut_at_keyframes(const std::vector<double>& knots_s,
+                                                     const motion::CubicPath& path) const;
+
   /// Returns about `count` knots in place of `all_s`, on which `path` was drawn: denser where the
   /// third derivative of the position changes more, so that each step has about the same share of
   /// the error of a cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).
@@ -57,6 +63,11 @@ class KnotChoice {
   [[nodiscard]] std::vector<double> with_joints(std::vector<double> knots_s) const;
   [[nodiscard]] std::vector<double> completed(const std::vector<double>& knots_s) const;
   [[nodiscard]] std::vector<double> with_beyond(std::vector<double> knots_s) const;
+  /// Returns the largest change of the position in each step between knots. [Units: metres]
+  [[nodiscard]] std::vector<double> changes_m(const std::vector<double>& knots_s,
+                                              const motion::CubicPath& path) const;
+  [[nodiscard]] std::vector<double> kept(const std::vector<double>& knots_s, std::size_t first,
+                                         std::size_t last) const;
   [[nodiscard]] std::vector<double> within(const std::vector<double>& knots_s) const;
 
   const Problem& problem_;

@@ -56,6 +56,7 @@ class Redrawer {
     if (!best) return std::nullopt;
     extend(*best);
     most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
+    cut_at_keyframes(*best);
     place_anew(*best);
     thin_out(*best);
     Drawing last = *best;
@@ -136,6 +137,12 @@ class Redrawer {
     if (!is_worth(*sparser)) return false;
     best = *std::move(sparser);
     return true;
+  }
+
+  /// Ends the part at keyframes that it crosses for little.
+  void cut_at_keyframes(Drawing& best) {
+    std::vector<double> knots_s = choice_.cut_at_keyframes(best.knots_s, best.drawn.candidate.path);
+    if (knots_s != best.knots_s) redraw_on(std::move(knots_s), best);
   }
 
   /// Draws on as few knots as possible, placed anew.

@@ -61,7 +61,7 @@ std::vector<std::string> contradictions(const DaemonOptions& options) {
 std::vector<std::string> missing_things(const DaemonOptions& options) {
   std::vector<std::string> faults;
   if (!options.auth.key_file.empty()) {
-    const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
+    const wire::MessageKeys::ReadResult read = wire::MessageKeys::from_file(options.auth.key_file);
     if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);
   }
   const bool address_counts =

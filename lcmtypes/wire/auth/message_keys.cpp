@@ -104,7 +104,7 @@ std::string_view next_word(std::string_view& text) {
 
 }  // namespace
 
-MessageKeys::Read MessageKeys::from_file(const std::string& file) {
+MessageKeys::ReadResult MessageKeys::from_file(const std::string& file) {
   const File opened(file);
   if (opened.get() < 0) return {nullptr, file + ": " + std::strerror(errno)};
   if (const std::string fault = fault_of(opened.get()); !fault.empty()) {
@@ -112,12 +112,13 @@ MessageKeys::Read MessageKeys::from_file(const std::string& file) {
   }
   std::string text;
   const bool complete = read_text(opened.get(), text);
-  Read result = complete ? from_text(text, file) : Read{nullptr, file + ": cannot be read whole"};
+  ReadResult result =
+      complete ? from_text(text, file) : ReadResult{nullptr, file + ": cannot be read whole"};
   sodium_memzero(text.data(), text.size());
   return result;
 }
 
-MessageKeys::Read MessageKeys::from_text(std::string_view text, const std::string& file) {
+MessageKeys::ReadResult MessageKeys::from_text(std::string_view text, const std::string& file) {
   if (sodium_init() < 0) return {nullptr, "libsodium does not work here"};
   const std::shared_ptr<MessageKeys> keys(new MessageKeys);
   keys->keys_.reserve(kMaxKeys);  // so that no copy of a secret is left behind

@@ -23,7 +23,7 @@ class MessageKeys {
   static constexpr std::size_t kMaxKeys = 64;
 
   /// Keys, or the fault of their file.
-  struct Read {
+  struct ReadResult {
     std::shared_ptr<const MessageKeys> keys;
     std::string error;  ///< names file and line; empty exactly when `keys` is set
   };
@@ -37,9 +37,9 @@ class MessageKeys {
   ///
   /// Returns an error for any other file, for one of more than 16 KiB, without a key, with more
   /// than `kMaxKeys` keys, with an id that occurs twice, or with a line of another form.
-  static Read from_file(const std::string& file);
+  static ReadResult from_file(const std::string& file);
   /// Reads the text of such a file, of any size. `file` is its name for messages.
-  static Read from_text(std::string_view text, const std::string& file);
+  static ReadResult from_text(std::string_view text, const std::string& file);
 
   ~MessageKeys();
   MessageKeys(const MessageKeys&) = delete;

@@ -115,6 +115,26 @@ TEST(KnotChoice, TrimsWhatChangesNothing) {
   EXPECT_EQ(KnotChoice(c.problem, c.part).trimmed(more_s, c.path), more_s);
 }
 
+// The row changes little before 10 s, and much until 17 s.
+TEST(KnotChoice, CutsAtAKeyframeBeyondWhichLittleChanges) {
+  const std::vector<double> knots_s = {6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
+  ChoiceCase c = case_on(knots_s);
+  const FreeCoefficients free(c.problem, motion::KnotRow::at(knots_s, nullptr), Ends::kFixed);
+  const auto path_with = [&](double early_m) {
+    StackedPoints variables = StackedPoints::Zero(free.size(), 7);
+    variables(0, 2) = early_m;
+    variables(free.size() - 2, 2) = 1.0;
+    return motion::with_bumps(
+        c.problem.path, std::vector{bumps_for(free.offsets_of(variables, 1.0), Ends::kFixed)});
+  };
+  const KnotChoice choice(c.problem, c.part);
+  EXPECT_EQ(choice.cut_at_keyframes(knots_s, path_with(0.1)),
+            (std::vector<double>{10, 11, 12, 13, 14, 15, 16, 17}));
+  EXPECT_EQ(choice.cut_at_keyframes(knots_s, path_with(0.9)), knots_s);
+  c.part.turns = true;
+  EXPECT_EQ(KnotChoice(c.problem, c.part).cut_at_keyframes(knots_s, path_with(0.1)), knots_s);
+}
+
 TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
   const ChoiceCase c =
       case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});

@@ -22,13 +22,13 @@ const std::string kOne(64, '1');
 const std::string kTwo(64, 'a');
 
 std::string error_of(const std::string& text) {
-  const MessageKeys::Read read = MessageKeys::from_text(text, "keys");
+  const MessageKeys::ReadResult read = MessageKeys::from_text(text, "keys");
   EXPECT_EQ(read.keys == nullptr, !read.error.empty());
   return read.error;
 }
 
 TEST(MessageKeys, ReadsIdsKeysAndRemarks) {
-  const MessageKeys::Read read = MessageKeys::from_text(
+  const MessageKeys::ReadResult read = MessageKeys::from_text(
       "# old and new\n\n 7 " + kOne + "\r\n2147483647\t" + kTwo + " # b", "k");
   ASSERT_TRUE(read.keys) << read.error;
   EXPECT_THAT(read.keys->ids(), ElementsAre(7, 2147483647));
@@ -66,11 +66,11 @@ class OwnedFile {
   OwnedFile() : name_(folder_.write("keys", "1 " + kOne + "\n")) {
     chmod(folder_.path().c_str(), 0711);
   }
-  [[nodiscard]] MessageKeys::Read read(mode_t mode) const {
+  [[nodiscard]] MessageKeys::ReadResult read(mode_t mode) const {
     chmod(name_.c_str(), mode);
     return MessageKeys::from_file(name_);
   }
-  [[nodiscard]] MessageKeys::Read read_as_somebody(uid_t owner, mode_t mode) const {
+  [[nodiscard]] MessageKeys::ReadResult read_as_somebody(uid_t owner, mode_t mode) const {
     EXPECT_EQ(chown(name_.c_str(), owner, 0), 0);
     chmod(name_.c_str(), mode);
     const AsSomebody rights;
@@ -119,7 +119,7 @@ TEST(MessageKeys, WhatIsNoFileIsRefusedWithoutWaiting) {
 
 /// The tag is keyed BLAKE2b of the bytes that README.md lists, assembled independently here.
 TEST(MessageKeys, TheTagIsWhatIsDocumented) {
-  const MessageKeys::Read read = MessageKeys::from_text("258 " + kOne, "keys");
+  const MessageKeys::ReadResult read = MessageKeys::from_text("258 " + kOne, "keys");
   ASSERT_TRUE(read.keys) << read.error;
   envelope_t envelope{};
   envelope.sender = -2;

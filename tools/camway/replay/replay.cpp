@@ -145,7 +145,7 @@ ExitCode run_replay(const ReplayFlags& flags) {
     return invalid_input("--prefix " + flags.publishing.prefix +
                          ": must be 1 to 11 letters, digits, '-' or '_'");
   }
-  wire::MessageKeys::Read read;
+  wire::MessageKeys::ReadResult read;
   if (!flags.key_file.empty()) read = wire::MessageKeys::from_file(flags.key_file);
   if (!read.error.empty()) return invalid_input("--key-file " + read.error);
   return flags.publish ? publish_log(flags.log, flags.publishing, read.keys)
