@@ -12,6 +12,7 @@
 #include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/members.h"
+#include "client/messages/plan_faults.h"
 #include "client/messages/scene.h"
 
 namespace camway {

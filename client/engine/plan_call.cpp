@@ -11,6 +11,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "client/engine/handler.h"
+#include "client/messages/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/utime.h"
 

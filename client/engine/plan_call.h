@@ -8,7 +8,7 @@
 #include <string>
 
 #include "client/engine/context.h"
-#include "client/messages/plan.h"
+#include "client/messages/plan_pages.h"
 
 namespace camway {
 

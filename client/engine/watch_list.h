@@ -18,6 +18,7 @@
 
 #include "client/engine/context.h"
 #include "client/messages/plan.h"
+#include "client/messages/plan_pages.h"
 
 namespace camway {
 

@@ -24,6 +24,7 @@
 
 #include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
+#include "client/messages/plan_pages.h"
 #include "client/messages/status.h"
 #include "daemon/messages/convert.h"
 #include "daemon/planning/request/request.h"

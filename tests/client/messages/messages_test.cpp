@@ -10,6 +10,8 @@
 
 #include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
+#include "client/messages/plan_faults.h"
+#include "client/messages/plan_pages.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 #include "tests/client/fake_daemon.h"
