@@ -122,8 +122,8 @@ class Redrawer {
     best.knots_s = choice_.trimmed(best.knots_s, best.drawn.candidate.path);
   }
 
-  /// Moves the part away from what it passes. The last step: on other knots the room would not be
-  /// the same, and without room the form of the cheapest path is seen more clearly.
+  /// Moves the part away from what it passes. This is the last step, because a drawing on other
+  /// knots would not keep the room.
   void make_room(Drawing& best) const {
     base::Budget budget(kStepsOfRoom);
     relax(best, {.may_turn = part_.turns, .makes_room = true}, budget);
