@@ -196,7 +196,7 @@ void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& c
     const ChangedPart wide = corrected.widened(part, kBeside);
     Problem problem =
         collisions.with_open_collisions(corrected.restored(wide, origin, space.ball_radius_m()));
-    // What was corrected has to be free afterwards, wherever the new row begins and ends.
+    // The new row may begin later or end sooner than the part that it replaces.
     problem.interval = {part.begin_s, part.end_s};
     const CubicPath path = corrected.path().around(problem.path.begin_s(), problem.path.end_s());
     const std::optional<Candidate> drawn =

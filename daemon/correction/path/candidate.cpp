@@ -176,7 +176,7 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   if (!made) return {std::nullopt, problem.interval};
   const auto& [candidate, changed] = *made;
   if (auto breach = breach_of_rule(candidate, changed, problem, space)) {
-    return {std::nullopt, std::move(breach), true};
+    return {std::nullopt, std::move(breach)};
   }
   std::optional<CollisionInterval> found =
       collision_in(changed, candidate, problem, space, deadline);

@@ -23,7 +23,7 @@ struct Problem {
   std::size_t leg = 0;              ///< the collision lies between keyframes `leg` and `leg + 1`
   bool has_path_begin = false;  ///< whether `path` starts at the first keyframe of the whole path
   bool has_path_end = false;    ///< whether `path` ends at the last keyframe of the whole path
-  /// What the correction is for: it has to be free afterwards, even where no row reaches.
+  /// The range to correct. The whole of it must be free afterwards, even where no row reaches.
   collision::CollisionInterval interval;
   /// Other collisions in this part. A correction of this problem may leave them, but must not
   /// enlarge them.
@@ -67,10 +67,9 @@ struct Attempt {
   std::optional<Candidate> candidate;
   /// Set if there is no candidate:
   /// - the approximate range of a collision;
-  /// - the range that violates the orientation policy, if `breaks_rule`;
+  /// - the range that violates the orientation policy;
   /// - `problem.interval` if the rows do not fit or a keyframe would move.
   std::optional<collision::CollisionInterval> collision;
-  bool breaks_rule = false;  ///< whether `collision` is a violation of the orientation policy
 };
 /// Does what `free_candidate` does. If there is no candidate, also returns the range that prevents
 /// it.

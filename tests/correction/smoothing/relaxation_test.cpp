@@ -9,7 +9,9 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/correction/smoothing/contact_bounds.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 #include "daemon/motion/path/measures.h"
 #include "tests/support/gap_problems.h"
@@ -465,23 +467,86 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   EXPECT_GT(gap_m(result), 0.02 * radius_m);
 }
 
-// Over a plate that is just touched: the room that is aimed at would cost a multiple.
-TEST(Relaxation, LowersTheCostWhereRoomIsTooDear) {
+/// A path along z over a cuboid, and a correction that lifts it over it.
+struct Hurdle {
   RelaxationCase c;
+  std::optional<Relaxed> free;
+};
+
+/// `height_m`: how far the cuboid reaches into the way.
+Hurdle hurdle(double height_m) {
+  Hurdle hurdle;
+  RelaxationCase& c = hurdle.c;
   c.policy.rule = OrientationRule::kKeep;
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
-  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m + 0.01, 0.3});
+  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m + height_m, 0.3});
   c.build();
   c.problem = testing::problem_of_leg({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
-  const std::optional<Relaxed> free =
-      correction_with(c, lifted(c.problem, 8, {0, 0.015, 0}), Ends::kFixed);
-  ASSERT_TRUE(free);
-  const Relaxed result = relaxed_fully(c, *free, Ends::kFixed, Objective::kClosest);
-  const auto cost = [&](const Relaxed& of) {
-    return c.value(of.offsets, Ends::kFixed, Objective::kClosest);
-  };
-  EXPECT_LT(cost(result), 0.9 * cost(*free));
-  EXPECT_GT(least_gap_m(c, result.candidate.path, 0.0, 8.0, 4000), 0.0);
+  hurdle.free = correction_with(c, lifted(c.problem, 8, {0, 1.5 * height_m, 0}), Ends::kFixed);
+  return hurdle;
+}
+
+double cost(const RelaxationCase& c, const Relaxed& of) {
+  return closeness_cost(of.candidate.path, c.problem.original, c.space().closeness());
+}
+
+double least_gap_m(const RelaxationCase& c, const Relaxed& of) {
+  return least_gap_m(c, of.candidate.path, 0.0, 8.0, 4000);
+}
+
+Relaxed with_room(const RelaxationCase& c, const Relaxed& tight) {
+  FreeSpace space = c.space();
+  base::Budget budget(kEnoughSteps);
+  return relaxed(c.problem, tight, Ends::kFixed, {.makes_room = true}, budget, space,
+                 Deadline::never());
+}
+
+/// Relaxes until the path all but touches what it passes.
+Relaxed tightened(const Hurdle& hurdle) {
+  Relaxed tight = *hurdle.free;
+  for (int i = 0; i < 4; ++i) {
+    tight = relaxed_fully(hurdle.c, tight, Ends::kFixed, Objective::kClosest);
+  }
+  return tight;
+}
+
+double wanted_m(const RelaxationCase& c) {
+  return ContactBounds(Objective::kClosest, true, c.space().ball_radius_m(),
+                       c.space().closeness().viewing_distance_m)
+      .wanted_m();
+}
+
+TEST(Relaxation, LowersTheCostAndMakesNoRoomUnlessAsked) {
+  const Hurdle low = hurdle(0.01);
+  ASSERT_TRUE(low.free);
+  const Relaxed tight = relaxed_fully(low.c, *low.free, Ends::kFixed, Objective::kClosest);
+  EXPECT_LT(cost(low.c, tight), 0.9 * cost(low.c, *low.free));
+  EXPECT_GT(least_gap_m(low.c, tight), 0.0);
+  EXPECT_LT(least_gap_m(low.c, tight), 0.2 * wanted_m(low.c));
+}
+
+// Over what is high, room is cheap.
+TEST(Relaxation, MakesMostOfTheRoomThatIsAimedAtWhereItIsCheap) {
+  const Hurdle high = hurdle(0.2);
+  ASSERT_TRUE(high.free);
+  const Relaxed tight = tightened(high);
+  const Relaxed roomy = with_room(high.c, tight);
+  EXPECT_LT(least_gap_m(high.c, tight), 0.1 * wanted_m(high.c));
+  EXPECT_GT(least_gap_m(high.c, roomy), 0.5 * wanted_m(high.c));
+  EXPECT_LE(cost(high.c, roomy), 1.25 * cost(high.c, tight));
+}
+
+// Over a plate that is just touched, the room that is aimed at would cost a multiple: the path goes
+// as far as a quarter of the cost buys.
+TEST(Relaxation, SpendsOnRoomWhatItMayWhereAllOfItIsTooDear) {
+  const Hurdle low = hurdle(0.01);
+  ASSERT_TRUE(low.free);
+  const Relaxed tight = tightened(low);
+  const Relaxed roomy = with_room(low.c, tight);
+  EXPECT_LE(cost(low.c, roomy), 1.25 * cost(low.c, tight));
+  EXPECT_GT(cost(low.c, roomy), 1.1 * cost(low.c, tight));
+  EXPECT_GT(least_gap_m(low.c, roomy), least_gap_m(low.c, tight));
+  EXPECT_LT(least_gap_m(low.c, roomy), wanted_m(low.c));
 }
 
 // The next keyframe is so close that the coefficients which keep the one before would reach it.

@@ -143,16 +143,12 @@ OccupancyLoad run_occupancy_load(const scene::SceneMirror& map, const geometry::
     OccupancyAnswer expected = answer_offline(map, batch);
     batches.push_back({std::move(batch), std::move(expected)});
   }
-  std::vector<std::unique_ptr<Client>> clients;
-  for (int i = 0; i < options.clients; ++i) {
-    ClientOptions client;
-    client.url = options.url;
-    client.prefix = options.prefix;
-    client.authentication = options.authentication;
-    clients.push_back(std::make_unique<Client>(client));
-    load.error = clients.back()->error();
-    if (!load.error.empty()) return load;
+  const base::Result<Clients> made = make_clients(options);
+  if (!made) {
+    load.error = made.error;
+    return load;
   }
+  const Clients& clients = *made;
   if (LoadFault fault = fault_of_daemon(*clients.front(), scene); fault.status != Status::kOk) {
     load.error = std::move(fault.error);
     load.status = fault.status;

@@ -53,9 +53,8 @@ class MemoryWatch {
 /// ones.
 double memory_period_s(double seconds) { return std::clamp(seconds / 200.0, 0.05, 5.0); }
 
-using Clients = std::vector<std::unique_ptr<Client>>;
+}  // namespace
 
-/// Returns the clients that ask, or the error of the first one that is of no use.
 base::Result<Clients> make_clients(const LoadOptions& options) {
   Clients clients;
   for (int i = 0; i < options.clients; ++i) {
@@ -68,8 +67,6 @@ base::Result<Clients> make_clients(const LoadOptions& options) {
   }
   return clients;
 }
-
-}  // namespace
 
 LoadFault fault_of_daemon(Client& client, const LoadScene& scene) {
   if (const DaemonStatus status = client.status(); !status.ok()) {

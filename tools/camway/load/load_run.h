@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "tools/camway/load/load_tally.h"
 
 namespace camway::tools {
@@ -26,6 +27,10 @@ struct LoadOptions {
   std::int64_t requests = 0;  ///< requests of all clients together; 0: as many as time allows
   int daemon_pid = 0;         ///< process whose memory is watched; 0: none
 };
+
+using Clients = std::vector<std::unique_ptr<Client>>;
+/// Returns `options.clients` clients, or the error of the first one that cannot be used.
+base::Result<Clients> make_clients(const LoadOptions& options);
 
 /// The reason why there can be no run.
 struct LoadFault {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "client/messages/plan_pages.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,10 +10,8 @@
 
 #include <camway/plan_request_t.hpp>
 
-#include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
 #include "client/messages/plan_faults.h"
-#include "client/messages/plan_pages.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 #include "tests/client/fake_daemon.h"
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using testing_support::answer_pages;
 using testing_support::encode_all;
 
-constexpr std::uint32_t kMessagesSeed = 1995;
+constexpr std::uint32_t kPlanPagesSeed = 1995;
 
 PlanRequest request_with(std::size_t keyframes) {
   PlanRequest request;
@@ -250,7 +250,7 @@ TEST(PlanPages, WhatHasNoFormIsNamed) {
 }
 
 TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
-  testing::Random random(kMessagesSeed);
+  testing::Random random(kPlanPagesSeed);
   const std::vector<Bytes> pages = encode_all(answer_pages(wire_request(), 1000, 90));
   for (int round = 0; round < 50; ++round) {
     std::vector<Bytes> arriving = pages;
@@ -476,8 +476,8 @@ TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
 }
 
 TEST(PlanCollector, SurvivesBrokenMessages) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kMessagesSeed);
-  testing::Random random(kMessagesSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kPlanPagesSeed);
+  testing::Random random(kPlanPagesSeed);
   const Bytes good = encode_all(answer_pages(wire_request(), 3, 3))[0];
   std::uniform_int_distribution<std::size_t> position(0, good.size() - 1);
   std::uniform_int_distribution<int> byte(0, 255);
@@ -540,61 +540,6 @@ TEST(PlanCollector, RefusesAPathThatIsNone) {
           }),
           "ok without a path");
   EXPECT_TRUE(damaged([](auto&) {}).ok());
-}
-
-TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
-  OccupancyBatch batch;
-  batch.scene = "office";
-  const auto number = [](std::size_t i) { return static_cast<double>(i); };
-  for (std::size_t i = 0; i < 6000; ++i) {
-    batch.points_m.push_back({number(i), 1, 2});
-    batch.boxes.push_back({{number(i), 0, 0}, {number(i), 1, 1}});
-    batch.spheres.push_back({{number(i), 0, 0}, 0.5});
-    batch.rays.push_back({{number(i), 0, 0}, {0, 0, 1}, 9});
-    batch.distances.push_back({{number(i), 0, 0}, 3});
-    batch.sphere_paths.push_back({{0, 0, 0}, {number(i), 0, 0}, 3});
-  }
-  std::size_t points = 0, boxes = 0, spheres = 0, rays = 0, distances = 0, paths = 0;
-  const auto requests = to_requests(batch, "me");
-  for (const occupancy_request_t& request : requests) {
-    const Bytes bytes = wire::encode(request);
-    ASSERT_LE(bytes.size(), wire::kMaxMessageBytes);
-    ASSERT_EQ(wire::check(wire::layout_of<occupancy_request_t>(), bytes), std::nullopt);
-    for (const auto& query : request.points_m) ASSERT_EQ(query[0], number(points++));
-    for (const auto& query : request.boxes_m) ASSERT_EQ(query[3], number(boxes++));
-    for (const auto& query : request.spheres_m) ASSERT_EQ(query[0], number(spheres++));
-    for (const auto& query : request.rays_m) ASSERT_EQ(query[0], number(rays++));
-    for (const auto& query : request.distances_m) ASSERT_EQ(query[0], number(distances++));
-    for (const auto& query : request.sphere_paths_m) ASSERT_EQ(query[3], number(paths++));
-  }
-  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances, paths}),
-              ::testing::Each(6000u));
-  // There are no more messages than needed: only the last may be less than nearly full.
-  EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32 + 56) + 59'899) / 59'900);
-}
-
-TEST(OccupancyRequests, AnEmptyBatchIsOneRequest) {
-  EXPECT_EQ(to_requests(OccupancyBatch{}, "me").size(), 1u);
-}
-
-TEST(OccupancyAnswers, MustBeAsManyAsTheQuestions) {
-  OccupancyBatch batch;
-  batch.points_m.resize(2);
-  batch.rays.resize(1);
-  const occupancy_request_t request = to_requests(batch, "me")[0];
-  occupancy_response_t response{};
-  response.num_points = 2;
-  response.points_occupied = {1, 0};
-  OccupancyAnswer answer;
-  EXPECT_THAT(*append(request, response, answer), HasSubstr("not as many"));
-  response.num_rays = 1;
-  response.rays_hit_m = {NAN};
-  EXPECT_THAT(*append(request, response, answer), HasSubstr("not a finite number"));
-  response.rays_hit_m = {-1.0};
-  answer = {};
-  EXPECT_EQ(append(request, response, answer), std::nullopt);
-  EXPECT_EQ(answer.points_occupied, (std::vector<bool>{true, false}));
-  EXPECT_EQ(answer.rays_hit_m, (std::vector<std::optional<double>>{std::nullopt}));
 }
 
 }  // namespace
