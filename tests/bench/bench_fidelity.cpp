@@ -141,7 +141,8 @@ class Arena {
   }
 
  private:
-  static std::vector<std::pair<Way, Answer>> plans(const Shot& shot) {
+  /// The plans of the ways that take part; the search for the best known begins with all of them.
+  std::vector<std::pair<Way, Answer>> plans(const Shot& shot) const {
     const planning::PlanOptions& own = shot.plan().options;
     planning::PlanOptions keep = own;
     keep.orientation.rule = correction::OrientationRule::kKeep;
@@ -149,8 +150,9 @@ class Arena {
     paper.method = planning::Method::kKeyframeInsertion;
     std::vector<std::pair<Way, Answer>> answers;
     answers.emplace_back(kDefault, planned(shot, own));
-    answers.emplace_back(kKeep, planned(shot, keep));
-    answers.emplace_back(kPaper, planned(shot, paper));
+    const bool all = options_.wants(kBestKnown);
+    if (all || options_.wants(kKeep)) answers.emplace_back(kKeep, planned(shot, keep));
+    if (all || options_.wants(kPaper)) answers.emplace_back(kPaper, planned(shot, paper));
     return answers;
   }
 

@@ -24,7 +24,6 @@ using motion::CubicPath;
 constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
 constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
 constexpr int kStepsOfRelaxation = 12;   // of the first, of the last, and of all between
-constexpr int kStepsOfRoom = 8;          // of the relaxation that makes room
 constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
 constexpr std::array<std::size_t, 8> kCounts = {5, 6, 7, 8, 10, 12, 16, 20};  // of knots
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
@@ -125,7 +124,7 @@ class Redrawer {
   /// Moves the part away from what it passes. This is the last step, because a drawing on other
   /// knots would not keep the room.
   void make_room(Drawing& best) const {
-    base::Budget budget(kStepsOfRoom);
+    base::Budget budget(kStepsOfRelaxation);
     relax(best, {.may_turn = part_.turns, .makes_room = true}, budget);
   }
 

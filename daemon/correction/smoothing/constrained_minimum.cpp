@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/correction/smoothing/constrained_minimum.h"
 
+#include <algorithm>
 #include <span>
 
 namespace camway::correction {
 
 namespace {
 
-constexpr double kForceSettled = 1e-3;  // in radii of the ball; chosen by measurement
+// Chosen by measurement.
+constexpr double kForceSettled = 1e-3;  // in radii of the ball
+constexpr double kWorthOfRoom = 2.0;    // of all missing gaps together, relative to the form
 
 }  // namespace
 
 ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvement& improvement,
                                        double ball_radius_m, double viewing_distance_m)
     : form_(form),
-      bounds_(improvement.objective, improvement.makes_room, ball_radius_m, viewing_distance_m),
+      bounds_(improvement.objective, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
-      may_turn_(improvement.may_turn) {}
+      may_turn_(improvement.may_turn),
+      has_no_price_(improvement.makes_room) {}
 
 StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
                                        std::vector<PathSample>& samples) {
   StackedPoints result = form_.minimum();
   if (!may_turn_) result.rightCols<4>() = variables.rightCols<4>();
   find_touching(samples);
+  if (has_no_price_) price_room(variables, samples);
   bounds_.clear();
   if (touching_.empty()) return result;
   StackedPoints unforced(response_.rows(), 7);
@@ -44,6 +49,20 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
   result.noalias() += form_.inverse() * forces;
   bounds_.remember();
   return result;
+}
+
+void ConstrainedMinimum::price_room(const StackedPoints& variables,
+                                    const std::vector<PathSample>& samples) {
+  double missing_m2 = 0.0;
+  for (const PathSample& sample : samples) {
+    for (const Contact& contact : sample.rows) {
+      const double missing_m = std::max(0.0, wanted_m() - contact.row.room_m);
+      missing_m2 += missing_m * missing_m;
+    }
+  }
+  if (missing_m2 == 0.0) return;
+  bounds_.set_price_of_room(2.0 * kWorthOfRoom * form_.value(variables) / missing_m2);
+  has_no_price_ = false;
 }
 
 void ConstrainedMinimum::find_touching(std::vector<PathSample>& samples) {

@@ -24,10 +24,13 @@ class ConstrainedMinimum {
   /// Sets the least gap that `kSafest` must keep. [Units: metres]
   void keep(double least_gap_m) { bounds_.keep(least_gap_m); }
 
-  /// Returns the minimiser. Requires contacts with up to date rows.
+  /// Returns the minimiser. Requires contacts with up to date rows. The first call sets the price
+  /// of room, if the improvement makes room.
   StackedPoints find(const StackedPoints& variables, std::vector<PathSample>& samples);
 
  private:
+  /// Sets the price at which all gaps that are missing now are worth `kWorthOfRoom` of the form.
+  void price_room(const StackedPoints& variables, const std::vector<PathSample>& samples);
   /// Finds the samples with contacts, and how they respond to one another.
   void find_touching(std::vector<PathSample>& samples);
 
@@ -35,6 +38,7 @@ class ConstrainedMinimum {
   ContactBounds bounds_;
   const double settled_m_;  ///< convergence threshold of the multipliers
   const bool may_turn_;
+  bool has_no_price_;                  ///< whether the price of room is still to be set
   std::vector<PathSample*> touching_;  ///< the samples with contacts, numbered in the bounds
   Eigen::MatrixXd response_;           ///< displacement of each of them per unit force on each
 };

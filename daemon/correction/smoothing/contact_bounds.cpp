@@ -13,16 +13,13 @@ namespace {
 constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
 constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
 constexpr double kKeptShare = 0.8;     // share of a smaller gap that is kept
-constexpr double kYield = 0.02;        // compliance: 0 keeps the wanted gap at any price
 constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 
 }  // namespace
 
-ContactBounds::ContactBounds(Objective objective, bool makes_room, double ball_radius_m,
-                             double viewing_distance_m)
+ContactBounds::ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m)
     : is_safest_(objective == Objective::kSafest),
-      makes_room_(makes_room),
       wanted_m_(is_safest_ ? kComfort * ball_radius_m
                            : std::min(kWanted * ball_radius_m, kWantedShift * viewing_distance_m)),
       hard_reach_m_(kHardReach * ball_radius_m) {}
@@ -35,7 +32,7 @@ void ContactBounds::clear() {
 void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double response,
                         std::span<Contact> contacts) {
   if (!is_safest_) {
-    for (Contact& contact : contacts) add_kept(sample, moved, contact);
+    for (Contact& contact : contacts) add_kept(sample, moved, response, contact);
     return;
   }
   for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
@@ -59,15 +56,17 @@ void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double re
   }
 }
 
-void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, Contact& contact) {
+void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, double response,
+                             Contact& contact) {
   const ContactRow& row = contact.row;
   const double offset_m = row.direction.dot(moved) - row.room_m;
   const bool has_room = row.room_m >= wanted_m_;
   add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
-  if (has_room || !makes_room_) {
+  const double stiffness = price_of_room_ * response * row.direction.squaredNorm();
+  if (has_room || !(stiffness > 0.0)) {
     contact.soft_multiplier = 0.0;
   } else {
-    add_soft(sample, row.direction, offset_m + wanted_m_, kYield, contact.soft_multiplier);
+    add_soft(sample, row.direction, offset_m + wanted_m_, 1.0 / stiffness, contact.soft_multiplier);
   }
 }
 

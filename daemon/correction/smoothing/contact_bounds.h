@@ -22,19 +22,20 @@ struct Contact {
 ///
 ///     objective                         hard bound             soft bound
 ///     any but kSafest, gap >= wanted_m  wanted_m               none
-///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m if it makes room
+///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m if room has a price
 ///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
 ///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
  public:
-  /// `makes_room`: whether a gap below `wanted_m` has a soft bound. `kSafest` always makes room.
-  ContactBounds(Objective objective, bool makes_room, double ball_radius_m,
-                double viewing_distance_m);
+  ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m);
 
   /// Returns the gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
+  /// Sets what half a square metre of a missing gap costs, in units of the form that is minimised.
+  /// 0, the default, makes no room. `kSafest` has a price of its own. [Limit: 0 <= value]
+  void set_price_of_room(double price) { price_of_room_ = price; }
 
   void clear();
   /// Adds the bounds of `contacts` on a sample whose displacement is `moved`. Requires contacts of
@@ -47,16 +48,16 @@ class ContactBounds {
   void remember() const;
 
  private:
-  void add_kept(std::size_t sample, const StackedPoint& moved, Contact& contact);
+  void add_kept(std::size_t sample, const StackedPoint& moved, double response, Contact& contact);
   void add_hard(std::size_t sample, double bound_m, Contact& contact);
   void add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
                 double compliance, double& force);
 
   const bool is_safest_;
-  const bool makes_room_;
   const double wanted_m_;
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;
+  double price_of_room_ = 0.0;
   std::vector<BoundConstraint> bounds_;
   std::vector<double*> forces_;  ///< the multiplier in the contact of each bound
 };

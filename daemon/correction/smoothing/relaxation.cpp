@@ -22,6 +22,7 @@ using motion::CubicPoint;
 constexpr int kFewestPerStep = 2;         // between two knots
 constexpr int kMostPerStep = 8;           // the same
 constexpr double kTravelPerSample = 1.0;  // travel of the eye between two samples
+constexpr double kDenserForRoom = 2.0;    // samples, as the least gap lies between two of them
 constexpr double kLeastKept = 0.995;      // share of the least gap that `kSafest` keeps
 constexpr double kFirstTrust = 2.0;       // radius of the trust region
 constexpr double kMostTrust = 4.0;
@@ -65,7 +66,7 @@ class Relaxation {
         objective_(improvement.objective),
         is_safest_(improvement.objective == Objective::kSafest),
         may_turn_(limited(improvement, space).may_turn),
-        most_growth_(improvement.makes_room ? kPriceOfRoom : 1.0),
+        makes_room_(improvement.makes_room),
         closeness_(space.closeness()),
         free_(problem, offsets.knots, ends),
         variables_(free_.variables_of(offsets, lever_m_)),
@@ -91,7 +92,7 @@ class Relaxation {
   /// Avoiding obstacles may cost more than the other terms gain, and room has its price. Always
   /// true for `kSafest`, which gains gaps that the form does not contain.
   [[nodiscard]] bool is_no_worse(const Relaxed& now, const Relaxed& before) const {
-    if (objective_ == Objective::kClosest) return cost(now) <= most_growth_ * cost(before);
+    if (objective_ == Objective::kClosest) return cost(now) <= most_growth() * cost(before);
     return is_safest_ || form_.value(free_.variables_of(now.offsets, lever_m_)) <=
                              form_.value(free_.variables_of(before.offsets, lever_m_));
   }
@@ -99,9 +100,9 @@ class Relaxation {
   /// The share of the way from `before` to `now` that is tried first if `now` is too dear. The cost
   /// is convex, so on this share of the way it has grown by no more than room may cost.
   [[nodiscard]] double first_share(const Relaxed& now, const Relaxed& before) const {
-    if (objective_ != Objective::kClosest || most_growth_ <= 1.0) return kRetreat;
+    if (objective_ != Objective::kClosest || !makes_room_) return kRetreat;
     const double old = cost(before);
-    return std::min(kRetreat, (most_growth_ - 1.0) * old / (cost(now) - old));
+    return std::min(kRetreat, (most_growth() - 1.0) * old / (cost(now) - old));
   }
 
   /// Takes steps until the budget is spent, or a step gains little.
@@ -116,7 +117,9 @@ class Relaxation {
       if (*moved_m == 0.0) continue;
       if (*moved_m < kSettled * radius_m_) return;
       const bool was_whole = *moved_m < 0.99 * trust_m;
-      if (was_whole && !is_safest_ && before - form_.value(variables_) < kGained * before) {
+      // Room is no part of the form.
+      const bool is_all = !is_safest_ && !makes_room_;
+      if (was_whole && is_all && before - form_.value(variables_) < kGained * before) {
         return;
       }
       trust_m = std::min(2.0 * trust_m, kMostTrust * radius_m_);
@@ -153,6 +156,9 @@ class Relaxation {
     form_.bound_about(variables_);
   }
 
+  /// Of the cost, for `kClosest`.
+  [[nodiscard]] double most_growth() const { return makes_room_ ? kPriceOfRoom : 1.0; }
+
   void add_sample(double time_s) {
     std::optional<PathSample> sample = probe_.sample_at(time_s, free_, variables_);
     if (sample) samples_.push_back(std::move(*sample));
@@ -162,8 +168,9 @@ class Relaxation {
     const double travel_m =
         (problem.path.at(end_s).position - problem.path.at(begin_s).position).norm();
     const double wanted = std::ceil(travel_m / (kTravelPerSample * radius_m_));
+    const double denser = makes_room_ ? kDenserForRoom : 1.0;
     const int count =
-        static_cast<int>(std::clamp(wanted, double{kFewestPerStep}, double{kMostPerStep}));
+        static_cast<int>(denser * std::clamp(wanted, double{kFewestPerStep}, double{kMostPerStep}));
     for (int i = 0; i < count; ++i) add_sample(std::lerp(begin_s, end_s, (i + 0.5) / count));
   }
 
@@ -271,7 +278,7 @@ class Relaxation {
   const Objective objective_;
   const bool is_safest_;
   const bool may_turn_;
-  const double most_growth_;  ///< of the cost, for `kClosest`
+  const bool makes_room_;
   const Closeness& closeness_;
   const FreeCoefficients free_;
   StackedPoints variables_;
