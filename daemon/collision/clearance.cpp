@@ -122,7 +122,7 @@ class ClearanceSearch {
   [[nodiscard]] PathClearance touch() const { return {0.0, upper_m_}; }
 
   // Chosen by measurement: none changes what is proved.
-  static constexpr double kShare = 0.93;  // the true distance is at least this share
+  static constexpr double kShare = 0.96;  // the true distance is at least this share
   static constexpr int kPlacesASegment = 8;
   static constexpr double kApproach = 0.8;      // reach aimed at, as a share of the gap
   static constexpr double kLargestShare = 0.8;  // share of a reach that was too long

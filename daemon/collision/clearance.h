@@ -21,7 +21,7 @@ struct PathClearance {
 
 /// Largest value of (upper_bound_m - lower_bound_m) / upper_bound_m if `lower_bound_m` > 0, up to
 /// rounding.
-inline constexpr double kClearanceTolerance = 0.18;
+inline constexpr double kClearanceTolerance = 0.1;
 
 /// Largest clearance that is reported, also for an empty scene. [Units: metres]
 inline constexpr double kLargestClearance_m = 100.0;
