@@ -136,7 +136,8 @@ class Follower {
   }
 
   Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {
-    const Improvement improvement{.may_turn = turning_ == Turning::kAsGuide};
+    const Improvement improvement{.may_turn = turning_ == Turning::kAsGuide,
+                                  .most_steps = kStepsOfChoice};
     Relaxed better = relaxed(problem_, {offsets, std::move(found)}, ends, improvement, budget_,
                              space_, deadline_);
     paths_ += better.paths;

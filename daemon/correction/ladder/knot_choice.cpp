@@ -15,7 +15,6 @@ using motion::CubicPiece;
 // Chosen by measurement; none changes what is proved.
 constexpr std::size_t kFewestKnots = 5;  // one bump
 constexpr int kBeyondEnd = 3;            // knots beyond an end of the whole path
-constexpr double kEven = 0.3;            // weight of even spacing, relative to that by the error
 constexpr double kNearStep = 0.4;        // in steps: a knot that is nearer to a joint moves there
 constexpr double kLeastExtension = 0.5;  // in steps
 constexpr double kNegligible = 0.003;    // share of the largest change of the position
@@ -54,26 +53,6 @@ double harm_of(const std::vector<double>& knots_s, std::size_t i, const CubicPat
   const bool is_end = i == 0 || i + 1 == knots_s.size();
   const double reach_s = is_end ? before_s : before_s * after_s / (before_s + after_s);
   return jump_at(knots_s, i, path) * std::pow(reach_s, 3.0);
-}
-
-/// The share of each step in the error of a cubic spline: the fourth root of the fourth derivative,
-/// times the step.
-std::vector<double> shares_of_error(const std::vector<double>& knots_s, const CubicPath& path) {
-  const auto density = [&](std::size_t i) {
-    const auto [before_s, after_s] = steps_about(knots_s, i);
-    return std::pow(jump_at(knots_s, i, path) / (0.5 * (before_s + after_s)), 0.25);
-  };
-  std::vector<double> shares;
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
-    shares.push_back(0.5 * (density(i) + density(i + 1)) * (knots_s[i + 1] - knots_s[i]));
-    sum += shares.back();
-  }
-  const double even = sum > 0.0 ? kEven * sum : 1.0;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i] += even * (knots_s[i + 1] - knots_s[i]) / (knots_s.back() - knots_s.front());
-  }
-  return shares;
 }
 
 }  // namespace
@@ -256,25 +235,6 @@ std::vector<double> KnotChoice::cut_at_keyframes(const std::vector<double>& all_
   }
   std::vector<double> list_s = kept(knots_s, first, last);
   return list_s.empty() ? all_s : list_s;
-}
-
-std::vector<double> KnotChoice::spaced(const std::vector<double>& all_s, const CubicPath& path,
-                                       std::size_t count) const {
-  const std::vector<double> knots_s = within(all_s);
-  const std::vector<double> shares = shares_of_error(knots_s, path);
-  double sum = 0.0;
-  for (const double share : shares) sum += share;
-  std::vector<double> result = {knots_s.front()};
-  double before = 0.0;
-  std::size_t i = 0;
-  for (std::size_t k = 1; k + 1 < count; ++k) {
-    const double wanted = sum * static_cast<double>(k) / static_cast<double>(count - 1);
-    while (i + 1 < shares.size() && before + shares[i] < wanted) before += shares[i++];
-    const double place = std::clamp((wanted - before) / shares[i], 0.0, 1.0);
-    result.push_back(std::lerp(knots_s[i], knots_s[i + 1], place));
-  }
-  result.push_back(knots_s.back());
-  return with_joints(std::move(result));
 }
 
 std::vector<std::size_t> KnotChoice::removable(const std::vector<double>& knots_s,

@@ -44,12 +44,6 @@ class KnotChoice {
   [[nodiscard]] std::vector<double> cut_at_keyframes(const std::vector<double>& knots_s,
                                                      const motion::CubicPath& path) const;
 
-  /// Returns about `count` knots in place of `all_s`, on which `path` was drawn: denser where the
-  /// third derivative of the position changes more, so that each step has about the same share of
-  /// the error of a cubic spline (de Boor 1978, "A practical guide to splines", chapter XII).
-  [[nodiscard]] std::vector<double> spaced(const std::vector<double>& all_s,
-                                           const motion::CubicPath& path, std::size_t count) const;
-
   /// Returns the indices of knots each of which may be removed, no two of them neighbours. Those
   /// come first whose removal changes the positions of `path` least, judged by the jump of the
   /// third derivative (knot removal, Lyche & Mørken 1987).

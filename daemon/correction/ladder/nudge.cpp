@@ -100,7 +100,8 @@ class Nudger {
   }
 
   Candidate improved(const Offsets& offsets, Candidate candidate) {
-    const Improvement improvement{.may_turn = kind_ == NudgeKind::kTurn};
+    const Improvement improvement{.may_turn = kind_ == NudgeKind::kTurn,
+                                  .most_steps = kStepsOfChoice};
     Relaxed better = relaxed(problem_, {offsets, std::move(candidate)}, Ends::kFixed, improvement,
                              budget_, space_, deadline_);
     effort_.paths += better.paths;

@@ -34,7 +34,7 @@ constexpr std::array<double, 2> kMarginShares = {0.1, 0.02};
 constexpr double kLargestTurn_rad = 0.8;
 constexpr double kLargestTurnStep_rad = 0.08;  // turned too far, the body is stuck again
 constexpr std::size_t kMostWays = 2;           // nudges that are tried as bumps
-constexpr double kWorseWay = 2.5;              // a direction that needs so much more is not tried
+constexpr double kWorseWay = 1.7;              // a direction that needs so much more is not tried
 
 /// Adds a unit vector, unless there is one of about the same direction.
 void add_new(const Vec3& direction, std::vector<Vec3>& directions) {

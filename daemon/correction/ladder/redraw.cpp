@@ -23,9 +23,9 @@ using motion::CubicPath;
 // Chosen by measurement; none changes what is proved.
 constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
 constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
-constexpr int kStepsOfRelaxation = 12;   // of the first, of the last, and of all between
+constexpr int kStepsOfRelaxation = 8;    // of the first, and of all that follow
+constexpr int kStepsOfRoom = 12;         // of the relaxation that makes room
 constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
-constexpr std::array<std::size_t, 8> kCounts = {5, 6, 7, 8, 10, 12, 16, 20};  // of knots
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
 constexpr std::array<double, 2> kScales = {1.0, 1.15};
 
@@ -56,11 +56,7 @@ class Redrawer {
     extend(*best);
     most_cost_ = kMostGrowth * std::min(best->cost, cost(path_));
     cut_at_keyframes(*best);
-    place_anew(*best);
     thin_out(*best);
-    Drawing last = *best;
-    relax(last, kStepsOfRelaxation);
-    if (is_worth(last)) best = std::move(last);
     if (!is_worth(*best)) return std::nullopt;
     make_room(*best);
     return std::move(best->drawn.candidate);
@@ -99,10 +95,6 @@ class Redrawer {
     return std::nullopt;
   }
 
-  void relax(Drawing& drawing, int steps) const {
-    base::Budget budget(steps);
-    relax(drawing, {.may_turn = part_.turns}, budget);
-  }
   void relax(Drawing& drawing, const Improvement& improvement, base::Budget& budget) const {
     drawing.drawn = relaxed(problem_, std::move(drawing.drawn), Ends::kFixed, improvement, budget,
                             space_, deadline_);
@@ -115,7 +107,8 @@ class Redrawer {
     if (knots_s.size() == best.knots_s.size()) return;
     std::optional<Drawing> longer = drawing(std::move(knots_s), best.drawn.candidate.path);
     if (!longer) return;
-    relax(*longer, kStepsOfRelaxation);
+    base::Budget budget(kStepsOfRelaxation);
+    relax(*longer, {.may_turn = part_.turns}, budget);
     if (longer->cost >= best.cost) return;
     best = *std::move(longer);
     best.knots_s = choice_.trimmed(best.knots_s, best.drawn.candidate.path);
@@ -124,7 +117,7 @@ class Redrawer {
   /// Moves the part away from what it passes. This is the last step, because a drawing on other
   /// knots would not keep the room.
   void make_room(Drawing& best) const {
-    base::Budget budget(kStepsOfRelaxation);
+    base::Budget budget(kStepsOfRoom);
     relax(best, {.may_turn = part_.turns, .makes_room = true}, budget);
   }
 
@@ -142,16 +135,6 @@ class Redrawer {
   void cut_at_keyframes(Drawing& best) {
     std::vector<double> knots_s = choice_.cut_at_keyframes(best.knots_s, best.drawn.candidate.path);
     if (knots_s != best.knots_s) redraw_on(std::move(knots_s), best);
-  }
-
-  /// Draws on as few knots as possible, placed anew.
-  void place_anew(Drawing& best) {
-    for (const std::size_t count : kCounts) {
-      std::vector<double> knots_s = choice_.spaced(best.knots_s, best.drawn.candidate.path, count);
-      if (deadline_.passed()) return;
-      if (knots_s.size() >= best.knots_s.size()) continue;
-      if (redraw_on(std::move(knots_s), best)) return;
-    }
   }
 
   /// Removes knots in batches, halved where that is too much at once.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "daemon/motion/path/bezier.h"
 #include "daemon/motion/path/quaternion.h"
 
 namespace camway::correction {
@@ -79,14 +80,19 @@ double simpson_weight(int i, int steps) {
   return i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
 }
 
-/// ∫ shift dt over a piece.
-double integral_of_shift(const CubicPath& path, const CubicPath& original, const CubicPiece& piece,
+motion::CubicPoint point_at(const CubicPiece& piece, double time_s) {
+  const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
+  return {motion::bezier::value_at(piece.position, u), motion::bezier::value_at(piece.image, u)};
+}
+
+/// ∫ shift dt over a piece, which lies in the piece `before` of the original path.
+double integral_of_shift(const CubicPiece& piece, const CubicPiece& before,
                          const Closeness& closeness, double& largest_rad) {
   double sum = 0.0;
   for (int i = 0; i <= kSamplesAPiece; ++i) {
     const double time_s =
         std::lerp(piece.t0_s, piece.t1_s, static_cast<double>(i) / kSamplesAPiece);
-    const double shift = shift_rad(path.at(time_s), original.at(time_s), closeness);
+    const double shift = shift_rad(point_at(piece, time_s), point_at(before, time_s), closeness);
     largest_rad = std::max(largest_rad, shift);
     sum += simpson_weight(i, kSamplesAPiece) * shift;
   }
@@ -104,7 +110,7 @@ Shift shift_of(const CubicPath& path, const CubicPath& original, const Closeness
   Shift shift;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
     if (is_same(now, before)) return;
-    shift.mean_rad += integral_of_shift(path, original, now, closeness, shift.largest_rad);
+    shift.mean_rad += integral_of_shift(now, before, closeness, shift.largest_rad);
   });
   shift.mean_rad /= path.end_s() - path.begin_s();
   return shift;
@@ -117,7 +123,7 @@ double closeness_cost(const CubicPath& path, const CubicPath& original,
   const double a = closeness.acceleration_m_per_s2;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
     if (is_same(now, before)) return;
-    cost += integral_of_shift(path, original, now, closeness, largest_rad);
+    cost += integral_of_shift(now, before, closeness, largest_rad);
     // The offset's second derivative is linear: Simpson's rule is exact for its square.
     const double squares = squared_acceleration(now, original, 0.0, closeness) +
                            4.0 * squared_acceleration(now, original, 0.5, closeness) +

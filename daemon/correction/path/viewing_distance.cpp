@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace camway::correction {
@@ -12,21 +13,13 @@ namespace {
 using geometry::Vec3;
 
 constexpr int kRays = 9;
-constexpr int kMostSteps = 40;        // along a ray
-constexpr double kNearEnough = 0.02;  // share of the distance: the ray has met the scene
-constexpr double kLeastAdvance_m = 0.01;
 
-/// Sphere tracing (Hart 1996): no obstacle is nearer than the gap, so the ray may advance by it.
 double distance_along_view_m(const motion::Pose& pose, const FreeSpace& space) {
   const Vec3 view_W = pose.orientation * -Vec3::UnitZ();
-  double along_m = 0.0;
-  for (int i = 0; i < kMostSteps && along_m < kMostViewingDistance_m; ++i) {
-    const double gap_m =
-        space.ball_gap_m(pose.position + along_m * view_W, 0.0, kMostViewingDistance_m);
-    if (gap_m <= kNearEnough * along_m) break;
-    along_m += std::max(gap_m, kLeastAdvance_m);
-  }
-  return std::clamp(along_m, kLeastViewingDistance_m, kMostViewingDistance_m);
+  const std::optional<scene::SegmentHit> hit = space.obstacles().index.closest_hit(
+      {pose.position, pose.position + kMostViewingDistance_m * view_W});
+  return hit ? std::max(kLeastViewingDistance_m, hit->fraction * kMostViewingDistance_m)
+             : kMostViewingDistance_m;
 }
 
 }  // namespace

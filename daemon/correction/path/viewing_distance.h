@@ -13,7 +13,7 @@ inline constexpr double kLeastViewingDistance_m = 1.0;
 inline constexpr double kMostViewingDistance_m = 10.0;
 
 /// Returns the median distance from the path to the scene along the view direction (-Z of the
-/// camera), by samples, clamped to [`kLeastViewingDistance_m`, `kMostViewingDistance_m`].
+/// camera), by rays, clamped to [`kLeastViewingDistance_m`, `kMostViewingDistance_m`].
 /// Approximate; no part of any proof. [Units: metres]
 double viewing_distance_m(const motion::CubicPath& interpolated, const FreeSpace& space);
 

@@ -12,7 +12,7 @@ namespace {
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
 constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
 constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
-constexpr double kKeptShare = 0.8;     // share of a smaller gap that is kept
+constexpr double kKeptShare = 0.9;     // share of a smaller gap that is kept
 constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 

@@ -31,7 +31,6 @@ constexpr double kDistrust = 0.3;
 constexpr double kHorizon = 0.7;   // largest gap that is measured; `kSafest` adds kComfort
 constexpr double kSettled = 0.05;  // a step that moves the body less is the last
 constexpr double kGained = 0.01;   // share of the objective: a step that gains less is the last
-constexpr int kMostSteps = 12;
 constexpr double kPriceOfRoom = 1.25;  // largest growth of the cost for wider gaps
 constexpr int kMostCuts = 3;           // attempts at a step, each with more contacts
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
@@ -335,7 +334,7 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improveme
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   if (!budget.covers(1)) return free;
   Relaxation relaxation(problem, free.offsets, ends, improvement, space);
-  base::Budget steps = budget.take(kMostSteps);
+  base::Budget steps = budget.take(improvement.most_steps);
   Relaxed better = proved(problem, relaxation, std::move(free), ends, steps, space, deadline);
   budget.put_back(steps);
   return better;
@@ -350,7 +349,7 @@ std::optional<Candidate> polished(const Problem& problem, int knots, const Impro
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
   Relaxation relaxation(problem, none, ends, improvement, space);
   if (!relaxation.promises(improvement.worth)) return std::nullopt;
-  base::Budget steps = budget.take(kMostSteps);
+  base::Budget steps = budget.take(improvement.most_steps);
   Relaxed better = proved(problem, relaxation, {none, {}}, ends, steps, space, deadline);
   budget.put_back(steps);
   if (better.candidate.rows.empty()) return std::nullopt;

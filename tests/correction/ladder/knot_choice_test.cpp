@@ -135,23 +135,6 @@ TEST(KnotChoice, CutsAtAKeyframeBeyondWhichLittleChanges) {
   EXPECT_EQ(KnotChoice(c.problem, c.part).cut_at_keyframes(knots_s, path_with(0.1)), knots_s);
 }
 
-TEST(KnotChoice, SpacesAsManyKnotsAsAskedForAndKeepsJoints) {
-  const ChoiceCase c =
-      case_on({6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23});
-  const KnotChoice choice(c.problem, c.part);
-  for (std::size_t count = 5; count < 18; ++count) {
-    const std::vector<double> spaced_s = choice.spaced(c.knots_s, c.path, count);
-    EXPECT_TRUE(std::ranges::is_sorted(spaced_s));
-    EXPECT_EQ(std::ranges::adjacent_find(spaced_s), spaced_s.end());
-    EXPECT_EQ(spaced_s.front(), 6.0);
-    EXPECT_EQ(spaced_s.back(), 23.0);
-    EXPECT_TRUE(has(spaced_s, 10.0) && has(spaced_s, 20.0)) << count;
-    EXPECT_TRUE(choice.is_valid(spaced_s)) << count;
-    EXPECT_GE(spaced_s.size(), count);
-    EXPECT_LE(spaced_s.size(), count + 4);
-  }
-}
-
 // A knot at which nothing happens goes first.
 TEST(KnotChoice, RemovesFirstWhatMattersLeast) {
   ChoiceCase c = case_on({11, 12, 13, 14, 15, 16, 17});
