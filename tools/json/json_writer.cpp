@@ -170,7 +170,7 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
     io("segments", result.path.segments());
     io("keyframes", result.keyframes);
     planning::report_members(io, result);
-    io(may_lack("timing_ms", format.timing == TimingField::kWritten), result.timing);
+    io(may_lack("timing_ms", format.has_timing), result.timing);
   });
   out += '\n';
   if (!io.error().empty()) return base::Failure{io.error()};
