@@ -46,9 +46,8 @@ PlanCollector::Taken PlanCollector::take(std::span<const std::uint8_t> bytes) {
   }
   plan_response_t& page = *decoded.message;
   if (page.client_id != client_id_ || page.request_id != request_id_) return Taken::kForeign;
-  if (!wire::page_fault(page).empty()) {
-    fault_ = "plan_response_t.page: " + std::to_string(page.page) + " of " +
-             std::to_string(page.num_pages) + " is out of range";
+  if (const std::string fault = wire::page_fault(page); !fault.empty()) {
+    fault_ = "plan_response_t." + fault;
     return Taken::kBad;
   }
   if (pages_.held() > 0 && pages_.any().utime != page.utime) clear();

@@ -11,6 +11,24 @@ constexpr std::array<const char*, Bounds::kSides> kFields = {"min[0]", "min[1]",
 
 }  // namespace
 
+Limits limits_of(const Bounds& bounds) {
+  Limits limits;
+  for (std::size_t side = 0; side < Bounds::kSides; ++side) {
+    if (std::isinf(bounds.limit_m(side))) continue;
+    (side < 3 ? limits.min_m : limits.max_m)[side % 3] = bounds.limit_m(side);
+  }
+  return limits;
+}
+
+Bounds bounds_of(const Limits& limits) {
+  Bounds bounds;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (limits.min_m[axis]) bounds.min_W[static_cast<Eigen::Index>(axis)] = *limits.min_m[axis];
+    if (limits.max_m[axis]) bounds.max_W[static_cast<Eigen::Index>(axis)] = *limits.max_m[axis];
+  }
+  return bounds;
+}
+
 std::optional<BoundsFault> fault_in(const Bounds& bounds) {
   for (std::size_t side = 0; side < Bounds::kSides; ++side) {
     const double value_m = bounds.limit_m(side);

@@ -63,6 +63,15 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
+/// The limits of bounds, with nothing for a side that is none: the form of files, of messages and
+/// of the client.
+struct Limits {
+  std::array<std::optional<double>, 3> min_m;
+  std::array<std::optional<double>, 3> max_m;
+};
+Limits limits_of(const Bounds& bounds);
+Bounds bounds_of(const Limits& limits);
+
 /// A fault of bounds.
 struct BoundsFault {
   std::string field;   ///< field below the bounds, e.g. "min[0]"

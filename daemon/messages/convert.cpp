@@ -2,7 +2,6 @@
 #include "daemon/messages/convert.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <camway/occupancy_response_t.hpp>
@@ -40,22 +39,14 @@ std::string clipped(std::string_view text, std::size_t max_bytes) {
 
 bounds_t to_wire(const geometry::Bounds& bounds) {
   bounds_t wire{};
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    wire.has_min[axis] = std::isinf(bounds.min_W[axis]) ? 0 : 1;
-    wire.has_max[axis] = std::isinf(bounds.max_W[axis]) ? 0 : 1;
-    if (wire.has_min[axis] != 0) wire.min_m[axis] = bounds.min_W[axis];
-    if (wire.has_max[axis] != 0) wire.max_m[axis] = bounds.max_W[axis];
-  }
+  ToWire{}(geometry::limits_of(bounds), wire);
   return wire;
 }
 
 geometry::Bounds from_wire(const bounds_t& wire) {
-  geometry::Bounds bounds;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (wire.has_min[axis] != 0) bounds.min_W[axis] = wire.min_m[axis];
-    if (wire.has_max[axis] != 0) bounds.max_W[axis] = wire.max_m[axis];
-  }
-  return bounds;
+  geometry::Limits limits;
+  FromWire{}(limits, wire);
+  return geometry::bounds_of(limits);
 }
 
 base::Result<motion::Path> path_of(const std::vector<segment_t>& wire) {
@@ -69,7 +60,12 @@ base::Result<motion::Path> path_of(const std::vector<segment_t>& wire) {
 
 plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
   const ToWire io;
-  plan_response_t wire = plain_answer(0, "", header);
+  plan_response_t wire{};
+  wire::convert_common(io, header.ids, wire);
+  wire::convert_common(io, header, wire);
+  wire.num_pages = 1;
+  wire.keyframe_inside = -1;
+  wire.keyframe_outside = -1;
   planning::head_members(io, result, wire);
   io(result.path.segments(), wire.segments);
   io(result.keyframes, wire.keyframes);
@@ -82,18 +78,10 @@ plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
 
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header) {
-  plan_response_t wire{};
-  wire::convert_common(ToWire{}, header.ids, wire);
-  wire::convert_common(ToWire{}, header, wire);
-  wire.num_pages = 1;
+  PlanResult nothing;
+  nothing.message = message;
+  plan_response_t wire = to_wire(nothing, header);
   wire.status = status;
-  wire.message = message;
-  wire.keyframe = -1;
-  wire.near_scale = 1.0;
-  wire.time_scale = 1.0;
-  wire.keyframe_inside = -1;
-  wire.keyframe_outside = -1;
-  clip_texts(wire);
   return wire;
 }
 

@@ -43,8 +43,7 @@ struct RequestIds {
   std::int64_t utime = 0;  ///< microseconds since 1970
 };
 
-/// Convert bounds without a check; `geometry::fault_in` checks the numbers. A side at infinity is
-/// no limit.
+/// Convert bounds without a check; `geometry::fault_in` checks the numbers.
 bounds_t to_wire(const geometry::Bounds& bounds);
 geometry::Bounds from_wire(const bounds_t& wire);
 

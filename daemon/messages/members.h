@@ -15,6 +15,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/messages/convert.h"
+#include "daemon/planning/request/options.h"
 #include "daemon/planning/result/members.h"
 #include "lcmtypes/wire/convert.h"
 
@@ -86,11 +87,11 @@ void translate(const Wire& wire, Enum& mine, Refusal& refusal) {
   if (!value) refusal.add(wire, unknown_value(wire, names_of(Enum{})));
   mine = value.value_or(mine);
 }
-/// Reads the index of a vertex.
-template <std::same_as<std::int32_t> Wire>
-void translate(const Wire& wire, std::uint32_t& mine, Refusal& refusal) {
+/// Reads the index of a vertex, or a seed.
+template <std::signed_integral Wire>
+void translate(const Wire& wire, std::make_unsigned_t<Wire>& mine, Refusal& refusal) {
   if (wire < 0) refusal.add(wire, fmt::format("is {}; it must be at least 0", wire));
-  mine = static_cast<std::uint32_t>(std::max(wire, 0));
+  mine = static_cast<std::make_unsigned_t<Wire>>(wire);
 }
 
 /// Cuts the texts of a message to its limits.
@@ -115,7 +116,9 @@ class Converter {
 
   template <class Mine, class Wire>
   void operator()(Mine&& mine, Wire&& wire) const {
-    if constexpr (requires { planning::members(*this, mine, wire); }) {
+    if constexpr (requires { planning::visit_table(*this, mine, wire); }) {
+      planning::visit_table(*this, mine, wire);
+    } else if constexpr (requires { planning::members(*this, mine, wire); }) {
       planning::members(*this, mine, wire);
       if constexpr (kWrites && wire::Described<std::remove_reference_t<Wire>>) clip_texts(wire);
     } else if constexpr (kWrites) {
@@ -125,9 +128,18 @@ class Converter {
     }
   }
 
-  /// Converts a member of a list, or of a field table.
+  /// Converts a member of a list.
   template <class Mine, class Wire>
   void operator()(planning::FileName, Mine&& mine, Wire&& wire) const {
+    (*this)(mine, wire);
+  }
+  /// Converts a member of a field table. One that is zero or empty in a message that is read leaves
+  /// the default; NaN and negative values go on to `planning::validate`.
+  template <std::same_as<planning::FieldSpec> Spec, class Mine, class Wire>
+  void operator()(const Spec&, Mine& mine, Wire& wire) const {
+    if constexpr (!kWrites) {
+      if (wire::is_blank(wire)) return;
+    }
     (*this)(mine, wire);
   }
   template <class List>
@@ -140,7 +152,7 @@ class Converter {
     if (mine) list(*this, *mine);
   }
 
- private:
+ protected:
   /// Converts a value by `translate` where there is one for its types.
   template <class Io, class From, class To>
   void convert(const Io& io, const From& from, To& to) const {

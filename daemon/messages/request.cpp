@@ -49,80 +49,41 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
   };
 }
 
-/// Reads members of tables. One that is zero or empty leaves the default; NaN and negative values
-/// go on to `planning::validate`.
-struct TableReader {
-  Refusal& refusal;
+/// Reads members that count, pieces of bodies included.
+struct UsedReader : FromWire {
+  using FromWire::FromWire;
+  using FromWire::operator();
 
-  /// Reads the members of `wire` that count with this `kind`, and refuses others that have a value:
-  /// their sender meant them. `visit_used(visit)` visits those that count.
-  template <class Wire, class Kind, class VisitUsed>
-  void read_used(const Wire& wire, const Kind& kind, const VisitUsed& visit_used) const {
-    std::vector<const void*> used{&kind};
-    visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
-      (used.push_back(&members), ...);
-    });
-    wire::visit_unused(wire, used, [&](std::string_view name, const auto& member) {
-      if (name.starts_with("has_")) return;  // `refuse_idle` looks at what a flag marks
-      refusal.add(member,
-                  fmt::format("does not count with this {}; leave it zero or empty, or set the "
-                              "one it belongs to",
-                              refusal.path_of(kind)));
-    });
-    visit_used(*this);
-  }
-
-  template <class Mine, class Wire>
-  void operator()(const FieldSpec& spec, Mine& mine, const Wire& wire) const {
-    if (wire::is_blank(wire)) return;
-    if constexpr (std::same_as<Mine, std::uint64_t>) {
-      if (wire < 0) {
-        refusal.add(wire, fmt::format("is {}; it must be {}", wire, spec.range_text()));
-      }
-    }
-    FromWire{refusal}(mine, wire);
-  }
-  void operator()(const FieldSpec&, correction::MotionLimits& mine,
-                  const motion_limits_t& wire) const {
-    planning::visit_limits(*this, mine, wire);
-  }
-  void operator()(const FieldSpec&, OrientationPolicy& mine, const orientation_t& wire) const {
-    (*this)(planning::option::kPolicy, mine.rule, wire.policy);
-    read_used(wire, wire.policy,
-              [&](const auto& visit) { planning::visit_used(visit, mine, wire); });
-    mine.up_W = planning::direction_of(mine.up_W);
-    if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
-  }
   void operator()(const FieldSpec&, std::vector<std::vector<Vec3>>& pieces,
                   const std::vector<std::int32_t>& sizes, const Points& points) const {
     std::span left(points);
     for (const std::int32_t& size : sizes) {
       if (size < 0 || static_cast<std::size_t>(size) > left.size()) {
-        return refusal.add(size, fmt::format("is {}, and {} points are left", size, left.size()));
+        return refusal_->add(size, fmt::format("is {}, and {} points are left", size, left.size()));
       }
-      FromWire{refusal}(pieces.emplace_back(), left.first(static_cast<std::size_t>(size)));
+      (*this)(pieces.emplace_back(), left.first(static_cast<std::size_t>(size)));
       left = left.subspan(static_cast<std::size_t>(size));
     }
     if (left.empty()) return;
-    refusal.add(sizes, fmt::format("{} points belong to no piece", left.size()));
+    refusal_->add(sizes, fmt::format("{} points belong to no piece", left.size()));
   }
 };
 
-/// Reads the shape of a body. The shape is nothing if it is the near quadrilateral of the request's
-/// camera. Sizes and counts are checked by `planning::validate`.
-std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
-  std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
-  if (!shape) {
-    refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNames));
-    return shape;
-  }
-  const auto read = [&](auto& part) {
-    TableReader{refusal}.read_used(
-        wire, wire.type, [&](const auto& visit) { planning::visit_shape(visit, part, wire); });
-  };
-  std::visit(read, *shape);
-  if (wire.type == body_t::CAMERA) shape.reset();
-  return shape;
+/// Reads the members of `wire` that count with this `kind`, and refuses others that have a value:
+/// their sender meant them. `visit_used(visit)` visits those that count.
+template <class Wire, class Kind, class VisitUsed>
+void read_used(Refusal& refusal, const Wire& wire, const Kind& kind, const VisitUsed& visit_used) {
+  std::vector<const void*> used{&kind};
+  visit_used([&](const FieldSpec&, const auto&, const auto&... members) {
+    (used.push_back(&members), ...);
+  });
+  wire::visit_unused(wire, used, [&](std::string_view name, const auto& member) {
+    if (name.starts_with("has_")) return;  // `refuse_idle` looks at what a flag marks
+    refusal.add(member, fmt::format("does not count with this {}; leave it zero or empty, or set "
+                                    "the one it belongs to",
+                                    refusal.path_of(kind)));
+  });
+  visit_used(UsedReader(refusal));
 }
 
 /// Refuses members beside body and orientation that have a value but no effect.
@@ -145,6 +106,27 @@ void refuse_idle(Refusal& refusal, const plan_request_t& wire) {
 
 }  // namespace
 
+// `FromWire` finds these functions for the pairs of structs that differ.
+static void translate(const orientation_t& wire, OrientationPolicy& mine, Refusal& refusal) {
+  FromWire{refusal}(mine.rule, wire.policy);
+  read_used(refusal, wire, wire.policy,
+            [&](const auto& visit) { planning::visit_used(visit, mine, wire); });
+  mine.up_W = planning::direction_of(mine.up_W);
+  if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
+}
+/// The shape is nothing if it is the near quadrilateral of the request's camera. Sizes and counts
+/// are checked by `planning::validate`.
+static void translate(const body_t& wire, std::optional<BodyShape>& shape, Refusal& refusal) {
+  shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
+  if (!shape) return refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNames));
+  const auto read = [&](auto& part) {
+    read_used(refusal, wire, wire.type,
+              [&](const auto& visit) { planning::visit_shape(visit, part, wire); });
+  };
+  std::visit(read, *shape);
+  if (wire.type == body_t::CAMERA) shape.reset();
+}
+
 double deadline_of(double wire_s, const DeadlineLimits& limits) {
   const double deadline_s = wire_s == 0.0 ? limits.default_s : wire_s;
   return deadline_s > limits.max_s ? limits.max_s : deadline_s;
@@ -157,9 +139,9 @@ base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
   planning::PlanRequest request;
   request.scene = wire.scene;
   io(request.camera, wire.camera);
-  request.body = read_body(wire.body, refusal);
+  io(request.body, wire.body);
   refuse_idle(refusal, wire);
-  visit_options(TableReader{refusal}, request.options, wire);
+  io(request.options, wire);
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);
   if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
 

@@ -97,7 +97,7 @@ struct OptionFiller {
     if (below(random, 2) == 0) bounds.max_W.y() = 3.25;
   }
   void fill(const planning::FieldSpec&, correction::MotionLimits& limits) const {
-    planning::visit_limits(*this, limits);
+    planning::visit_table(*this, limits);
   }
   /// Only the members that the policy uses are sent.
   void fill(const planning::FieldSpec& spec, correction::OrientationPolicy& policy) const {
@@ -168,7 +168,7 @@ void add_report(planning::PlanResult& result, Random& random) {
 
 planning::PlanOptions sample_options(Random& random) {
   planning::PlanOptions options;
-  planning::visit_options(OptionFiller{random}, options);
+  planning::visit_table(OptionFiller{random}, options);
   return options;
 }
 

@@ -173,7 +173,7 @@ TEST(WireRequest, WhatWouldNotCountIsRefusedByName) {
       {"bounds.min_m[0]: ", [](plan_request_t& r) { r.bounds.min_m[0] = 14.0; }},
       {"bounds.max_m[2]: ",
        [](plan_request_t& r) { r.bounds.max_m[2] = std::numeric_limits<double>::quiet_NaN(); }},
-      {"seed: is -1; it must be at least 1", [](plan_request_t& r) { r.seed = -1; }},
+      {"seed: is -1; it must be at least 0", [](plan_request_t& r) { r.seed = -1; }},
       {"orientation.up: ", [](plan_request_t& r) { r.orientation.up[2] = 1.0; }},
       {"orientation.up: ",
        [](plan_request_t& r) {

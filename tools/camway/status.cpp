@@ -23,7 +23,6 @@
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/scene/scene_text.h"
-#include "tools/support/client_request.h"
 
 namespace camway::tools {
 namespace {
@@ -51,13 +50,14 @@ std::string duration_text(double seconds) {
 }
 
 OrderedJson scene_json(const SceneInfo& scene) {
+  const geometry::Limits bounds{scene.body_bounds.min_m, scene.body_bounds.max_m};
   return {{"name", scene.name},
           {"revision", scene.revision},
           {"digest", scene.digest},
           {"triangles", scene.num_triangles},
           {"bounds_min_m", scene.bounds_min_m},
           {"bounds_max_m", scene.bounds_max_m},
-          {"body_bounds", process::bounds_text(from_client_bounds(scene.body_bounds))},
+          {"body_bounds", process::bounds_text(geometry::bounds_of(bounds))},
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 

@@ -357,4 +357,15 @@ std::string Field::path() const {
   return path + std::string(key_);
 }
 
+std::size_t named(const Field& field, std::span<const std::string_view> names) {
+  const std::string text = field.text();
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return i;
+    list.append(list.empty() ? "" : ", ").append(names[i]);
+  }
+  field.fail("'" + text + "' is unknown; there are " + list);
+  return 0;
+}
+
 }  // namespace camway::tools

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -103,20 +102,9 @@ class Field {
   DocumentNotes* notes_;
 };
 
-/// Returns the value that the field's text names. For an unknown name, records an error that lists
-/// all names and returns the first value.
-template <typename Value, std::size_t kCount>
-Value named(const Field& field,
-            const std::array<std::pair<std::string_view, Value>, kCount>& names) {
-  const std::string text = field.text();
-  std::string list;
-  for (const auto& [name, value] : names) {
-    if (name == text) return value;
-    list.append(list.empty() ? "" : ", ").append(name);
-  }
-  field.fail("'" + text + "' is unknown; there are " + list);
-  return names.front().second;
-}
+/// Returns the index of the name that the field's text is. For an unknown name, records an error
+/// that lists all names and returns 0.
+std::size_t named(const Field& field, std::span<const std::string_view> names);
 
 /// Parses `text` and reads a `T` from the document by `read_value(field, value)`. Returns the
 /// value, or the first error of either step. `source` begins the error, such as

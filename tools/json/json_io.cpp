@@ -14,6 +14,7 @@
 namespace camway::tools {
 namespace {
 
+using correction::OrientationPolicy;
 using correction::OrientationRule;
 using geometry::Vec3;
 using motion::Keyframe;
@@ -27,10 +28,10 @@ struct ShapeReader : JsonReader {
 
   /// Reads a list of points for each piece, or `points` for a single piece.
   void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
-    const auto points = object().optional_member(planning::body::kPoints.name);
-    const auto lists = object().optional_member(spec.name);
+    const auto points = object_.optional_member(planning::body::kPoints.name);
+    const auto lists = object_.optional_member(spec.name);
     if (points.has_value() == lists.has_value()) {
-      object().fail("must have either points or pieces");
+      object_.fail("must have either points or pieces");
     } else if (points) {
       read_value(*points, pieces.emplace_back());
     } else {
@@ -51,15 +52,8 @@ struct ShapeReader : JsonReader {
 ///
 /// Returns nothing for a camera, and after an error.
 std::optional<motion::BodyShape> read_body(const Field& field) {
-  const Field type = field.member("type");
-  const std::string name = type.text();
-  const auto* const named = std::ranges::find(planning::kShapeNames, name);
   std::optional<motion::BodyShape> shape =
-      planning::blank_shape(static_cast<std::size_t>(named - planning::kShapeNames.begin()));
-  if (!shape) {
-    type.fail("'" + name + "' is unknown; a body is a camera, box, sphere, convex or mesh");
-    return std::nullopt;
-  }
+      planning::blank_shape(named(field.member("type"), planning::kShapeNames));
   const auto read = [&](auto& part) {
     std::vector<std::string_view> names = {"type"};
     if constexpr (requires { part.pieces_C; }) names.push_back(planning::body::kPoints.name);
@@ -71,11 +65,11 @@ std::optional<motion::BodyShape> read_body(const Field& field) {
   return shape;
 }
 
-/// Reads the time of keyframe `index`, which must have one exactly if the first keyframe has one.
-void read_time(const Field& item, std::size_t index, RequestFile& request, Keyframe& keyframe) {
+/// Reads the time of the last keyframe, which must have one exactly if the first one has one.
+void read_time(const Field& item, RequestFile& request) {
   const std::optional<Field> time = item.optional_member("time");
-  if (time) keyframe.time_s = time->number();
-  if (index == 0) request.has_times = time.has_value();
+  if (time) request.keyframes.back().time_s = time->number();
+  if (request.keyframes.size() == 1) request.has_times = time.has_value();
   if (time.has_value() == request.has_times) return;
   item.fail(std::string(time ? "has a time and keyframe 0 has none"
                              : "has no time and keyframe 0 has one") +
@@ -98,26 +92,16 @@ geometry::Quat read_orientation(const Field& item, RequestFile& request) {
 }
 
 void read_keyframes(const Field& list, RequestFile& request) {
-  const std::size_t count = list.size();
-  if (count > planning::kMaxKeyframes) {
-    list.fail("has " + std::to_string(count) + " keyframes, more than the " +
-              std::to_string(planning::kMaxKeyframes) + " that a request may hold");
-    return;
-  }
-  request.keyframes.reserve(count);
-  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
-    const Field item = list.element(i);
+  read_list(list, request.keyframes, [&](const Field& item, Keyframe& keyframe) {
     // Keyframes copied from a response have an origin, which is then "given".
     item.allow_only(
         {"time", "position", "orientation", "orientation_xyzw", "origin", "repaired", "image"});
-    Keyframe keyframe;
-    read_time(item, i, request, keyframe);
+    read_time(item, request);
     const JsonReader io(item);
     io("position", keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
     io(may_lack("image"), keyframe.image);
-    request.keyframes.push_back(keyframe);
-  }
+  });
 }
 
 motion::PathFrame read_frame(const Field& field) {
@@ -142,20 +126,12 @@ SceneReading read_reading(const Field& root) {
 
 }  // namespace
 
-void read_value(const Field& field, motion::Camera& camera) {
-  read_table(field, [&](const auto& visit) { planning::visit_camera(visit, camera); });
-}
-
-void read_value(const Field& field, correction::MotionLimits& limits) {
-  read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
-}
-
-void read_value(const Field& field, correction::OrientationPolicy& policy) {
-  read_table(field, [&](const auto& visit) { planning::visit_orientation(visit, policy); });
+void read_value(const Field& field, OrientationPolicy& policy) {
+  read_table(field, policy);
   policy.up_W = planning::direction_of(policy.up_W);
   std::vector<std::string_view> used;
   planning::visit_used([&](const FieldSpec& spec, auto&) { used.push_back(spec.name); }, policy);
-  planning::visit_orientation([&](const FieldSpec& spec) {
+  planning::visit_specs<OrientationPolicy>([&](const FieldSpec& spec) {
     const auto member = field.optional_member(spec.file_name());
     if (!member || std::ranges::count(used, spec.name) > 0) return;
     member->fail("does not count with this policy; leave it out, or set the one it belongs to");
@@ -163,9 +139,7 @@ void read_value(const Field& field, correction::OrientationPolicy& policy) {
   if (policy.rule == OrientationRule::kTarget) static_cast<void>(field.member("target"));
 }
 
-void read_value(const Field& field, planning::PlanOptions& options) {
-  read_table(field, [&](const auto& visit) { planning::visit_options(visit, options); });
-}
+void read_value(const Field& field, planning::PlanOptions& options) { read_table(field, options); }
 
 planning::FieldSpelling json_spelling(const DocumentNotes& notes) {
   return [old_names = notes.old_names](std::string_view path) {

@@ -37,7 +37,7 @@ struct RequestFile : planning::PlanRequest {
 /// times. Keyframes count from 0 in errors.
 void read_value(const Field& root, RequestFile& request);
 
-/// Reads the `options` of a request. A missing option has its default. `planning::visit_options`
+/// Reads the `options` of a request. A missing option has its default. `planning::visit_table`
 /// has the names of the options, and their old names, which are read as well. An example is
 ///
 ///     {"deadline_s": 5, "orientation": {"policy": "level", "up": [0, 0, 1], "max_turn_deg": 20},
@@ -52,14 +52,9 @@ void read_value(const Field& field, planning::PlanOptions& options);
 /// has by an old name has that name in messages.
 planning::FieldSpelling json_spelling(const DocumentNotes& notes = {});
 
-enum class TimingField {
-  kWritten,
-  kOmitted,  ///< lets the responses of two runs be compared byte by byte
-};
-
 /// Content of a response file beside the result.
 struct ResponseFormat {
-  TimingField timing = TimingField::kWritten;
+  bool has_timing = true;             ///< false: responses of two runs compare byte by byte
   std::string scene;                  ///< name or file; omitted when empty
   std::string scene_digest;           ///< digest of the scene of the answer; omitted when empty
   std::vector<std::string> warnings;  ///< sentences about the scene's import; omitted when empty
@@ -78,17 +73,11 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
 /// ends. Ignores unknown fields, which later versions may have.
 void read_value(const Field& root, planning::PlanResult& result);
 
-/// A path file. A response of Camway is one; `{"segments": [...]}` is the smallest one.
-struct PathFile {
-  motion::Path path;
-  /// Times at which the path passes its given keyframes, in their order: the times of the keyframes
-  /// that are not marked as inserted. Empty if one of these has no time.
-  std::vector<double> keyframe_times_s;
+/// A path file: a response of which little but the path is known. A response of Camway is one;
+/// `{"segments": [...]}` is the smallest one. Read are the path, its bounds and scales, and of each
+/// keyframe the origin and, if it is a given one, the time: "not a number" if it has none.
+struct PathFile : planning::PlanResult {
   std::string scene_digest;  ///< digest of the scene that it was made for; empty if unknown
-  /// Near distance that it was made for, divided by the request's. [Limit: 0 < value <= 1]
-  double near_scale = 1.0;
-  geometry::Bounds bounds;  ///< bounds that it was made for
-  bool is_slowed = false;   ///< whether it has later times than those asked for
 };
 
 /// Reads a path (`parse_as`, `read_as`). The member `segments` is required. A segment with an

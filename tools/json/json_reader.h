@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
@@ -25,23 +25,11 @@
 /// requests and answers have. It records an error in the document for a value of another form.
 namespace camway::tools {
 
-inline constexpr std::int64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
-
 template <std::integral Number>
-void read_integer(const Field& field, std::int64_t least, std::int64_t most, Number& number) {
-  number = static_cast<Number>(field.integer(least, most));
-}
-/// Reads a number that counts something.
-inline void read_value(const Field& field, std::int32_t& count) {
-  read_integer(field, 0, std::numeric_limits<std::int32_t>::max(), count);
-}
-/// Reads the index of a triangle, or a side of the bounds, which is a number below 0.
-inline void read_value(const Field& field, std::uint32_t& triangle_or_side) {
-  read_integer(field, -std::int64_t{geometry::Bounds::kSides}, kMaxIndex, triangle_or_side);
-}
-/// Reads the index of a keyframe.
-inline void read_value(const Field& field, std::size_t& keyframe) {
-  read_integer(field, 0, planning::kMaxKeyframes, keyframe);
+void read_integer(const Field& field, std::int64_t least, Number& number) {
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
+  constexpr auto kMost = std::min<std::uint64_t>(std::numeric_limits<Number>::max(), kLargest);
+  number = static_cast<Number>(field.integer(least, static_cast<std::int64_t>(kMost)));
 }
 inline void read_value(const Field& field, std::tuple<double&, double&> both) {
   double numbers[2] = {};
@@ -64,30 +52,15 @@ void read_list(const Field& field, List& elements, const Read& read) {
   }
 }
 
-/// Reads `{"min": [...], "max": [...]}`. Either corner may be left out, and null is no limit.
-inline void read_value(const Field& field, geometry::Bounds& bounds) {
-  field.allow_only({"min", "max"});
-  bounds = {};
-  const auto read_corner = [&](std::string_view name, geometry::Vec3& corner_W) {
-    const auto read = [](const Field& item, double& limit_m) {
-      if (!item.is_null()) limit_m = item.number();
-    };
-    std::span<double, 3> limits_m(corner_W.data(), 3);
-    if (const auto corner = field.optional_member(name)) read_list(*corner, limits_m, read);
-  };
-  read_corner("min", bounds.min_W);
-  read_corner("max", bounds.max_W);
-}
-
 /// Records an error for the first member that is neither in `names` nor in a table of members
 /// (`planning/request/options.h`). `visit_table(visit)` visits the table.
 template <class VisitTable>
 void allow_only(const Field& field, std::vector<std::string_view> names,
                 const VisitTable& visit_table) {
   std::vector<std::string_view> old_names;
-  visit_table([&](const planning::FieldSpec& spec, const auto&...) {
-    names.push_back(spec.file_name());
-    if (!spec.old_file.empty()) old_names.push_back(spec.old_file);
+  visit_table([&](planning::FileName name, const auto&) {
+    names.push_back(name.name);
+    if (!name.old.empty()) old_names.push_back(name.old);
   });
   field.allow_only(names, old_names);
 }
@@ -100,9 +73,14 @@ class JsonReader {
 
   template <class Value>
   void operator()(planning::FileName name, Value&& member) const {
-    if (name.is_needed) return read(object_.member(name.name, name.old), name.name, member);
-    const auto field = object_.optional_member(name.name, name.old);
-    if (field) read(*field, name.name, member);
+    const std::optional<Field> field = name.is_needed
+                                           ? object_.member(name.name, name.old)
+                                           : object_.optional_member(name.name, name.old);
+    if (!field) return;
+    read_value(*field, member);
+    if constexpr (std::same_as<std::remove_cvref_t<Value>, double>) {
+      if (planning::is_angle(name.name)) member = radians(member);
+    }
   }
   template <class List>
   void group(planning::FileName name, int, const List& list) const {
@@ -119,31 +97,18 @@ class JsonReader {
   /// Reads a whole number of any size, from the least of its range.
   void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {
     const auto field = object_.optional_member(spec.file_name());
-    const auto least = static_cast<std::int64_t>(spec.range.least);
-    if (field) read_integer(*field, least, std::numeric_limits<std::int64_t>::max(), number);
+    if (field) read_integer(*field, static_cast<std::int64_t>(spec.range.least), number);
   }
 
  protected:
-  [[nodiscard]] const Field& object() const { return object_; }
-
- private:
-  template <class Value>
-  static void read(const Field& field, std::string_view name, Value& member) {
-    read_value(field, member);
-    if constexpr (std::same_as<Value, double>) {
-      if (planning::is_angle(name)) member = radians(member);
-    }
-  }
-
   const Field& object_;
 };
 
-/// Reads an object that has members of a table alone. `visit_table(visit)` visits the table with
-/// the members that are read.
-template <class VisitTable>
-void read_table(const Field& field, const VisitTable& visit_table) {
-  allow_only(field, {}, visit_table);
-  visit_table(JsonReader(field));
+/// Reads a struct that has a table. Its object has members of the table alone.
+template <class Struct>
+void read_table(const Field& field, Struct& value) {
+  allow_only(field, {}, [&](const auto& visit) { planning::visit_table(visit, value); });
+  planning::visit_table(JsonReader(field), value);
 }
 
 /// Reads a value of any other type: a number, a text, a name, a list, or a struct with a list of
@@ -156,26 +121,37 @@ void read_value(const Field& field, Value& value) {
     value = field.boolean();
   } else if constexpr (std::same_as<Value, std::string>) {
     value = field.text();
+  } else if constexpr (std::integral<Value>) {
+    // A count or an index. That of a triangle may be a side of the bounds, which is below 0.
+    constexpr bool kMayBeSide = std::same_as<Value, std::uint32_t>;
+    read_integer(field, kMayBeSide ? -std::int64_t{geometry::Bounds::kSides} : 0, value);
   } else if constexpr (base::NamedEnum<Value>) {
-    value = named(field, base::named_values<Value>());
+    value = static_cast<Value>(named(field, names_of(Value{})));
   } else if constexpr (std::same_as<Value, geometry::Quat>) {
     geometry::Vec4 wxyz = geometry::Vec4::Zero();
     read_value(field, wxyz);
     value = geometry::from_wxyz(wxyz);  // of any length
+  } else if constexpr (std::same_as<Value, geometry::Bounds>) {
+    geometry::Limits limits;
+    read_table(field, limits);
+    value = geometry::bounds_of(limits);
   } else if constexpr (requires { Value::SizeAtCompileTime; }) {
     field.numbers(value.data(), Value::SizeAtCompileTime);
   } else if constexpr (requires { value.has_value(); }) {
     read_value(field, value.emplace());
+  } else if constexpr (requires(const JsonReader& io) { planning::visit_table(io, value); }) {
+    read_table(field, value);
   } else if constexpr (requires(const JsonReader& io) { planning::members(io, value); }) {
     const JsonReader io(field);
     planning::members(io, value);
-  } else if constexpr (std::same_as<typename Value::value_type, std::uint32_t>) {
-    const auto read = [](const Field& item, std::uint32_t& index) {
-      read_integer(item, 0, kMaxIndex, index);
-    };
-    read_list(field, value, read);
   } else {
-    read_list(field, value, [](const Field& item, auto& element) { read_value(item, element); });
+    read_list(field, value, [](const Field& item, auto& element) {
+      if constexpr (std::same_as<decltype(element), std::uint32_t&>) {
+        read_integer(item, 0, element);  // the index of a triangle or a vertex
+      } else if (!requires { element.reset(); } || !item.is_null()) {
+        read_value(item, element);  // null is no limit of bounds
+      }
+    });
   }
 }
 

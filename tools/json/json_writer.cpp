@@ -101,14 +101,10 @@ class JsonWriter {
   void value(std::string_view text) {
     out_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
-  /// Writes null for a side without a limit.
   void value(const geometry::Bounds& bounds) {
-    for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
-      out_ += side == 0 ? "{\"min\": [" : side == 3 ? "], \"max\": [" : ", ";
-      const double limit_m = bounds.limit_m(side);
-      std::isinf(limit_m) ? void(out_ += "null") : value(limit_m);
-    }
-    out_ += "]}";
+    const geometry::Limits limits = geometry::limits_of(bounds);
+    const auto write = [&](FileName name, const auto& corner) { (*this)(name, corner); };
+    object(-1, [&] { planning::visit_table(write, limits); });
   }
   void value(const geometry::Quat& orientation) { array(geometry::wxyz(orientation)); }
   void value(std::tuple<const double&, const double&> both) {
@@ -128,7 +124,7 @@ class JsonWriter {
     } else if constexpr (std::convertible_to<Value, std::string_view>) {
       this->value(std::string_view(value));
     } else if constexpr (requires { value.has_value(); }) {
-      this->value(*value);
+      value ? this->value(*value) : void(out_ += "null");
     } else if constexpr (requires { planning::members(*this, value); }) {
       object(-1, [&] { planning::members(*this, value); });
     } else {
@@ -174,7 +170,7 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
     io("segments", result.path.segments());
     io("keyframes", result.keyframes);
     planning::report_members(io, result);
-    io(may_lack("timing_ms", format.timing == TimingField::kWritten), result.timing);
+    io(may_lack("timing_ms", format.has_timing), result.timing);
   });
   out += '\n';
   if (!io.error().empty()) return base::Failure{io.error()};

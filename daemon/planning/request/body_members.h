@@ -40,8 +40,9 @@ inline constexpr FieldSpec kTriangles{.name = "triangles", .is_needed = true};
 
 }  // namespace body
 
-/// Calls `visit(spec, member, wire...)` for each member that `shape` has. `wire` is the message; it
-/// has two members for pieces. Without it, only the members of the shape are visited.
+/// Calls `visit(spec, member, wire...)` for each member that `shape` has. `wire` is the client's
+/// struct or the message, which has two members for pieces and one for all points. Without it, only
+/// the members of the shape are visited.
 template <class Visit, class Shape, class... Wire>
 void visit_shape(const Visit& visit, Shape& shape, Wire&... wire) {
   if constexpr (requires { shape.size_m; }) visit(body::kSize, shape.size_m, wire.size_m...);
@@ -49,10 +50,14 @@ void visit_shape(const Visit& visit, Shape& shape, Wire&... wire) {
     visit(body::kRadius, shape.radius_m, wire.radius_m...);
   if constexpr (requires { shape.center_C; })
     visit(body::kCenter, shape.center_C, wire.center_m...);
-  if constexpr (requires { shape.pieces_C; }) {
+  if constexpr (requires { shape.pieces_C, (wire.pieces_m, ...); }) {
+    visit(body::kPieces, shape.pieces_C, wire.pieces_m...);
+  } else if constexpr (requires { shape.pieces_C; }) {
     visit(body::kPieces, shape.pieces_C, wire.piece_sizes..., wire.points_m...);
   }
-  if constexpr (requires { shape.vertices_C; }) {
+  if constexpr (requires { shape.vertices_C, (wire.vertices_m, ...); }) {
+    visit(body::kVertices, shape.vertices_C, wire.vertices_m...);
+  } else if constexpr (requires { shape.vertices_C; }) {
     visit(body::kVertices, shape.vertices_C, wire.points_m...);
   }
   if constexpr (requires { shape.triangles; }) {

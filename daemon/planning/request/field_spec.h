@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace camway::planning {
 
@@ -34,8 +36,11 @@ constexpr bool is_angle(std::string_view file_name) {
 /// The unit of angles in a message: degrees for files, radians for the wire.
 enum class AngleUnit { kDegrees, kRadians };
 
-/// Describes a member of a request. `visit_options` and the functions like it are tables of these
-/// descriptions. The code that reads, writes, checks or documents requests follows the tables.
+template <class T, class Struct>
+concept Is = std::same_as<std::remove_const_t<T>, Struct>;
+
+/// Describes a member of a request. The functions `visit_table` are tables of these descriptions.
+/// The code that reads, writes, checks or documents requests follows the tables.
 struct FieldSpec {
   std::string_view name;  ///< name in paths (`FieldSpelling`): "turn_rate"
   /// Name in structs, on the wire and in the client, if not `name`: "turn_rate_rad_per_s".

@@ -10,6 +10,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/geometry/bounds.h"
+#include "daemon/motion/body/camera.h"
 #include "daemon/planning/request/enum_names.h"
 #include "daemon/planning/request/field_spec.h"
 
@@ -175,36 +176,36 @@ inline constexpr FieldSpec kMaxTurn{
 
 }  // namespace option
 
-/// Calls `visit(spec, member...)` for each option, in the order of request files. Each of `options`
-/// is a struct with members of these names: `PlanOptions`, the request of the wire or that of the
-/// client. Without a struct, only the specs are visited.
-template <class Visit, class... Options>
-void visit_options(const Visit& visit, Options&... options) {
-  visit(option::kMethod, options.method...);
-  visit(option::kDeadline, options.deadline_s...);
-  visit(option::kClearance, options.clearance_m...);
-  visit(option::kChordError, options.chord_error_m...);
-  visit(option::kIntervalTolerance, options.interval_tolerance_m...);
-  visit(option::kMaxInsertedKeyframes, options.max_inserted_keyframes...);
-  visit(option::kObjective, options.objective...);
-  visit(option::kOrientation, options.orientation...);
-  visit(option::kLimits, options.limits...);
-  visit(option::kBounds, options.bounds...);
-  visit(option::kMaxShrink, options.max_shrink...);
-  visit(option::kRepairKeyframes, options.repair_keyframes...);
-  visit(option::kSeed, options.seed...);
-  visit(option::kDefaultSpeed, options.default_speed_m_per_s...);
-  visit(option::kViewingDistance, options.viewing_distance_m...);
+/// Calls `visit(spec, member, wire...)` for each option, in the order of request files. Each `wire`
+/// is a struct with members of the same names: the request of the wire or that of the client.
+template <class Visit, class... Wire>
+void visit_table(const Visit& visit, Is<PlanOptions> auto& options, Wire&... wire) {
+  visit(option::kMethod, options.method, wire.method...);
+  visit(option::kDeadline, options.deadline_s, wire.deadline_s...);
+  visit(option::kClearance, options.clearance_m, wire.clearance_m...);
+  visit(option::kChordError, options.chord_error_m, wire.chord_error_m...);
+  visit(option::kIntervalTolerance, options.interval_tolerance_m, wire.interval_tolerance_m...);
+  visit(option::kMaxInsertedKeyframes, options.max_inserted_keyframes,
+        wire.max_inserted_keyframes...);
+  visit(option::kObjective, options.objective, wire.objective...);
+  visit(option::kOrientation, options.orientation, wire.orientation...);
+  visit(option::kLimits, options.limits, wire.limits...);
+  visit(option::kBounds, options.bounds, wire.bounds...);
+  visit(option::kMaxShrink, options.max_shrink, wire.max_shrink...);
+  visit(option::kRepairKeyframes, options.repair_keyframes, wire.repair_keyframes...);
+  visit(option::kSeed, options.seed, wire.seed...);
+  visit(option::kDefaultSpeed, options.default_speed_m_per_s, wire.default_speed_m_per_s...);
+  visit(option::kViewingDistance, options.viewing_distance_m, wire.viewing_distance_m...);
 }
 
-/// Visits the members of an orientation policy as `visit_options` visits options.
-template <class Visit, class... Policy>
-void visit_orientation(const Visit& visit, Policy&... policy) {
-  visit(option::kPolicy, policy.rule...);
-  visit(option::kUp, policy.up_W...);
-  visit(option::kTarget, policy.target_W...);
-  visit(option::kCone, policy.cone_rad...);
-  visit(option::kMaxTurn, policy.max_turn_rad...);
+/// Visits the members of an orientation policy as `visit_table` visits options.
+template <class Visit>
+void visit_table(const Visit& visit, Is<correction::OrientationPolicy> auto& policy) {
+  visit(option::kPolicy, policy.rule);
+  visit(option::kUp, policy.up_W);
+  visit(option::kTarget, policy.target_W);
+  visit(option::kCone, policy.cone_rad);
+  visit(option::kMaxTurn, policy.max_turn_rad);
 }
 
 /// Calls `visit(spec, member, wire...)` for those members of an orientation policy that its rule
@@ -222,24 +223,31 @@ void visit_used(const Visit& visit, Policy& policy, Wire&... wire) {
 }
 
 /// Visits the limits of the motion. Infinity means no limit.
-template <class Visit, class... Limits>
-void visit_limits(const Visit& visit, Limits&... limits) {
+template <class Visit, class... Wire>
+void visit_table(const Visit& visit, Is<correction::MotionLimits> auto& limits, Wire&... wire) {
   visit(FieldSpec{.name = "speed_m_per_s", .old_file = "speed", .range = kAboveZero},
-        limits.speed_m_per_s...);
+        limits.speed_m_per_s, wire.speed_m_per_s...);
   visit(FieldSpec{.name = "acceleration_m_per_s2", .old_file = "acceleration", .range = kAboveZero},
-        limits.acceleration_m_per_s2...);
+        limits.acceleration_m_per_s2, wire.acceleration_m_per_s2...);
   visit(FieldSpec{.name = "turn_rate",
                   .wire = "turn_rate_rad_per_s",
                   .file = "turn_rate_deg_per_s",
                   .old_file = "turn_rate_deg",
                   .range = kAboveZero},
-        limits.turn_rate_rad_per_s...);
-  visit(FieldSpec{.name = "retime", .wire = "may_retime"}, limits.may_retime...);
+        limits.turn_rate_rad_per_s, wire.turn_rate_rad_per_s...);
+  visit(FieldSpec{.name = "retime", .wire = "may_retime"}, limits.may_retime, wire.may_retime...);
+}
+
+/// Visits the limits of bounds.
+template <class Visit>
+void visit_table(const Visit& visit, Is<geometry::Limits> auto& limits) {
+  visit(FieldSpec{.name = "min", .wire = "min_m"}, limits.min_m);
+  visit(FieldSpec{.name = "max", .wire = "max_m"}, limits.max_m);
 }
 
 /// Visits the members of a camera.
-template <class Visit, class... Camera>
-void visit_camera(const Visit& visit, Camera&... camera) {
+template <class Visit, class... Wire>
+void visit_table(const Visit& visit, Is<motion::Camera> auto& camera, Wire&... wire) {
   constexpr Range kAngle{
       .least = 0.0, .most = std::numbers::pi, .excludes_least = true, .excludes_most = true};
   constexpr Range kDistance{.least = 0.0, .most = kMaxCoordinate_m, .excludes_least = true};
@@ -248,17 +256,24 @@ void visit_camera(const Visit& visit, Camera&... camera) {
                   .file = "fov_x_deg",
                   .range = kAngle,
                   .is_needed = true},
-        camera.fov_x_rad...);
+        camera.fov_x_rad, wire.fov_x_rad...);
   visit(FieldSpec{.name = "fov_y",
                   .wire = "fov_y_rad",
                   .file = "fov_y_deg",
                   .range = kAngle,
                   .is_needed = true},
-        camera.fov_y_rad...);
+        camera.fov_y_rad, wire.fov_y_rad...);
   visit(
       FieldSpec{
           .name = "near", .wire = "near_m", .unit = "m", .range = kDistance, .is_needed = true},
-      camera.near_m...);
+      camera.near_m, wire.near_m...);
+}
+
+/// Calls `visit(spec)` for each row of the table of `Struct`.
+template <class Struct, class Visit>
+void visit_specs(const Visit& visit) {
+  const Struct blank{};
+  visit_table([&](const FieldSpec& spec, const auto&) { visit(spec); }, blank);
 }
 
 /// Visits those members of a frame whose names differ, without their values.

@@ -66,12 +66,11 @@ std::string spell(std::string_view path, Spelling spelling) {
     if (spec.name != name) return;
     spelled = spelling == Spelling::kWire ? spec.wire_name() : spec.file_name();
   };
-  if (group == "options") visit_options(visit);
-  if (group == "options.orientation") visit_orientation(visit);
-  if (group == "options.limits") visit_limits(visit);
-  if (group == "options.bounds" && spelling == Spelling::kWire)
-    return fmt::format("{}.{}_m{}", group, name, indices);
-  if (group == "camera") visit_camera(visit);
+  if (group == "options") visit_specs<PlanOptions>(visit);
+  if (group == "options.orientation") visit_specs<correction::OrientationPolicy>(visit);
+  if (group == "options.limits") visit_specs<correction::MotionLimits>(visit);
+  if (group == "options.bounds") visit_specs<geometry::Limits>(visit);
+  if (group == "camera") visit_specs<motion::Camera>(visit);
   if (group == "body") visit_body(visit);
   if (group == "frame") visit_frame(visit);
   if (group.starts_with("keyframes[")) visit_keyframe(visit);

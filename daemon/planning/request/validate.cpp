@@ -229,7 +229,7 @@ Fault FirstFault::check(const FieldSpec&, const correction::OrientationPolicy& p
                    fmt::format("must be finite and within {:g} m", kMaxCoordinate_m));
   }
   FirstFault members(request_, "options.orientation.");
-  visit_orientation(members, policy);
+  visit_table(members, policy);
   return members.take();
 }
 
@@ -239,13 +239,13 @@ Fault FirstFault::check(const FieldSpec&, const correction::MotionLimits& limits
                    "has no limit beside it that the path could be slowed for");
   }
   FirstFault members(request_, "options.limits.");
-  visit_limits(members, limits);
+  visit_table(members, limits);
   return members.take();
 }
 
 Fault check_camera(const PlanRequest& request) {
   FirstFault members(request, "camera.");
-  visit_camera(members, request.camera);
+  visit_table(members, request.camera);
   if (auto fault = members.take()) return fault;
   // A field of view next to 180 degrees makes a quadrilateral that no scene holds.
   if (!(motion::body_radius_m(motion::near_corners_C(request.camera)) <= kMaxCoordinate_m)) {
@@ -273,7 +273,7 @@ Fault check_body(const PlanRequest& request) {
 Fault check_options(const PlanRequest& request) {
   const PlanOptions& options = request.options;
   FirstFault members(request, "options.");
-  visit_options(members, options);
+  visit_table(members, options);
   if (auto fault = members.take()) return fault;
   if (options.default_speed_m_per_s && request.has_times) {
     return invalid("options.default_speed_m_per_s",

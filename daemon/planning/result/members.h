@@ -50,9 +50,6 @@ constexpr FileName on_line(int indent, FileName name) {
   return name;
 }
 
-template <class T, class Struct>
-concept Is = std::same_as<std::remove_const_t<T>, Struct>;
-
 template <class Io, class... Wire>
 void members(Io& io, Is<motion::Segment> auto& segment, Wire&... wire) {
   io("t0", segment.t0_s, wire.t0_s...);

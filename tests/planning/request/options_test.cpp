@@ -40,7 +40,7 @@ std::vector<std::string> expected_rows() {
                                spec.range.any() ? spec.range_text() : "",
                                default_text(spec, member)));
   };
-  visit_options(add, defaults);
+  visit_table(add, defaults);
   return rows;
 }
 
@@ -83,10 +83,10 @@ TEST(OptionTable, RangesReadAsSentences) {
   EXPECT_EQ(option::kMaxShrink.range_text(), "at least 0 and below 1");
   EXPECT_EQ(option::kDefaultSpeed.range_text(), "from 1e-06 to 1e+06");
   std::vector<std::string> angles;
-  visit_orientation([&](const FieldSpec& spec) {
+  visit_specs<correction::OrientationPolicy>([&](const FieldSpec& spec) {
     if (spec.is_angle()) angles.push_back(spec.range_text());
   });
-  visit_limits([](const FieldSpec& spec) {
+  visit_specs<correction::MotionLimits>([](const FieldSpec& spec) {
     if (spec.range.any()) {
       EXPECT_EQ(spec.range_text(), "above 0") << spec.name;
     }

@@ -195,7 +195,7 @@ TEST(JsonResponse, HasTheKeysOfTheFormatInAFixedOrder) {
     EXPECT_GE(found, at) << key;
     at = found;
   }
-  format.timing = TimingField::kOmitted;
+  format.has_timing = false;
   EXPECT_EQ(write_plan_response({}, format).value->find("timing_ms"), std::string::npos);
 }
 

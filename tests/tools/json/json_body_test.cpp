@@ -88,7 +88,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
       {"{}", "body.type: is missing"},
       {R"({"type": 3})", "body.type: must be a string"},
       {R"({"type": "cone"})",
-       "body.type: 'cone' is unknown; a body is a camera, box, sphere, convex or mesh"},
+       "body.type: 'cone' is unknown; there are camera, box, sphere, convex, mesh"},
       {R"({"type": "camera", "near": 1})", "body.near: is unknown; body has type"},
       {R"({"type": "box"})", "body.size: is missing"},
       {R"({"type": "box", "size": 2})", "body.size: must be an array of 3 numbers, not a number"},

@@ -191,7 +191,7 @@ struct OptionText {
   }
   static std::string value_of(const FieldSpec&, const correction::MotionLimits& limits) {
     std::string members;
-    planning::visit_limits(OptionText{members}, limits);
+    planning::visit_table(OptionText{members}, limits);
     return "{" + members + "}";
   }
   static std::string value_of(const FieldSpec&, const correction::OrientationPolicy& policy) {
@@ -206,7 +206,7 @@ TEST(JsonOptions, WhatIsWrittenIsReadBitForBit) {
   for (int i = 0; i < 2000; ++i) {
     const PlanOptions options = testing::sample_options(random);
     std::string text;
-    planning::visit_options(OptionText{text}, options);
+    planning::visit_table(OptionText{text}, options);
     const auto parsed = options_of("{" + text + "}");
     ASSERT_TRUE(parsed) << parsed.error;
     ASSERT_EQ(*parsed, options) << "trial " << i << ": " << text;

@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::IsNan;
 using ::testing::StartsWith;
 
 constexpr const char* kSegment = R"({"t0": 0, "t1": 1, "_made": "by hand",
@@ -20,10 +21,19 @@ std::string path_with(const std::string& more) {
   return std::string(R"({"segments": [)") + kSegment + "]" + more + "}";
 }
 
+/// Returns the times of given keyframes.
+std::vector<double> times_of(const PathFile& file) {
+  std::vector<double> times_s;
+  for (const motion::Keyframe& keyframe : file.keyframes) {
+    if (keyframe.origin == motion::KeyframeOrigin::kGiven) times_s.push_back(keyframe.time_s);
+  }
+  return times_s;
+}
+
 std::vector<double> times_of(const std::string& keyframes) {
   const auto read = parse_as<PathFile>(path_with(R"(, "keyframes": )" + keyframes), "P.json");
   EXPECT_TRUE(read) << read.error;
-  return read.value ? read->keyframe_times_s : std::vector<double>{-1.0};
+  return read.value ? times_of(*read.value) : std::vector<double>{-1.0};
 }
 
 std::string error_of(const std::string& text) { return parse_as<PathFile>(text, "P.json").error; }
@@ -33,7 +43,7 @@ TEST(PathFile, NeedsSegmentsAlone) {
   ASSERT_TRUE(read) << read.error;
   ASSERT_EQ(read->path.segments().size(), 1U);
   EXPECT_EQ(read->path.segments()[0].position[3], geometry::Vec3(0, 0, 3));
-  EXPECT_THAT(read->keyframe_times_s, IsEmpty());
+  EXPECT_THAT(read->keyframes, IsEmpty());
   EXPECT_EQ(read->scene_digest, "");
   EXPECT_EQ(error_of("{}"), "P.json: segments: is missing");
 }
@@ -59,7 +69,7 @@ TEST(PathFile, TakesTheTimesOfGivenKeyframes) {
               ElementsAre(0.0, 0.5, 1.0));
   EXPECT_THAT(times_of(R"([{"time": 0, "origin": "given"}, {"time": 0.5, "origin": "inserted"}])"),
               ElementsAre(0.0));
-  EXPECT_THAT(times_of(R"([{"time": 0}, {"position": [0, 0, 0]}])"), IsEmpty());
+  EXPECT_THAT(times_of(R"([{"time": 0}, {"position": [0, 0, 0]}])"), ElementsAre(0.0, IsNan()));
   EXPECT_EQ(error_of(path_with(R"(, "keyframes": [{"time": 0, "origin": "mine"}])")),
             "P.json: keyframes[0].origin: 'mine' is unknown; there are given, inserted");
 }
@@ -76,7 +86,7 @@ TEST(PathFile, IsEveryResponseOfOurs) {
   const auto read = parse_as<PathFile>(*write_plan_response(result, format), "P.json");
   ASSERT_TRUE(read) << read.error;
   EXPECT_EQ(read->path.segments().size(), 1U);
-  EXPECT_THAT(read->keyframe_times_s, ElementsAre(0.0, 1.0));
+  EXPECT_THAT(times_of(*read.value), ElementsAre(0.0, 1.0));
   EXPECT_EQ(read->scene_digest, "00ff");
 }
 

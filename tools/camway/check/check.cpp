@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -31,13 +32,16 @@ base::Failure failed(std::string error) { return {std::move(error)}; }
 std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& request,
                                               const PathFile& response) {
   std::vector<motion::Keyframe> keyframes = request.keyframes;
-  if (request.has_times && !response.is_slowed) return keyframes;
-  const std::vector<double>& times_s = response.keyframe_times_s;
-  if (times_s.size() != keyframes.size()) return {};
-  for (std::size_t i = 0; i < times_s.size(); ++i) {
-    if (i > 0 && !(times_s[i - 1] < times_s[i])) return {};
-    keyframes[i].time_s = times_s[i];
+  if (request.has_times && response.time_scale == 1.0) return keyframes;
+  std::size_t count = 0;
+  double before_s = -std::numeric_limits<double>::infinity();
+  for (const motion::Keyframe& passed : response.keyframes) {
+    if (passed.origin == motion::KeyframeOrigin::kInserted) continue;
+    if (count == keyframes.size() || !(before_s < passed.time_s)) return {};
+    before_s = passed.time_s;
+    keyframes[count++].time_s = before_s;
   }
+  if (count < keyframes.size()) keyframes.clear();
   return keyframes;
 }
 

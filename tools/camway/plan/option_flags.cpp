@@ -100,7 +100,7 @@ void OptionFlags::add_to(CLI::App& command) {
     flag->group("Options of the request, which these flags override");
     flags_.emplace(std::move(path), flag);
   };
-  planning::visit_options(
+  planning::visit_table(
       [&](const FieldSpec& spec, auto& member) {
         const std::string path = kOptions + std::string(spec.name);
         CLI::Option* const flag = add(spec, member);
@@ -119,7 +119,7 @@ void OptionFlags::apply(planning::PlanRequest& request) const {
   for (const auto& [path, flag] : flags_) {
     if (flag->count() > 0) given.emplace(path, flag->get_name());
   }
-  planning::visit_options(
+  planning::visit_table(
       [&](const FieldSpec& spec, auto& member, const auto& flag) {
         if (given.contains(kOptions + std::string(spec.name))) member = flag;
       },

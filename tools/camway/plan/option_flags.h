@@ -10,7 +10,7 @@
 
 namespace camway::tools {
 
-/// The flags of `camway plan` that override options of a request. `planning::visit_options` has
+/// The flags of `camway plan` that override options of a request. `planning::visit_table` has
 /// them: each option that is a number, a name or a switch has a flag, and so has
 /// `orientation.max_turn`. An option that was renamed has a flag by its old name, too, which
 /// excludes the flag by the new name.

@@ -134,7 +134,7 @@ void print_warnings(const std::string& file, const std::vector<std::string>& war
 /// Writes the response to `file`, or to standard output if it is empty.
 ExitCode write_response(const Answer& answer, const std::string& file, bool no_timing) {
   ResponseFormat format;
-  format.timing = no_timing ? TimingField::kOmitted : TimingField::kWritten;
+  format.has_timing = !no_timing;
   format.scene = answer.scene_file;
   format.scene_digest = answer.scene_digest;
   format.warnings = answer.scene_warnings;

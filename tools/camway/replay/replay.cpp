@@ -68,7 +68,7 @@ std::string write_responses(const ReplayFlags& flags, const Session& session, co
   for (std::size_t i = 0; i < replayed.size(); ++i) {
     const RecordedRequest& recorded = session.requests[i];
     ResponseFormat format;
-    format.timing = flags.no_timing ? TimingField::kOmitted : TimingField::kWritten;
+    format.has_timing = !flags.no_timing;
     format.scene = recorded.scene;
     const auto scene = scenes.find(recorded.scene);
     if (scene != scenes.end()) format.scene_digest = scene->second->digest;

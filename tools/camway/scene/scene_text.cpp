@@ -11,7 +11,6 @@
 
 #include "daemon/process/settings/bounds_text.h"
 #include "tools/camway/common/daemon_failure.h"
-#include "tools/support/client_request.h"
 
 namespace camway::tools {
 namespace {
@@ -50,7 +49,8 @@ std::string named_as_flag(std::string error) {
 }  // namespace
 
 std::string bounds_note(const SceneInfo& scene) {
-  const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
+  const geometry::Bounds bounds =
+      geometry::bounds_of({scene.body_bounds.min_m, scene.body_bounds.max_m});
   return bounds.any() ? ", bodies within " + process::bounds_text(bounds) : std::string();
 }
 

@@ -39,7 +39,7 @@ TEST(OptionFlags, EveryNumberNameAndSwitchHasAFlag) {
   flags.add_to(app);
   const std::string help = app.help();
   const planning::PlanOptions options;
-  planning::visit_options(
+  planning::visit_table(
       [&](const FieldSpec& spec, const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
         constexpr bool kIsObject =

@@ -80,7 +80,7 @@ class ReplayTest : public ::testing::Test {
 std::string bytes_of(const Session& session, const std::vector<ReplayedRequest>& replayed) {
   std::string bytes = report(session, replayed, Times::kHidden);
   ResponseFormat format;
-  format.timing = TimingField::kOmitted;
+  format.has_timing = false;
   for (const ReplayedRequest& item : replayed) {
     bytes += write_plan_response(item.result, format).value.value_or("unwritable");
   }
