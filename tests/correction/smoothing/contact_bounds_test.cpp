@@ -30,6 +30,7 @@ std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
 }
 
 constexpr double kViewingDistance_m = 6.0;
+constexpr double kPrice = 30.0;
 
 /// Returns the distance of the vertex beyond the plane at which the bound is tight.
 double room_at(const BoundConstraint& bound, const Contact& contact, const StackedPoint& moved) {
@@ -41,7 +42,8 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   for (const auto& [objective, makes_room] :
        {std::pair(Objective::kClosest, false), std::pair(Objective::kClosest, true),
         std::pair(Objective::kShortest, false), std::pair(Objective::kSmoothest, true)}) {
-    ContactBounds bounds(objective, makes_room, kBallRadius_m, kViewingDistance_m);
+    ContactBounds bounds(objective, kBallRadius_m, kViewingDistance_m);
+    if (makes_room) bounds.set_price_of_room(kPrice);
     const std::size_t bounds_a_contact = makes_room ? 2 : 1;
     const StackedPoint moved = draw.stacked(1.0);
     std::vector<Contact> near = contacts(draw, {2.0, 0.01, -0.02});
@@ -64,14 +66,32 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   }
 }
 
+// The minimum of (x/response)·x/2 + price·m²/2 over the gap: the force is the price of what is
+// still missing, so a stiff path buys less.
+TEST(ContactBounds, BuyRoomUntilItCostsMoreThanItsPrice) {
+  for (const double response : {0.01, 0.1, 1.0, 100.0}) {
+    ContactBounds bounds(Objective::kClosest, kBallRadius_m, kViewingDistance_m);
+    bounds.set_price_of_room(kPrice);
+    StackedPoint along = StackedPoint::Zero();
+    along[1] = 1.0;
+    std::vector<Contact> near = {contact(along, 0.02, 0, 0)};
+    bounds.add(0, StackedPoint::Zero(), response, near);
+    solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, response),
+             1e-12);
+    bounds.remember();
+    const double missing_m = bounds.wanted_m() - 0.02 - response * near[0].soft_multiplier;
+    EXPECT_NEAR(near[0].soft_multiplier, kPrice * missing_m, 1e-9) << response;
+  }
+}
+
 TEST(ContactBounds, WantAShareOfTheRadiusWhereThatShiftsThePictureLittle) {
-  EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, true, 0.1, 100.0).wanted_m(), 0.07);
-  EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, true, 1.0, 2.0).wanted_m(), 0.04);
+  EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, 0.1, 100.0).wanted_m(), 0.07);
+  EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, 1.0, 2.0).wanted_m(), 0.04);
 }
 
 TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   Draw draw(6202);
-  ContactBounds bounds(Objective::kSafest, false, kBallRadius_m, kViewingDistance_m);
+  ContactBounds bounds(Objective::kSafest, kBallRadius_m, kViewingDistance_m);
   EXPECT_EQ(bounds.wanted_m(), kComfort * kBallRadius_m);
   bounds.keep(0.05);
   const StackedPoint moved = draw.stacked(1.0);
@@ -96,7 +116,7 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
 TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   Draw draw(6203);
   const auto moved_m = [](double response) {
-    ContactBounds bounds(Objective::kSafest, false, kBallRadius_m, kViewingDistance_m);
+    ContactBounds bounds(Objective::kSafest, kBallRadius_m, kViewingDistance_m);
     StackedPoint along = StackedPoint::Zero();
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
@@ -116,7 +136,8 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
 
 TEST(ContactBounds, RememberForcesForTheNextTime) {
   Draw draw(6204);
-  ContactBounds bounds(Objective::kClosest, true, kBallRadius_m, kViewingDistance_m);
+  ContactBounds bounds(Objective::kClosest, kBallRadius_m, kViewingDistance_m);
+  bounds.set_price_of_room(kPrice);
   std::vector<Contact> near = contacts(draw, {0.01, 0.2});
   bounds.add(0, StackedPoint::Zero(), kReply, near);
   double force = 1.0;
