@@ -15,6 +15,7 @@
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/search/ball_escape.h"
 #include "daemon/correction/search/cell_search.h"
+#include "daemon/correction/search/corridor.h"
 #include "daemon/correction/search/lattice_ways.h"
 #include "daemon/correction/search/other_side.h"
 #include "daemon/correction/search/small_ball_way.h"
@@ -48,7 +49,8 @@ class Detour {
         deadline_(deadline),
         radius_m_(space.ball_radius_m()),
         from_(signed_pose_at(problem.path, problem.leg_begin_s())),
-        to_(signed_pose_at(problem.path, problem.leg_end_s())) {}
+        to_(signed_pose_at(problem.path, problem.leg_end_s())),
+        has_center_(space.body().is_near(space.center_C(), kBallShares.front() * radius_m_)) {}
 
   DetourResult run(Search search) {
     result_.candidate = search == Search::kTurning ? with_turns()
@@ -147,8 +149,31 @@ class Detour {
       found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_));
       if (found) return found;
     }
+    if (std::optional<Candidate> found = between_ways_out()) return found;
     // The finest lattice comes last: detours that need it mostly need turning as well.
     return with_ball(Lattices::kFinest);
+  }
+
+  // A detour between the ways out of the narrow places in which the body is at its ends; nothing if
+  // it is in none.
+  std::optional<Candidate> between_ways_out() {
+    if (is_limited(space_.policy())) return std::nullopt;
+    const std::optional<Guide> out = way_out(space_, from_, deadline_);
+    const std::optional<Guide> back = out ? way_out(space_, to_, deadline_) : std::nullopt;
+    if (!back || out->size() + back->size() == 2) return std::nullopt;
+    const SignedPose& from = out->back();
+    const SignedPose& to = back->back();
+    const CellResult ball =
+        small_ball_way(space_, from, to, kBallShares.front(), kMostCells, deadline_);
+    count_points(ball.cells);
+    if (ball.way_W.empty()) return std::nullopt;
+    TreeOptions trees = tree_about(ball.way_W);
+    TreeResult found = threaded_guide(space_, ball.way_W, from, to, trees, deadline_);
+    if (found.guide.empty()) found = tree_way(space_, from, to, trees, deadline_);
+    if (found.guide.empty()) return std::nullopt;
+    found.guide.insert(found.guide.begin(), out->begin(), out->end() - 1);
+    found.guide.insert(found.guide.end(), back->rbegin() + 1, back->rend());
+    return followed(found);
   }
 
   // A detour through the narrow places on the way of a small ball. Keeps that way, and the pocket
@@ -197,6 +222,9 @@ class Detour {
   CellResult way_of_small_ball(double share, std::size_t max_cells) {
     CellResult found = small_ball_way(space_, from_, to_, share, max_cells, deadline_);
     count_points(found.cells);
+    // A ball about a point beside the body, such as the centre of a ring, may be shut in where the
+    // body is not.
+    if (!has_center_) found.pocket.reset();
     return found;
   }
 
@@ -237,6 +265,7 @@ class Detour {
   const double radius_m_;
   const SignedPose from_;
   const SignedPose to_;
+  const bool has_center_;  ///< whether the centre of the ball about the body is in the body
   std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
   DetourResult result_;
 };

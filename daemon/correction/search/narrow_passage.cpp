@@ -5,12 +5,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/correction/search/centering.h"
+#include "daemon/correction/search/corridor.h"
+#include "daemon/correction/search/hole_line.h"
 
 namespace camway::correction {
 
@@ -29,35 +30,14 @@ constexpr std::array<double, 3> kFirstHalfLengths = {kHalfLength, 0.2, 0.05};
 constexpr double kGrowth = 1.5;  // factor of the length per iteration
 constexpr double kLongest = 3.5;
 constexpr std::array<double, 3> kMiddles = {0.5, 0.25, 0.75};  // places in a narrow range
-constexpr double kFirstShift = 0.4;                            // shift of the ends of a line
-constexpr double kLeastShift = 0.01;
-constexpr double kMostTurn = 0.25;  // share of the length: shift of one end alone
-constexpr int kMostShifts = 200;
-constexpr double kWide = 0.9;  // room from which a line counts as not narrow
-constexpr int kPlaces = 16;    // places on the line, to find the tightest
-constexpr std::size_t kTurns =
-    48;                         // orientations about the line in a full turn; a multiple of four
-constexpr int kMostSteps = 32;  // to find the free space beside the line
+constexpr double kLeastRoom = 0.01;                            // of the ball where it fits
+constexpr double kWide = 0.9;           // room from which a line counts as not narrow
 constexpr std::size_t kMostTried = 24;  // fitting poses from which a motion is tried
-constexpr double kFarthest = 3.0;       // motion to either side, unless the narrow place is longer
-constexpr double kNearest = 1.05;       // least motion that leaves a thin wall
-
-/// A line segment, shifted to where it has the most room.
-struct Line {
-  Vec3 begin_W;
-  Vec3 end_W;
-
-  [[nodiscard]] Vec3 center_W() const { return 0.5 * (begin_W + end_W); }
-  [[nodiscard]] double length_m() const { return (end_W - begin_W).norm(); }
-  [[nodiscard]] Vec3 direction_W() const { return (end_W - begin_W).normalized(); }
-};
-
-/// A direction across a line, and the vector from the line to the middle of the free space in that
-/// direction.
-struct Side {
-  Vec3 direction_W;
-  Vec3 to_middle_W;
-};
+constexpr double kBesideLine = 0.5;     // price of a shift from the line, in the scale of the body
+constexpr double kMarginOfGap = 0.3;    // margin of a passage where the gap is small
+constexpr std::size_t kMostThinTried = 24;  // poses of scaled-down bodies that grow
+constexpr double kFarthest = 3.0;  // motion to either side, unless the narrow place is longer
+constexpr double kNearest = 1.05;  // least motion that leaves a thin wall
 
 class Threader {
  public:
@@ -74,17 +54,23 @@ class Threader {
   std::optional<NarrowPassage> through(std::span<const Vec3> way_W) {
     farthest_m_ = std::max(kFarthest * radius_m_, length_m(way_W));
     const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
-    std::vector<Vec3> middles_W = {tightest(way_W)};
+    std::vector<Vec3> middles_W = {tightest(space_, way_W)};
     for (const double share : kMiddles) {
       const auto at = static_cast<std::size_t>(share * static_cast<double>(way_W.size()));
       middles_W.push_back(way_W[at]);
     }
+    // A motion along a wall beside the narrow place does not lead through it.
+    std::optional<NarrowPassage> beside;
     for (const Vec3& middle_W : middles_W) {
       for (const double half_length : kFirstHalfLengths) {
-        if (auto found = along_grown(middle_W, along_W, half_length)) return found;
+        std::optional<NarrowPassage> found = along_grown(middle_W, along_W, half_length);
+        if (!found) continue;
+        if (leads_through(*found, way_W)) return found;
+        if (!beside) beside = std::move(found);
       }
     }
-    return std::nullopt;
+    auto fitted = fitted_in(line_about(space_, middles_W.front(), along_W, kHalfLength), way_W);
+    return fitted ? std::move(fitted) : std::move(beside);
   }
 
  private:
@@ -94,34 +80,38 @@ class Threader {
     return sum_m;
   }
 
-  static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
-    return {pose.position + by_W, pose.orientation};
+  /// Whether the passage begins nearer to the beginning of the way, and ends nearer to its end.
+  [[nodiscard]] bool leads_through(const NarrowPassage& passage,
+                                   std::span<const Vec3> way_W) const {
+    const auto ahead_m = [&](const SignedPose& pose) {
+      const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
+      return (center_W - way_W.front()).norm() - (center_W - way_W.back()).norm();
+    };
+    return ahead_m(passage.poses.front()) < 0.0 && ahead_m(passage.poses.back()) > 0.0;
   }
 
-  [[nodiscard]] Line line_about(const Vec3& center_W, const Vec3& along_W,
-                                double half_length) const {
-    const Vec3 half_W = half_length * radius_m_ * along_W;
-    return {center_W - half_W, center_W + half_W};
+  static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
+    return {pose.position + by_W, pose.orientation};
   }
 
   /// Returns a motion along a line that is shifted to where it has room, and grows: a longer line
   /// shows better where a hole leads.
   std::optional<NarrowPassage> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
     for (; half_length < kLongest && !deadline_.passed(); half_length *= kGrowth) {
-      Line line = line_about(center_W, along_W, half_length);
-      if (!(room_m(line) > 0.0)) return std::nullopt;
-      line = widened(line);
-      if (room_m(line) > kWide * radius_m_) return std::nullopt;
+      HoleLine line = line_about(space_, center_W, along_W, half_length);
+      if (!(room_m(space_, line) > 0.0)) return std::nullopt;
+      line = widened(space_, line);
+      if (room_m(space_, line) > kWide * radius_m_) return std::nullopt;
       center_W = line.center_W();
       along_W = line.direction_W();
       if (half_length < kHalfLength) continue;
-      const Vec3 place_W = tightest(places_on(line));
-      if (auto found = along(line_about(place_W, along_W, kHalfLength))) return found;
+      const Vec3 place_W = tightest(space_, places_on(line));
+      if (auto found = along(line_about(space_, place_W, along_W, kHalfLength))) return found;
     }
     return std::nullopt;
   }
 
-  std::optional<NarrowPassage> along(const Line& line) {
+  std::optional<NarrowPassage> along(const HoleLine& line) {
     const Vec3 along_W = line.direction_W();
     for (const auto& [likeness, pose] : fitting(line)) {
       if (deadline_.passed()) return std::nullopt;
@@ -129,65 +119,58 @@ class Threader {
       if (back_m < kNearest * radius_m_) continue;
       const double forth_m = freely_moved_m(pose, along_W);
       if (forth_m < kNearest * radius_m_) continue;
-      return NarrowPassage{moved(pose, -back_m * along_W), moved(pose, forth_m * along_W)};
+      return NarrowPassage{{moved(pose, -back_m * along_W), moved(pose, forth_m * along_W)}};
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] Vec3 tightest(std::span<const Vec3> places_W) const {
-    Vec3 place_W = places_W.front();
-    double least_m = std::numeric_limits<double>::infinity();
-    for (const Vec3& next_W : places_W) {
-      const double room_m = room_about_m(next_W);
-      if (room_m >= least_m) continue;
-      least_m = room_m;
-      place_W = next_W;
+  /// Returns a motion through the narrow place in which the middle of `line` is, from a pose that
+  /// fits only if the body is turned more finely than `fitting` does.
+  std::optional<NarrowPassage> fitted_in(const HoleLine& line, std::span<const Vec3> way_W) {
+    Fitter fitter(space_);
+    for (const ThinFit& fit : thin_fits(widened(space_, line), fitter)) {
+      if (deadline_.passed()) return std::nullopt;
+      const std::optional<Centered> found = fitter.fitted(fit.pose);
+      if (!found) continue;
+      const SignedPose pose = signed_as_ends(found->pose).pose;
+      const double margin_m = std::min(margin_m_, kMarginOfGap * found->gap_m);
+      std::optional<Guide> poses = corridor(space_, pose, line.direction_W(), margin_m, deadline_);
+      if (!poses) continue;
+      NarrowPassage passage{*std::move(poses)};
+      if (leads_through(passage, way_W)) return passage;
     }
-    return place_W;
+    return std::nullopt;
   }
 
-  static std::vector<Vec3> places_on(const Line& line) {
-    std::vector<Vec3> places_W;
-    for (int i = 0; i <= kPlaces; ++i)
-      places_W.push_back(line.begin_W +
-                         static_cast<double>(i) / kPlaces * (line.end_W - line.begin_W));
-    return places_W;
-  }
+  struct ThinFit {
+    double worth;     ///< scale of the body that is free at the pose, less a share of the distance
+    double likeness;  ///< cosine to the less similar end orientation
+    motion::Pose pose;
+  };
 
-  [[nodiscard]] double room_about_m(const Vec3& place_W) const {
-    return space_.way_gap_m(place_W, place_W, radius_m_);
-  }
-  [[nodiscard]] double room_m(const Line& line) const {
-    return space_.way_gap_m(line.begin_W, line.end_W, radius_m_);
-  }
-
-  /// Shifts the ends of the line to where there is more room.
-  [[nodiscard]] Line widened(Line line) const {
-    double best_m = room_m(line);
-    double shift_m = kFirstShift * radius_m_;
-    const double most_turn_m = kMostTurn * line.length_m();
-    for (int shifts = 0; shift_m > kLeastShift * radius_m_ && shifts < kMostShifts;) {
-      const Vec3 along_W = line.direction_W();
-      const Vec3 across_W = along_W.unitOrthogonal();
-      const Vec3 other_W = along_W.cross(across_W);
-      bool any = false;
-      for (const Vec3& side_W : {across_W, Vec3(-across_W), other_W, Vec3(-other_W)}) {
-        // Shift both ends, or one, which turns the line; a short line must not turn much. Shift no
-        // farther than there is room: the space behind a wall may not be on the way.
-        for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}) {
-          ++shifts;
-          const double by_m = std::min({shift_m, best_m, begin == end ? best_m : most_turn_m});
-          const Line next{line.begin_W + begin * by_m * side_W, line.end_W + end * by_m * side_W};
-          const double next_m = room_m(next);
-          if (!(next_m > best_m)) continue;
-          line = next;
-          best_m = next_m;
-          any = true;
-        }
+  /// The poses at which scaled-down bodies are free, the largest first.
+  [[nodiscard]] std::vector<ThinFit> thin_fits(const HoleLine& line, Fitter& fitter) {
+    std::vector<ThinFit> fits;
+    for_each_orientation(line, [&](const Quat& orientation, const Side& side, const Side& other) {
+      const Vec3 both_W = side.to_middle_W + other.to_middle_W;
+      ThinFit best{0.0, 0.0, {}};
+      for (const Vec3& shift_W :
+           {Vec3(Vec3::Zero()), side.to_middle_W, other.to_middle_W, both_W}) {
+        const motion::Pose pose = space_.pose_around(line.center_W() + shift_W, orientation);
+        // Where the body is free, `fitting` has been there.
+        const double scale = fitter.free_scale(pose);
+        if (scale == 1.0) continue;
+        // The farther from the line, the likelier beside the narrow place.
+        const double worth = scale - kBesideLine * shift_W.norm() / radius_m_;
+        if (scale > 0.0 && worth > best.worth) best = {worth, signed_as_ends(pose).likeness, pose};
       }
-      if (!any) shift_m *= 0.5;
-    }
-    return line;
+      if (best.worth > 0.0) fits.push_back(best);
+    });
+    std::ranges::stable_sort(fits, [](const ThinFit& a, const ThinFit& b) {
+      return a.worth != b.worth ? a.worth > b.worth : a.likeness > b.likeness;
+    });
+    if (fits.size() > kMostThinTried) fits.resize(kMostThinTried);
+    return fits;
   }
 
   struct Fit {
@@ -197,29 +180,38 @@ class Threader {
 
   /// Free poses with an axis of the body along the line, on it or in the middle of the free space
   /// beside it; least turned first.
-  [[nodiscard]] std::vector<Fit> fitting(const Line& line) {
-    const std::vector<Side> sides = sides_of(line);
-    const Vec3 along_W = line.direction_W();
+  [[nodiscard]] std::vector<Fit> fitting(const HoleLine& line) {
     std::vector<Fit> fits;
-    for (const auto& [first, second] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
-      for (std::size_t i = 0; i < 2 * kTurns && !deadline_.passed(); ++i) {
-        const Vec3 first_W = i < kTurns ? along_W : Vec3(-along_W);
-        const Side& side = sides[i % kTurns];
-        const Side& other = sides[(i + kTurns / 4) % kTurns];
-        Eigen::Matrix3d axes_W;
-        axes_W.col(first) = first_W;
-        axes_W.col(second) = side.direction_W;
-        axes_W.col(3 - first - second) = first_W.cross(side.direction_W);
-        const std::optional<Vec3> place_W = fitting_place_W(line, Quat(axes_W), side, other);
-        if (place_W) fits.push_back(signed_as_ends(space_.pose_around(*place_W, Quat(axes_W))));
-      }
-    }
+    for_each_orientation(line, [&](const Quat& orientation, const Side& side, const Side& other) {
+      const std::optional<Vec3> place_W = fitting_place_W(line, orientation, side, other);
+      if (place_W) fits.push_back(signed_as_ends(space_.pose_around(*place_W, orientation)));
+    });
     std::ranges::stable_sort(fits, std::greater(), &Fit::likeness);
     if (fits.size() > kMostTried) fits.resize(kMostTried);
     return fits;
   }
 
-  [[nodiscard]] std::optional<Vec3> fitting_place_W(const Line& line, const Quat& orientation,
+  /// Calls `use` for orientations with an axis of the body along the line: each axis, either way,
+  /// rotated about the line step by step. `side` and `other` are across the line.
+  template <class Use>
+  void for_each_orientation(const HoleLine& line, const Use& use) const {
+    const std::vector<Side> sides = sides_of(space_, line);
+    const Vec3 along_W = line.direction_W();
+    for (const auto& [first, second] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
+      for (std::size_t i = 0; i < 2 * kSides && !deadline_.passed(); ++i) {
+        const Vec3 first_W = i < kSides ? along_W : Vec3(-along_W);
+        const Side& side = sides[i % kSides];
+        const Side& other = sides[(i + kSides / 4) % kSides];
+        Eigen::Matrix3d axes_W;
+        axes_W.col(first) = first_W;
+        axes_W.col(second) = side.direction_W;
+        axes_W.col(3 - first - second) = first_W.cross(side.direction_W);
+        use(Quat(axes_W), side, other);
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<Vec3> fitting_place_W(const HoleLine& line, const Quat& orientation,
                                                     const Side& side, const Side& other) {
     const Vec3 both_W = side.to_middle_W + other.to_middle_W;
     for (const Vec3& shift_W : {Vec3(Vec3::Zero()), side.to_middle_W, other.to_middle_W, both_W}) {
@@ -231,34 +223,6 @@ class Threader {
       if (fits) return places_W.front();
     }
     return std::nullopt;
-  }
-
-  [[nodiscard]] std::vector<Side> sides_of(const Line& line) const {
-    const Vec3 across_W = line.direction_W().unitOrthogonal();
-    std::array<Vec3, kTurns> directions_W;
-    std::array<double, kTurns> free_m;
-    for (std::size_t i = 0; i < kTurns; ++i) {
-      const double angle_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kTurns;
-      directions_W[i] = Eigen::AngleAxisd(angle_rad, line.direction_W()) * across_W;
-      free_m[i] = free_way_m(line.center_W(), directions_W[i]);
-    }
-    std::vector<Side> sides;
-    for (std::size_t i = 0; i < kTurns; ++i) {
-      const double shift_m = 0.5 * (free_m[i] - free_m[(i + kTurns / 2) % kTurns]);
-      sides.push_back({directions_W[i], shift_m * directions_W[i]});
-    }
-    return sides;
-  }
-
-  /// About the distance from a place to the scene in that direction, at most the body's diameter.
-  [[nodiscard]] double free_way_m(const Vec3& place_W, const Vec3& direction_W) const {
-    double way_m = 0.0;
-    for (int i = 0; i < kMostSteps && way_m < 2.0 * radius_m_; ++i) {
-      const double room_m = room_about_m(place_W + way_m * direction_W);
-      if (room_m < kLeastShift * radius_m_) break;
-      way_m += room_m;
-    }
-    return way_m;
   }
 
   [[nodiscard]] Fit signed_as_ends(const motion::Pose& pose) const {
@@ -318,7 +282,7 @@ struct Narrow {
 /// already.
 std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const WayPlace> places) {
   const double radius_m = space.ball_radius_m();
-  const double comfort_m = kLeastShift * radius_m;
+  const double comfort_m = kLeastRoom * radius_m;
   const auto apart = static_cast<std::size_t>(kApart / kStep);
   std::vector<Narrow> narrow;
   for (std::size_t i = 0; i < places.size(); ++i) {

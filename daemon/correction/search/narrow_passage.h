@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/correction/path/free_space.h"
+#include "daemon/correction/path/guide.h"
 
 namespace camway::correction {
 
-/// A straight motion of the body through a narrow place of a way, where the ball about the body
-/// does not fit.
+/// A motion of the body through a narrow place of a way, where the ball about the body does not
+/// fit: a straight one, or one through many poses.
 struct NarrowPassage {
-  motion::SignedPose before;
-  motion::SignedPose after;
+  Guide poses;
   std::size_t first = 0;  ///< index of the last point of the way before the narrow place
   std::size_t last = 0;   ///< index of the first point of the way after it
 };
@@ -26,7 +25,9 @@ struct NarrowPassage {
 /// From the tightest point of a narrow place a line is grown and shifted to where it has the most
 /// room. The body is put there, or in the middle of the free space beside it, with one of its axes
 /// along the line; it is rotated about the line step by step, and moved along the line to both
-/// sides. The motions are proved free with `margin_m` beyond the required clearance.
+/// sides. Where no such pose is free, scaled-down bodies are tried at the same poses and grow
+/// (`centering.h`), and the narrow place is followed to both sides (`corridor.h`). The motions are
+/// proved free with `margin_m` beyond the required clearance.
 ///
 /// `from` and `to` are the poses at the ends; of all orientations that fit, the one turned least
 /// from both is taken. Returns nothing if a narrow place was not passed, if there is none, or if

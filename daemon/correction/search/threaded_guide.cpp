@@ -43,8 +43,8 @@ TreeResult threaded_guide(FreeSpace& space, std::span<const geometry::Vec3> way_
     return extend(result, pose, way_W.subspan(begin, count), space, trees, deadline);
   };
   for (const NarrowPassage& passage : passages) {
-    if (!extend_to(passage.before, passage.first)) return {{}, result.samples};
-    result.guide.push_back(passage.after);
+    if (!extend_to(passage.poses.front(), passage.first)) return {{}, result.samples};
+    result.guide.insert(result.guide.end(), passage.poses.begin() + 1, passage.poses.end());
     begin = passage.last;
   }
   if (!extend_to(to, way_W.size() - 1)) return {{}, result.samples};

@@ -8,6 +8,7 @@
 
 #include "daemon/geometry/convex_hull.h"
 #include "daemon/geometry/rounding.h"
+#include "daemon/geometry/triangle_distance.h"
 
 namespace camway::motion {
 namespace {
@@ -72,6 +73,35 @@ base::Result<Body> Body::make(const BodyShape& shape) {
   body.measure();
   if (std::holds_alternative<BoxShape>(shape))
     body.slack_m_ = kBoxCornerRounding * body.radius_m_ + geometry::kSmallestNormal;
+  return body;
+}
+
+bool Body::is_near(const Vec3& point_C, double distance_m) const {
+  const bool is_inside = std::ranges::any_of(solids_C_, [&](const Solid& solid) {
+    return std::ranges::all_of(solid.faces_C, [&](const geometry::HalfSpace& face) {
+      return face.normal.dot(point_C) <= face.offset_m;
+    });
+  });
+  const Triangle point = {point_C, point_C, point_C};
+  return is_inside || std::ranges::any_of(triangles_C_, [&](const Triangle& triangle) {
+           return geometry::triangle_distance(point, triangle) <= distance_m + ball_radius_m_;
+         });
+}
+
+Body Body::scaled(const Vec3& center_C, double factor) const {
+  Body body = *this;
+  for (Triangle& triangle : body.triangles_C_) {
+    for (Vec3& vertex : triangle) vertex = center_C + factor * (vertex - center_C);
+  }
+  for (Solid& solid : body.solids_C_) {
+    for (geometry::HalfSpace& face : solid.faces_C) {
+      face.offset_m = factor * face.offset_m + (1.0 - factor) * face.normal.dot(center_C);
+    }
+  }
+  body.ball_radius_m_ *= factor;
+  body.is_camera_ = false;
+  body.radius_m_ = 0.0;
+  body.measure();
   return body;
 }
 

@@ -78,6 +78,13 @@ class Body {
   /// Returns a body of any shape. Fails exactly if `fault_in` returns a fault.
   static base::Result<Body> make(const BodyShape& shape);
 
+  /// Whether a point is within `distance_m` of the body, as computed.
+  [[nodiscard]] bool is_near(const geometry::Vec3& point_C, double distance_m) const;
+
+  /// Returns the body scaled about a point by a factor; for searches, since it bounds no rounding.
+  /// [Limit: 0 < factor <= 1]
+  [[nodiscard]] Body scaled(const geometry::Vec3& center_C, double factor) const;
+
   /// Triangles of solids are counter-clockwise seen from outside, those of a mesh as given.
   [[nodiscard]] std::span<const geometry::Triangle> triangles_C() const { return triangles_C_; }
   [[nodiscard]] double ball_radius_m() const { return ball_radius_m_; }

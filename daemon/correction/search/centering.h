@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "daemon/correction/path/free_space.h"
+
+namespace camway::correction {
+
+/// A free pose and the gap of the body there, as computed.
+struct Centered {
+  motion::Pose pose;
+  double gap_m = 0.0;
+};
+
+/// Moves and turns the body from a free pose to where its gap is larger, to a local maximum or up
+/// to `enough_m`. It does not move along `along_W`, a unit vector; zero permits all moves.
+///
+/// Each step asks for a larger gap: the shortest change of the pose with which all near pairs
+/// (`near_pairs.h`) have it to first order. It is taken if the gap grew indeed, and halved
+/// otherwise.
+Centered centered(FreeSpace& space, const motion::Pose& pose, double enough_m,
+                  const geometry::Vec3& along_W);
+
+/// Fits the body into narrow places: finds free poses near places at which it collides.
+///
+/// Begins with a copy of the body that is scaled down about its centre until it is free, centres
+/// it, and lets it grow by as much as its gap permits, until it has its own size. After Saha,
+/// Latombe, Chang & Prinz 2005 ("Finding narrow passages with probabilistic roadmaps: the
+/// small-step retraction method"), who thin obstacles and retract samples; deviation: the body is
+/// scaled, and it is centred by its contacts instead of by random moves.
+/// Not thread-safe.
+class Fitter {
+ public:
+  /// Refers to `space`, which must outlive it.
+  explicit Fitter(FreeSpace& space);
+  ~Fitter();
+  Fitter(const Fitter&) = delete;
+  Fitter& operator=(const Fitter&) = delete;
+
+  /// Returns the largest of a few scales at which the body is free at `place`; 0 if there is none.
+  [[nodiscard]] double free_scale(const motion::Pose& place);
+
+  /// Returns a free pose near `place` at which the gap is about as large as it can be there;
+  /// nothing if none was found.
+  [[nodiscard]] std::optional<Centered> fitted(const motion::Pose& place);
+
+ private:
+  struct Thin;
+
+  FreeSpace& space_;
+  std::vector<std::unique_ptr<Thin>> thin_;  ///< the first scales, the largest first
+};
+
+}  // namespace camway::correction

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/search/corridor.h"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+
+#include "daemon/correction/search/centering.h"
+#include "daemon/correction/search/near_pairs.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+using motion::SignedPose;
+
+// Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
+constexpr double kOpenGap = 0.25;  // gap from which the body has room
+constexpr double kLongestStepOut = 0.2;
+constexpr double kShortestStepOut = 0.005;
+constexpr double kLongestWayOut = 12.0;  // length of a way
+constexpr double kNearestPairs = 3.0;   // gap of the pairs that lead the way, relative to the least
+constexpr double kMarginOfStart = 0.3;  // margin of a way out, relative to the gap at its start
+constexpr double kLeastAhead = 0.9;     // cosine between two steps
+
+/// The direction in which the nearest pairs change least; `before_W` where there are none.
+Vec3 direction_W(FreeSpace& space, const motion::Pose& pose, double gap_m, const Vec3& before_W) {
+  const double horizon_m =
+      std::max(kNearestPairs * gap_m, kShortestStepOut * space.ball_radius_m());
+  const std::vector<NearPair> pairs = near_pairs(space, pose, horizon_m);
+  if (pairs.empty()) return before_W;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const NearPair& pair : pairs) sum += pair.away_W * pair.away_W.transpose();
+  // Where several directions change nothing, the last one goes on.
+  sum -= 1e-3 * sum.trace() * before_W * before_W.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
+  const Vec3 least_W = solver.eigenvectors().col(0);
+  return least_W.dot(before_W) < 0.0 ? Vec3(-least_W) : least_W;
+}
+
+SignedPose signed_like(const motion::Pose& pose, const SignedPose& other) {
+  SignedPose result = motion::signed_pose(pose);
+  if (result.orientation.dot(other.orientation) < 0.0) result.orientation *= -1.0;
+  return result;
+}
+
+class Walker {
+ public:
+  Walker(FreeSpace& space, double margin_m, const base::Deadline& deadline)
+      : space_(space), margin_m_(margin_m), deadline_(deadline), radius_m_(space.ball_radius_m()) {}
+
+  std::optional<Guide> run(const SignedPose& from, Vec3 along_W) {
+    Guide guide = {from};
+    double step_m = kLongestStepOut * radius_m_;
+    double walked_m = 0.0;
+    while (!is_open(guide.back())) {
+      if (deadline_.passed() || walked_m > kLongestWayOut * radius_m_) return std::nullopt;
+      const motion::Pose here = motion::unsigned_pose(guide.back());
+      Vec3 ahead_W = direction_W(space_, here, gap_m_, along_W);
+      // At the end of a narrow place, its contacts no longer lead along it.
+      if (guide.size() > 1 && ahead_W.dot(along_W) < kLeastAhead) ahead_W = along_W;
+      std::optional<SignedPose> next = stepped(guide.back(), step_m * ahead_W);
+      for (; !next && step_m > kShortestStepOut * radius_m_; step_m *= 0.5) {
+        next = stepped(guide.back(), 0.5 * step_m * ahead_W);
+      }
+      if (!next) return std::nullopt;
+      const Vec3 moved_W = next->position - guide.back().position;
+      walked_m += moved_W.norm();
+      along_W = ahead_W;
+      guide.push_back(*next);
+      step_m = std::min(1.5 * step_m, kLongestStepOut * radius_m_);
+    }
+    return guide;
+  }
+
+ private:
+  /// Also notes the gap there.
+  [[nodiscard]] bool is_open(const SignedPose& at) {
+    const motion::Pose pose = motion::unsigned_pose(at);
+    gap_m_ = space_.gap_m(pose, kOpenGap * radius_m_);
+    return gap_m_ >= kOpenGap * radius_m_ ||
+           space_.ball_gap_m(space_.center_W(pose), radius_m_, 0.01 * radius_m_) > 0.0;
+  }
+
+  /// The pose after a step, centred where the motion there is free.
+  [[nodiscard]] std::optional<SignedPose> stepped(const SignedPose& from, const Vec3& by_W) {
+    const SignedPose next{from.position + by_W, from.orientation};
+    if (!is_free(from, next)) return std::nullopt;
+    const Centered there =
+        centered(space_, motion::unsigned_pose(next), kOpenGap * radius_m_, by_W.normalized());
+    const SignedPose central = signed_like(there.pose, from);
+    return is_free(from, central) ? central : next;
+  }
+
+  [[nodiscard]] bool is_free(const SignedPose& from, const SignedPose& to) {
+    return !space_.first_hit(from, to, margin_m_);
+  }
+
+  FreeSpace& space_;
+  const double margin_m_;
+  const base::Deadline& deadline_;
+  const double radius_m_;
+  double gap_m_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, const Vec3& along_W,
+                             double margin_m, const base::Deadline& deadline) {
+  return Walker(space, margin_m, deadline).run(from, along_W);
+}
+
+std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from,
+                             const base::Deadline& deadline) {
+  const motion::Pose pose = motion::unsigned_pose(from);
+  const double gap_m = space.gap_m(pose, space.ball_radius_m());
+  const Vec3 along_W = direction_W(space, pose, gap_m, Vec3::Zero());
+  for (const double sign : {1.0, -1.0}) {
+    std::optional<Guide> found =
+        way_out(space, from, sign * along_W, kMarginOfStart * gap_m, deadline);
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<Guide> corridor(FreeSpace& space, const SignedPose& middle, const Vec3& along_W,
+                              double margin_m, const base::Deadline& deadline) {
+  std::optional<Guide> back = way_out(space, middle, -along_W, margin_m, deadline);
+  if (!back) return std::nullopt;
+  std::optional<Guide> forth = way_out(space, middle, along_W, margin_m, deadline);
+  if (!forth) return std::nullopt;
+  std::ranges::reverse(*back);
+  back->insert(back->end(), forth->begin() + 1, forth->end());
+  return back;
+}
+
+}  // namespace camway::correction

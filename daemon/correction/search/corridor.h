@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "daemon/base/deadline.h"
+#include "daemon/correction/path/guide.h"
+
+namespace camway::correction {
+
+/// Follows the narrow place in which the body is at `from`, to where it has room: where a ball
+/// about it fits, or its gap is a share of that ball's radius. Returns the poses on the way,
+/// `from` first, joined by straight motions that are free with `margin_m`; nothing if it ends
+/// before.
+///
+/// Goes in small steps, with the body centred after each (`centering.h`). The direction is that in
+/// which contacts change least: the eigenvector of the least eigenvalue of Σ n·nᵀ over the normals
+/// n of the nearest pairs, with the sign that is nearer to `along_W` and later to the last step.
+std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
+                             const geometry::Vec3& along_W, double margin_m,
+                             const base::Deadline& deadline);
+
+/// Returns the way out of a narrow place in which the body is at `from` already, in either
+/// direction; only `from` where it has room, nothing if no way out was found.
+std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
+                             const base::Deadline& deadline);
+
+/// Ways out to either side: from a pose in a narrow place backwards and forwards along `along_W`,
+/// in the order of a way along it. Nothing if one of the two is missing.
+std::optional<Guide> corridor(FreeSpace& space, const motion::SignedPose& middle,
+                              const geometry::Vec3& along_W, double margin_m,
+                              const base::Deadline& deadline);
+
+}  // namespace camway::correction
