@@ -9,7 +9,7 @@
 
 namespace camway::correction {
 
-/// A free pose and the gap of the body there, as computed.
+/// A free pose and the gap of the body there, as computed, at most the one that was enough.
 struct Centered {
   motion::Pose pose;
   double gap_m = 0.0;

@@ -46,14 +46,13 @@ void expect_passed(const SearchScene& scene, const std::vector<NarrowPassage>& p
   FreeSpace space = scene.space();
   for (std::size_t i = 0; i < passages.size(); ++i) {
     const NarrowPassage& passage = passages[i];
-    EXPECT_TRUE(is_proved_free(scene, {passage.before, passage.after}, kPassageMargin_m));
-    EXPECT_EQ(passage.before.orientation, passage.after.orientation);
+    EXPECT_TRUE(is_proved_free(scene, passage.poses, kPassageMargin_m));
     const auto z_m = [&](const SignedPose& pose) {
       return (turn_W.conjugate() * space.center_W(motion::unsigned_pose(pose))).z();
     };
     const double radius_m = space.ball_radius_m();
-    EXPECT_GT(z_m(passage.before), plates_m[i] + 0.9 * radius_m);
-    EXPECT_LT(z_m(passage.after), plates_m[i] - 0.9 * radius_m);
+    EXPECT_GT(z_m(passage.poses.front()), plates_m[i] + 0.9 * radius_m);
+    EXPECT_LT(z_m(passage.poses.back()), plates_m[i] - 0.9 * radius_m);
     EXPECT_LT(passage.first, passage.last);
   }
 }
@@ -127,6 +126,33 @@ TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
     const std::vector<NarrowPassage> passages =
         narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
     expect_passed(scene, passages, {0.0}, turn_W);
+  }
+}
+
+// A hundredth of room to spare: orientations a few degrees apart do not fit.
+TEST(NarrowPassages, LeadABoxThroughAHoleThatIsLittleLarger) {
+  testing::Random random(4804);
+  for (int run = 0; run < 3; ++run) {
+    SCOPED_TRACE(run);
+    const Quat turn_W = random.rotation();
+    const double side_m = 0.3;
+    scene::Mesh mesh;
+    add_plate(mesh, 0.0, 1.01 * side_m);
+    turn(mesh, turn_W);
+    const SearchScene scene(
+        mesh, *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(side_m, side_m, 1.0)}));
+    FreeSpace space = scene.space();
+    const std::vector<Vec3> way_W =
+        turned({{0, 0.2, 2.0}, {0, 0, 0.2}, {0, 0, -0.2}, {0, 0.3, -2.0}}, turn_W);
+    const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
+    const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
+    const std::vector<NarrowPassage> passages =
+        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+    ASSERT_EQ(passages.size(), 1U);
+    const Guide& poses = passages.front().poses;
+    EXPECT_TRUE(is_proved_free(scene, poses, 0.1 * 0.01 * side_m));
+    EXPECT_GT((turn_W.conjugate() * poses.front().position).z(), 0.3);
+    EXPECT_LT((turn_W.conjugate() * poses.back().position).z(), -0.3);
   }
 }
 

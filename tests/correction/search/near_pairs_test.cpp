@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/search/near_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
+
+namespace camway::correction {
+namespace {
+
+using namespace testing_search;  // NOLINT: the fixture of this file
+
+constexpr double kPairRounding_m = 1e-12;
+
+motion::Pose moved(const motion::Pose& pose, const Vec3& by_W) {
+  return {pose.position + by_W, pose.orientation};
+}
+
+/// A free pose in the cube of the scene; nothing if there is none among a few.
+std::optional<motion::Pose> free_pose(testing::Random& random, const SearchScene& scene) {
+  for (int i = 0; i < 20; ++i) {
+    const motion::Pose pose{random.in_cube(1.0), random.rotation()};
+    if (scene.distance_m(pose) > 1e-3) return pose;
+  }
+  return std::nullopt;
+}
+
+// The oracle computes the distances of all pairs of triangles.
+TEST(NearPairs, BeginWithTheGapOfTheBody) {
+  testing::Random random(5101);
+  int near = 0;
+  for (int run = 0; run < 60; ++run) {
+    SCOPED_TRACE(run);
+    const SearchScene scene(testing::scattered_triangles(random, 40, 0.6));
+    const std::optional<motion::Pose> pose = free_pose(random, scene);
+    if (!pose) continue;
+    FreeSpace space = scene.space();
+    const double gap_m = scene.distance_m(*pose);
+    const double horizon_m = random.uniform(0.5, 3.0) * gap_m;
+    const std::vector<NearPair> pairs = near_pairs(space, *pose, horizon_m);
+    EXPECT_EQ(pairs.empty(), gap_m >= horizon_m);
+    if (pairs.empty()) continue;
+    ++near;
+    EXPECT_NEAR(pairs.front().gap_m, gap_m, kPairRounding_m);
+    EXPECT_TRUE(std::ranges::is_sorted(pairs, {}, &NearPair::gap_m));
+    for (const NearPair& pair : pairs) {
+      EXPECT_LT(pair.gap_m, horizon_m);
+      EXPECT_NEAR(pair.away_W.norm(), 1.0, kPairRounding_m);
+    }
+  }
+  EXPECT_GT(near, 30);
+}
+
+TEST(NearPairs, PointToWhereTheGapGrows) {
+  testing::Random random(5102);
+  constexpr double kStep_m = 1e-6;
+  int checked = 0;
+  for (int run = 0; run < 60; ++run) {
+    SCOPED_TRACE(run);
+    const SearchScene scene(testing::scattered_triangles(random, 10, 0.6));
+    const std::optional<motion::Pose> pose = free_pose(random, scene);
+    if (!pose) continue;
+    FreeSpace space = scene.space();
+    const std::vector<NearPair> pairs = near_pairs(space, *pose, 2.0);
+    if (pairs.empty()) continue;
+    const Vec3 step_W = kStep_m * random.in_cube(1.0).normalized();
+    const double grown_m = scene.distance_m(moved(*pose, step_W)) - scene.distance_m(*pose);
+    // Other pairs may be as near, but none of them is promised more.
+    double promised_m = std::numeric_limits<double>::infinity();
+    for (const NearPair& pair : pairs) {
+      promised_m = std::min(promised_m, pair.gap_m - pairs.front().gap_m + pair.away_W.dot(step_W));
+    }
+    EXPECT_NEAR(grown_m, promised_m, 1e-3 * kStep_m);
+    ++checked;
+  }
+  EXPECT_GT(checked, 30);
+}
+
+TEST(NearPairs, KeepTheRequiredClearanceAndTheBall) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-1, -1, -1}, {1, 1, 0});
+  SearchScene scene(mesh, sphere(0.2));
+  scene.detect.clearance_m = 0.05;
+  FreeSpace space = scene.space();
+  const std::vector<NearPair> pairs =
+      near_pairs(space, {Vec3(0.1, 0.2, 0.5), Quat::Identity()}, 1.0);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_NEAR(pairs.front().gap_m, 0.25, kPairRounding_m);
+  EXPECT_TRUE(pairs.front().away_W.isApprox(Vec3::UnitZ()));
+}
+
+}  // namespace
+}  // namespace camway::correction
