@@ -23,8 +23,10 @@ using planning::FieldSpec;
 using Points = std::vector<std::vector<double>>;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
+static_assert(wire::kMaxBodyVertices == motion::kMaxBodyVertices);
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
 static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
+static_assert(planning::kSolidMesh == body_t::SOLID_MESH);
 
 /// Returns the name on the wire of the member at `path`. There options are members of the request,
 /// and the points of all pieces of a body are one list.
@@ -113,7 +115,7 @@ struct TableReader {
 std::optional<BodyShape> read_body(const body_t& wire, Refusal& refusal) {
   std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
   if (!shape) {
-    refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNames));
+    refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNumberNames));
     return shape;
   }
   const auto read = [&](auto& part) {

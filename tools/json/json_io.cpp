@@ -47,15 +47,17 @@ struct ShapeReader : JsonReader {
 ///     {"type": "sphere", "radius_m": r, "center": [x, y, z]}
 ///     {"type": "convex", "points": [[x, y, z], ...]}
 ///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
-///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}
+///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...],
+///      "solid": true}
 ///
 /// Returns nothing for a camera, and after an error.
 std::optional<motion::BodyShape> read_body(const Field& field) {
   const Field type = field.member("type");
   const std::string name = type.text();
   const auto* const named = std::ranges::find(planning::kShapeNames, name);
-  std::optional<motion::BodyShape> shape =
-      planning::blank_shape(static_cast<std::size_t>(named - planning::kShapeNames.begin()));
+  std::optional<motion::BodyShape> shape;
+  if (named != planning::kShapeNames.end())
+    shape = planning::blank_shape(static_cast<std::size_t>(named - planning::kShapeNames.begin()));
   if (!shape) {
     type.fail("'" + name + "' is unknown; a body is a camera, box, sphere, convex or mesh");
     return std::nullopt;

@@ -77,7 +77,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
     sent.keyframes.push_back(to_client_keyframe(keyframe, request.has_times));
   }
   if (!request.body) return sent;
-  sent.body.shape = static_cast<Body::Shape>(request.body->index());
+  sent.body.shape = static_cast<Body::Shape>(planning::number_of(*request.body));
   std::visit(ShapeWriter{sent.body}, *request.body);
   return sent;
 }

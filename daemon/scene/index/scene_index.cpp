@@ -15,6 +15,8 @@
 #include "daemon/scene/index/distance_search.h"
 #include "daemon/scene/index/index_walk.h"
 #include "daemon/scene/index/swept_search.h"
+#include "daemon/scene/index/tree_search.h"
+#include "daemon/scene/index/tree_walk.h"
 
 namespace camway::scene {
 
@@ -165,6 +167,42 @@ class PartsQuery {
   std::span<const IndexedPart> parts_;
 };
 
+/// A query for `IndexWalk` over the boxes of parts: searches the trees of those within reach of the
+/// root of a body's tree.
+class RootQuery {
+ public:
+  RootQuery(TreeSearch& search, std::span<const IndexedPart> parts)
+      : search_(search), root_(search.body().placed(TreeBody::kRoot)), parts_(parts) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return root_.sides; }
+  [[nodiscard]] const ObliqueSides* oblique() const { return &root_.oblique; }
+  [[nodiscard]] double squared_reach_m2() const {
+    return search_.squared_reach_m2(search_.body().node(root_.node));
+  }
+  [[nodiscard]] bool is_beyond(double squared) const {
+    return search_.is_beyond(search_.body().node(root_.node), squared);
+  }
+  static bool enters(const IndexNode&, std::size_t) { return true; }
+  [[nodiscard]] bool is_done() const { return search_.is_done(); }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t number) {
+      enter(parts_[number]);
+      return !is_done();
+    });
+  }
+
+  void enter(const IndexedPart& part) {
+    search_.enter(part);
+    TreeWalk(part.indexed->tree, {part.first_triangle, part.first_leaf}, search_).run();
+  }
+
+ private:
+  TreeSearch& search_;
+  TreeBody::Placed root_;  // a copy: placing children moves the original
+  std::span<const IndexedPart> parts_;
+};
+
 }  // namespace
 
 void SceneIndex::add(const std::shared_ptr<const IndexedMesh>& mesh) {
@@ -227,6 +265,16 @@ void SceneIndex::run(Query& query) const {
     parts.enter(parts_.front());
   } else {
     IndexWalk(top_).run(parts);
+  }
+}
+
+void SceneIndex::search(TreeSearch& search) const {
+  if (parts_.empty()) return;
+  RootQuery query(search, parts_);
+  if (parts_.size() == 1) {
+    query.enter(parts_.front());
+  } else {
+    IndexWalk(top_).run(query);
   }
 }
 

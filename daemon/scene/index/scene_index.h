@@ -18,6 +18,8 @@
 
 namespace camway::scene {
 
+class TreeSearch;
+
 struct IndexStatistics {
   std::uint64_t nodes = 0;   ///< inner nodes of all trees, leaves of the trees of meshes
   std::uint64_t leaves = 0;  ///< each holds at least one triangle
@@ -173,6 +175,9 @@ class SceneIndex {
   /// none, which proves that all triangles are at least `distance_m - nearest_error_m(body)` away.
   [[nodiscard]] std::optional<Nearest> any_within(std::span<const geometry::Triangle> body,
                                                   double distance_m) const;
+
+  /// Runs a search of the triangles near a body that has a tree.
+  void search(TreeSearch& search) const;
 
   /// Calls `visit(index)` for every triangle that has a point in the closed `box`, until it returns
   /// false; then returns false. Conservative: also visits triangles whose bounding boxes meet

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+//
+// Searches with a body that has a tree, against loops over all pairs of triangles.
+#include "daemon/scene/index/tree_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "tests/scene/index/index_oracle.h"
+#include "tests/scene/test_meshes.h"
+#include "tests/support/body_meshes.h"
+
+namespace camway::scene {
+namespace {
+
+using geometry::Triangle;
+using geometry::TriangleTree;
+using geometry::Vec3;
+
+/// A body and a scene, near each other or not.
+class TreeCase {
+ public:
+  explicit TreeCase(geometry::RandomTriangles& random)
+      : random_(random),
+        index_(make_scene()),
+        triangles_C_(make_body()),
+        tree_(triangles_C_),
+        body_(tree_, triangles_C_) {}
+
+  void place(bool is_moving) {
+    BodyMotion motion{random_.rotation().toRotationMatrix(), random_.in_cube(6.0)};
+    if (is_moving) {
+      motion.eye_step_W = random_.in_cube(random_.log_uniform(1e-4, 0.5));
+      motion.turn_step_W = random_.in_cube(random_.log_uniform(1e-4, 0.25));
+    }
+    body_.place(motion);
+  }
+
+  TreeBody& body() { return body_; }
+  const SceneIndex& index() { return index_; }
+  [[nodiscard]] std::uint32_t size() const {
+    return static_cast<std::uint32_t>(triangles_C_.size());
+  }
+  /// Distance of a triangle of the body, at the middle of the motion, from one of the scene.
+  [[nodiscard]] double distance_m(std::uint32_t number, std::uint32_t triangle) const {
+    return geometry::triangle_distance(body_.middle(number), index_.triangle(triangle));
+  }
+  [[nodiscard]] double least_distance_m() const {
+    double least_m = kInfinity;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+      for (std::uint32_t t = 0; t < index_.size(); ++t)
+        least_m = std::min(least_m, distance_m(i, t));
+    }
+    return least_m;
+  }
+  [[nodiscard]] double radius_m(std::uint32_t number) const {
+    double radius_m = 0.0;
+    for (const Vec3& v : triangles_C_[number]) radius_m = std::max(radius_m, v.norm());
+    return radius_m;
+  }
+
+ private:
+  SceneIndex make_scene() {
+    const int parts = random_.integer(1, 3);
+    std::vector<std::shared_ptr<const IndexedMesh>> meshes;
+    for (int i = 0; i < parts; ++i) {
+      const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(
+          random_.chance(0.2) ? grid_soup(random_, 30) : soup(random_, random_.integer(1, 60))));
+      IndexOptions options;
+      options.threshold = 4;
+      meshes.push_back(IndexedMesh::build(mesh, options));
+    }
+    return SceneIndex::of(meshes);
+  }
+
+  /// Slivers and coincident triangles, a plane, a torus, and one far from its eye.
+  std::vector<Triangle> make_body() {
+    const int kind = random_.integer(0, 3);
+    if (kind == 0) {
+      std::vector<Triangle> triangles;
+      for (int i = 0; i < 60; ++i) {
+        triangles.push_back(random_.thin_triangle());
+        if (i % 7 == 0) triangles.push_back(triangles.back());
+      }
+      return triangles;
+    }
+    const Vec3 away = kind == 3 ? random_.in_cube(20.0) : Vec3::Zero();
+    const motion::MeshShape mesh =
+        kind == 1
+            ? testing::divided_quad({1.5, 1.2, random_.log_uniform(0.05, 2.0)}, 8, 6)
+            : testing::torus(random_.uniform(0.2, 2.0), random_.uniform(0.02, 0.2), 9, 5, away);
+    std::vector<Triangle> triangles;
+    for (const auto& t : mesh.triangles)
+      triangles.push_back({mesh.vertices_C[t[0]], mesh.vertices_C[t[1]], mesh.vertices_C[t[2]]});
+    return triangles;
+  }
+
+  geometry::RandomTriangles& random_;
+  SceneIndex index_;
+  std::vector<Triangle> triangles_C_;
+  TriangleTree tree_;
+  TreeBody body_;
+};
+
+TEST(TreeSearch, FindsTheDistanceOfALoopOverAllPairs) {
+  geometry::RandomTriangles random(8101);
+  int found = 0;
+  for (int run = 0; run < 250; ++run) {
+    TreeCase c(random);
+    c.place(/*is_moving=*/false);
+    const double least_m = c.least_distance_m();
+    for (const double share : {1.0, 0.8, 0.5}) {
+      const double cutoff_m = random.chance(0.3) ? kInfinity : random.log_uniform(1e-3, 10.0);
+      TreeDistance search(c.body(), c.index().bounds(), cutoff_m, DistanceGoal::kNear, 0.0, share);
+      c.index().search(search);
+      ASSERT_EQ(search.result().has_value(), least_m < cutoff_m) << "run " << run;
+      if (!search.result()) continue;
+      ++found;
+      EXPECT_EQ(search.result()->distance_m,
+                c.distance_m(search.pair()->number, search.pair()->triangle));
+      EXPECT_LE(share * search.result()->distance_m, least_m);
+    }
+    TreeDistance any(c.body(), c.index().bounds(), 0.5, DistanceGoal::kAny);
+    c.index().search(any);
+    EXPECT_EQ(any.result().has_value(), least_m < 0.5);
+  }
+  EXPECT_GT(found, 300);
+}
+
+TEST(TreeSearch, VisitsAllPairsWithinADistance) {
+  geometry::RandomTriangles random(8102);
+  std::size_t visited = 0;
+  for (int run = 0; run < 150; ++run) {
+    TreeCase c(random);
+    c.place(/*is_moving=*/false);
+    const double within_m = random.chance(0.3) ? 0.0 : random.log_uniform(1e-3, 1.0);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    const auto visit = [&](std::uint32_t number, std::uint32_t triangle, const Triangle&) {
+      pairs.emplace(number, triangle);
+      return true;
+    };
+    TreePairs<decltype(visit)> search(c.body(), c.index().bounds(), within_m, visit);
+    c.index().search(search);
+    visited += pairs.size();
+    for (std::uint32_t i = 0; i < c.size(); ++i) {
+      for (std::uint32_t t = 0; t < c.index().size(); ++t) {
+        if (pairs.contains({i, t})) continue;
+        ASSERT_GT(c.distance_m(i, t), within_m) << "run " << run << ", " << i << ", " << t;
+      }
+    }
+  }
+  EXPECT_GT(visited, 500U);
+}
+
+// What a clear motion promises, for each pair: the middle is beyond the reach, or a slab that is
+// wider than bend and margin separates both ends, so that all straight lines in between are at
+// least that far away.
+class ClearMotion {
+ public:
+  ClearMotion(TreeCase& c, const TreeMargins& margins) : case_(c), margins_(margins) {}
+
+  [[nodiscard]] bool holds(std::uint32_t number, std::uint32_t triangle) const {
+    const double radius_m = case_.radius_m(number);
+    const double middle_m = case_.distance_m(number, triangle);
+    const double error_m =
+        geometry::triangle_distance_error_m(case_.body().scale_m(case_.index().bounds()));
+    if (middle_m + error_m > margins_.reach.at(radius_m) + margins_.keep_m) return true;
+    const std::array<Triangle, 2> ends = case_.body().ends(number);
+    constexpr int kSamples = 8;
+    for (int s = 0; s <= kSamples; ++s) {
+      const double f = static_cast<double>(s) / kSamples;
+      Triangle there;
+      for (std::size_t k = 0; k < 3; ++k) there[k] = (1.0 - f) * ends[0][k] + f * ends[1][k];
+      const double distance_m =
+          geometry::triangle_distance(there, case_.index().triangle(triangle));
+      if (distance_m + 2.0 * error_m < margins_.bend.at(radius_m) + margins_.keep_m) return false;
+    }
+    return true;
+  }
+
+ private:
+  TreeCase& case_;
+  TreeMargins margins_;
+};
+
+TEST(TreeSearch, AClearMotionKeepsItsDistance) {
+  geometry::RandomTriangles random(8103);
+  int clear = 0;
+  int close = 0;
+  for (int run = 0; run < 600; ++run) {
+    TreeCase c(random);
+    c.place(/*is_moving=*/true);
+    const BodyMotion& motion = c.body().motion();
+    TreeMargins margins;
+    margins.bend = {random.log_uniform(1e-6, 0.02), random.log_uniform(1e-6, 0.02)};
+    margins.reach = {margins.bend.at_eye_m + motion.eye_step_W.norm(),
+                     margins.bend.per_m + motion.turn_step_W.norm()};
+    margins.keep_m = random.log_uniform(1e-6, 0.1);
+    TreeSwept search(c.body(), c.index().bounds(), margins);
+    c.index().search(search);
+    if (!search.result().is_clear) {
+      ASSERT_TRUE(search.result().nearest);
+      continue;
+    }
+    ++clear;
+    const ClearMotion promise(c, margins);
+    for (std::uint32_t i = 0; i < c.size(); ++i) {
+      for (std::uint32_t t = 0; t < c.index().size(); ++t)
+        ASSERT_TRUE(promise.holds(i, t)) << "run " << run << ", " << i << ", " << t;
+    }
+    if (c.least_distance_m() < margins.reach.at(c.body().tree().nodes()[0].radius_m)) ++close;
+  }
+  EXPECT_GT(clear, 100);
+  EXPECT_GT(close, 5) << "motions that only their direction proves clear";
+}
+
+// A motion that the body's triangles one by one are clear of is proved clear: the boxes lose
+// nothing.
+TEST(TreeSearch, ProvesWhatTheFlatSearchProves) {
+  geometry::RandomTriangles random(8104);
+  int both = 0;
+  int flat_alone = 0;
+  for (int run = 0; run < 400; ++run) {
+    TreeCase c(random);
+    c.place(/*is_moving=*/true);
+    const BodyMotion& motion = c.body().motion();
+    const double bend_m = random.log_uniform(1e-6, 0.02);
+    const double radius_m = c.body().tree().nodes()[0].radius_m;
+    const double reach_m = bend_m + motion.eye_step_W.norm() + radius_m * motion.turn_step_W.norm();
+    std::vector<Triangle> middle, ends;
+    for (std::uint32_t i = 0; i < c.size(); ++i) {
+      middle.push_back(c.body().middle(i));
+      for (const Triangle& end : c.body().ends(i)) ends.push_back(end);
+    }
+    if (!c.index().swept({middle, ends, bend_m, reach_m, 1e-3}).is_clear) continue;
+    TreeSwept search(c.body(), c.index().bounds(), {{bend_m, 0.0}, {reach_m, 0.0}, 1e-3});
+    c.index().search(search);
+    ++(search.result().is_clear ? both : flat_alone);
+  }
+  EXPECT_GT(both, 100);
+  EXPECT_LE(flat_alone, both / 20);
+}
+
+}  // namespace
+}  // namespace camway::scene
