@@ -67,7 +67,7 @@ inline constexpr std::size_t kMaxBodyVertices = 100'000;
 inline constexpr std::size_t kMaxBodyTriangles = 100'000;
 
 /// Largest numbers of pages of a request and of an answer.
-inline constexpr std::int32_t kMaxRequestPages = 192;
+inline constexpr std::int32_t kMaxRequestPages = 256;
 inline constexpr std::int32_t kMaxResponsePages = 1024;
 
 /// A field of a message, in the order of the .lcm file. LCM encodes big-endian without padding.

@@ -240,9 +240,9 @@ TEST(PageAssembly, RefusesPageNumbersThatCannotBe) {
     message.num_pages = num_pages;
     return assembly.add(std::move(message)).error;
   };
-  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 192");
-  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 192");
-  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 192");
+  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 256");
+  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 256");
+  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 256");
   EXPECT_EQ(error_of(2, 2), "page: 2 is not within 0 to 1");
   EXPECT_EQ(error_of(-1, 2), "page: -1 is not within 0 to 1");
   EXPECT_EQ(error_of(1, 1), "page: 1 is not within 0 to 0");
