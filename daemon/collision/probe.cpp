@@ -259,6 +259,10 @@ bool Probe::holds_scene(const motion::Stretch& stretch) {
   if (!body_.is_solid()) return false;
   // The surface touches no triangle, so one vertex represents its triangle, and rounding cannot
   // move it across the surface.
+  if (body_.is_solid_mesh()) {
+    return obstacles_.index.has_inside(
+        tree_->body(), [&](const Vec3& point_W) { return is_in_body(stretch, point_W); });
+  }
   return !obstacles_.index.for_each_touching(box_W(), [&](std::uint32_t index) {
     return !is_in_body(stretch, obstacles_.index.triangle(index)[0]);
   });

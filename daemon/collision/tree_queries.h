@@ -75,6 +75,7 @@ class TreeQueries {
   /// The triangle of the body nearest to a point, and its distance.
   scene::Nearest nearest_part(const geometry::Vec3& point_W);
 
+  [[nodiscard]] const scene::TreeBody& body() const { return body_; }
   [[nodiscard]] geometry::Triangle triangle(std::uint32_t number) const {
     return body_.middle(number);
   }

@@ -134,6 +134,49 @@ class BoxQuery {
   bool is_done_ = false;
 };
 
+/// A query for `IndexWalk` that searches what is inside a closed body.
+class InsideQuery {
+ public:
+  using IsInside = std::function<bool(const Vec3&)>;
+
+  InsideQuery(const TreeBody& body, const Box& scene, const IsInside& is_inside)
+      : body_(body),
+        root_(body.placed(TreeBody::kRoot)),
+        rounding_m_(body.rounding_m(scene)),
+        is_inside_(is_inside) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return root_.sides; }
+  [[nodiscard]] const ObliqueSides* oblique() const { return &root_.oblique; }
+  [[nodiscard]] double squared_reach_m2() const { return rounding_m_ * rounding_m_; }
+  [[nodiscard]] bool is_beyond(double) const { return found_; }
+  [[nodiscard]] bool is_done() const { return found_; }
+  [[nodiscard]] bool found() const { return found_; }
+
+  [[nodiscard]] bool enters(const IndexNode& node, std::size_t slot) const {
+    const Box box = node.frame.box_of(get_box(node.boxes, slot));
+    if (body_.may_touch(box, rounding_m_)) return true;
+    found_ = found_ || is_inside_(box.center());
+    return false;
+  }
+
+  void enter(const IndexedPart& part) { part_ = &part; }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t triangle) {
+      found_ = is_inside_(part_->triangle(triangle)[0]);
+      return !found_;
+    });
+  }
+
+ private:
+  const TreeBody& body_;
+  TreeBody::Placed root_;
+  double rounding_m_;
+  const IsInside& is_inside_;
+  const IndexedPart* part_ = nullptr;
+  mutable bool found_ = false;  // `enters` decides for whole nodes
+};
+
 /// A query for `IndexWalk` over the boxes of parts: runs `query` through the tree of each part in
 /// reach.
 template <class Query>
@@ -276,6 +319,14 @@ void SceneIndex::search(TreeSearch& search) const {
   } else {
     IndexWalk(top_).run(query);
   }
+}
+
+bool SceneIndex::has_inside(const TreeBody& body,
+                            const std::function<bool(const Vec3&)>& is_inside) const {
+  if (parts_.empty()) return false;
+  InsideQuery query(body, bounds_, is_inside);
+  run(query);
+  return query.found();
 }
 
 /// Calls `visit(query, leaf)` for every leaf that `triangle` touches until it returns false.

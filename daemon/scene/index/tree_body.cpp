@@ -94,6 +94,25 @@ std::uint32_t TreeBody::children_of(std::uint32_t place) {
   return first;
 }
 
+bool TreeBody::may_touch(const Box& box_W, double rounding_m) const {
+  const Vec3 center_C = to_body(box_W.center());
+  const Vec3 half_C = abs_R_.transpose() * (0.5 * box_W.sizes()) + Vec3::Constant(rounding_m);
+  std::array<std::uint32_t, geometry::TriangleTree::kMaxDepth + 1> waiting;
+  std::size_t count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t at = waiting[--count];
+    const Node& node = tree_.nodes()[at];
+    // In this order "not a number" may touch.
+    if (((node.center - center_C).cwiseAbs().array() > (node.half + half_C).array()).any())
+      continue;
+    if (node.is_leaf()) return true;
+    waiting[count++] = node.second_child;
+    waiting[count++] = at + 1;
+  }
+  return false;
+}
+
 Box TreeBody::bounds() const {
   const BoxSides& sides = placed_.front().sides;
   return {Vec3(sides.low_m[0], sides.low_m[1], sides.low_m[2]),

@@ -95,6 +95,10 @@ class TreeBody {
   [[nodiscard]] geometry::Vec3 moved_half(const geometry::TriangleTree::Node& node) const;
   [[nodiscard]] MovedDirection moved(const geometry::Vec3& direction_C) const;
 
+  /// False only if no triangle of the body, at the middle of the motion, touches `box_W`.
+  /// `rounding_m`: of this body and a scene that holds the box.
+  [[nodiscard]] bool may_touch(const geometry::Box& box_W, double rounding_m) const;
+
   /// Box in the world that holds the body, both ends of its motion included, up to `rounding_m`.
   [[nodiscard]] geometry::Box bounds() const;
   /// Whether the kernels of daemon/geometry accept all of its coordinates.

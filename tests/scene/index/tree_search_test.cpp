@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
+#include "daemon/geometry/winding.h"
 #include "tests/scene/index/index_oracle.h"
 #include "tests/scene/test_meshes.h"
 #include "tests/support/body_meshes.h"
@@ -242,6 +244,47 @@ TEST(TreeSearch, ProvesWhatTheFlatSearchProves) {
   }
   EXPECT_GT(both, 100);
   EXPECT_LE(flat_alone, both / 20);
+}
+
+// Triangles in and about the tube of a torus that touch no face of it.
+TEST(TreeSearch, TellsWhetherATriangleIsInside) {
+  geometry::RandomTriangles random(8105);
+  std::vector<Triangle> torus;
+  const motion::MeshShape mesh = testing::torus(1.0, 0.3, 40, 20);
+  for (const auto& t : mesh.triangles)
+    torus.push_back({mesh.vertices_C[t[0]], mesh.vertices_C[t[1]], mesh.vertices_C[t[2]]});
+  const TriangleTree tree(torus);
+  int inside = 0;
+  int outside = 0;
+  for (int run = 0; run < 300; ++run) {
+    const BodyMotion place{random.rotation().toRotationMatrix(), random.in_cube(100.0)};
+    const auto is_inside = [&](const Vec3& point_W) {
+      const Vec3 point_C = place.R_WC.transpose() * (point_W - place.eye_W);
+      return geometry::winding_number(point_C, torus, tree) != 0;
+    };
+    std::vector<Triangle> scene;
+    bool any = false;
+    while (scene.size() < 40) {
+      const Vec3 at_C = random.in_cube(1.3);
+      const double ring_m = std::hypot(at_C.x(), at_C.y()) - 1.0;
+      const double away_m = std::hypot(ring_m, at_C.z());
+      if (std::abs(away_m - 0.3) < 0.06) continue;
+      // At most one in a scene is inside.
+      if (away_m < 0.3 && (any || random.chance(0.95))) continue;
+      any = any || away_m < 0.3;
+      const Vec3 at_W = place.R_WC * at_C + place.eye_W;
+      scene.push_back(
+          {at_W + random.in_cube(0.02), at_W + random.in_cube(0.02), at_W + random.in_cube(0.02)});
+    }
+    std::ranges::shuffle(scene, random);
+    const SceneIndex index = SceneIndex::build(mesh_of_triangles(scene));
+    TreeBody body(tree, torus);
+    body.place(place);
+    ASSERT_EQ(index.has_inside(body, is_inside), any) << "run " << run;
+    ++(any ? inside : outside);
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(outside, 50);
 }
 
 }  // namespace
