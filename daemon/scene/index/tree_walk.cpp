@@ -60,7 +60,7 @@ void TreeWalk::meet(std::uint32_t place, std::uint32_t at, int levels) {
   unsigned near = gaps.near & ((1U << node.child_count) - 1U);
   if (near == 0) return;
   if (levels > 0 && !body_.node_at(place).is_leaf() &&
-      body_.placed(place).size_m > child_size_m(node.frame)) {
+      body_.placed(place).size_m > kLargestRatio * child_size_m(node.frame)) {
     const std::uint32_t first = body_.children_of(place);
     meet(first, at, levels - 1);
     meet(first + 1, at, levels - 1);

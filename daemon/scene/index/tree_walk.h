@@ -10,8 +10,8 @@
 namespace camway::scene {
 
 /// The descent of the tree of a body and the tree of a part of the scene together: depth first,
-/// nearer pairs of nodes first. Each step goes down one level of the scene, and down as many levels
-/// of the body as it takes until its nodes are not longer than those of the scene.
+/// nearer pairs of nodes first. Each step goes down one level of the scene, and down in the body
+/// where its node is much longer than those of the scene. For the rest `TreeSearch::ask` goes down.
 class TreeWalk {
  public:
   TreeWalk(const IndexTree& tree, const IndexOffsets& offsets, TreeSearch& search)
@@ -21,8 +21,12 @@ class TreeWalk {
 
  private:
   static constexpr std::uint32_t kNode = std::numeric_limits<std::uint32_t>::max();
-  /// Most levels of the body in one step: with more, most pairs are beyond the reach in the end.
+  /// Most levels of the body in one step.
   static constexpr int kMostLevels = 3;
+  /// Longest node of the body beside a node of the scene, in lengths of the latter, by measurement:
+  /// between long nodes and a single triangle a slab often tells at once that it is beyond the
+  /// reach; between short nodes the same is asked again and again.
+  static constexpr double kLargestRatio = 16.0;
 
   using Waiting = TreeBody::Waiting;
 
