@@ -16,7 +16,7 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-// Most pairs that are looked at of a body of many triangles.
+// Most pairs that are looked at of a body of many triangles, which takes about a millisecond.
 constexpr int kMaxPairs = 4096;
 
 // The smaller of the two depths to which `moving` reaches through the plane of `fixed`.
@@ -124,16 +124,17 @@ std::optional<Witness> deepest_pair(Probe& probe, double beyond_m) {
   int left = kMaxPairs;
   probe.for_each_pair(keep_m + beyond_m, [&](std::uint32_t part, const Triangle& placed,
                                              std::uint32_t number, const Triangle& obstacle) {
+    const bool goes_on = probe.body().tree() == nullptr || --left > 0;
     const bool touches = geometry::triangles_touch(placed, obstacle);
-    if (!touches && !(keep_m + beyond_m > 0.0)) return true;
+    if (!touches && !(keep_m + beyond_m > 0.0)) return goes_on;
     const double distance_m = touches ? 0.0 : geometry::triangle_distance(placed, obstacle);
-    if (distance_m > keep_m + beyond_m) return true;
+    if (distance_m > keep_m + beyond_m) return goes_on;
     const double crossing_m = touches ? depth_of_crossing_m(placed, obstacle) : 0.0;
     const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
     const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
     if (!deepest || depth_m > deepest->depth_m || tie)
       deepest = Witness{0.0, number, part, depth_m, Vec3::Zero()};
-    return probe.body().tree() == nullptr || --left > 0;
+    return goes_on;
   });
   return deepest;
 }

@@ -90,7 +90,6 @@ void TreeWalk::ask_leaf(const Waiting& pair) {
     for (; near != 0; near &= near - 1U) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t triangle = offsets_.entry + tree_.references[first + i];
-      if (was_met(pair.place, triangle)) continue;
       entries.push_back({static_cast<double>(gaps.squared[i]) * gaps.square_m2, triangle});
     }
   }
@@ -99,7 +98,10 @@ void TreeWalk::ask_leaf(const Waiting& pair) {
   });
   const std::uint32_t node = body_.placed(pair.place).node;
   for (const TreeBody::Near& entry : entries) {
+    // A leaf has the box of the part of a triangle in its cell: if it is beyond the reach, another
+    // part, in another leaf, may not be.
     if (search_.is_beyond(body_.node(node), entry.squared_m2)) continue;
+    if (was_met(pair.place, entry.triangle)) continue;
     search_.ask(node, entry.triangle);
     if (search_.is_done()) return;
   }

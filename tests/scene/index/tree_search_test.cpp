@@ -34,9 +34,18 @@ class TreeCase {
 
   void place(bool is_moving) {
     BodyMotion motion{random_.rotation().toRotationMatrix(), random_.in_cube(6.0)};
-    if (is_moving) {
-      motion.eye_step_W = random_.in_cube(random_.log_uniform(1e-4, 0.5));
-      motion.turn_step_W = random_.in_cube(random_.log_uniform(1e-4, 0.25));
+    body_.place(motion);
+    if (!is_moving) return;
+    // Towards the nearest triangle of the scene or away from it, about as far as that is. A turn
+    // about the eye moves the nearest triangle of the body the same way.
+    const auto [gap_W, part] = nearest_gap();
+    const Vec3 way_W = random_.uniform(-1.5, 1.5) * gap_W + random_.in_cube(0.1 * gap_W.norm());
+    if (random_.chance(0.5)) {
+      motion.eye_step_W = way_W;
+    } else {
+      const Vec3 arm_W = motion.R_WC * triangles_C_[part][0];
+      motion.turn_step_W = arm_W.cross(way_W) / arm_W.squaredNorm();
+      motion.turn_step_W *= std::min(1.0, 0.5 / motion.turn_step_W.norm());
     }
     body_.place(motion);
   }
@@ -58,6 +67,21 @@ class TreeCase {
     }
     return least_m;
   }
+  /// The shortest way from the body to the scene, and the triangle of the body that it begins at.
+  [[nodiscard]] std::pair<Vec3, std::uint32_t> nearest_gap() const {
+    double least_m = kInfinity;
+    std::pair<Vec3, std::uint32_t> nearest{Vec3::UnitX(), 0};
+    for (std::uint32_t i = 0; i < size(); ++i) {
+      for (std::uint32_t t = 0; t < index_.size(); ++t) {
+        const geometry::TriangleGap gap =
+            geometry::triangle_gap(body_.middle(i), index_.triangle(t), kInfinity);
+        if (!(gap.distance_m > 0.0 && gap.distance_m < least_m)) continue;
+        least_m = gap.distance_m;
+        nearest = {least_m * gap.direction.normalized(), i};
+      }
+    }
+    return nearest;
+  }
   [[nodiscard]] double radius_m(std::uint32_t number) const {
     double radius_m = 0.0;
     for (const Vec3& v : triangles_C_[number]) radius_m = std::max(radius_m, v.norm());
@@ -69,13 +93,26 @@ class TreeCase {
     const int parts = random_.integer(1, 3);
     std::vector<std::shared_ptr<const IndexedMesh>> meshes;
     for (int i = 0; i < parts; ++i) {
-      const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(
-          random_.chance(0.2) ? grid_soup(random_, 30) : soup(random_, random_.integer(1, 60))));
+      const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(make_part()));
       IndexOptions options;
       options.threshold = 4;
       meshes.push_back(IndexedMesh::build(mesh, options));
     }
     return SceneIndex::of(meshes);
+  }
+
+  std::vector<Triangle> make_part() {
+    if (random_.chance(0.2)) return grid_soup(random_, 30);
+    if (random_.chance(0.7)) return soup(random_, random_.integer(1, 60));
+    // Much finer than the body: the walk then goes down in the body, too.
+    std::vector<Triangle> cluster;
+    const Vec3 middle = random_.in_cube(3.0);
+    for (int i = 0; i < 150; ++i) {
+      const Vec3 at = middle + random_.in_cube(0.02);
+      cluster.push_back(
+          {at + random_.in_cube(1e-3), at + random_.in_cube(1e-3), at + random_.in_cube(1e-3)});
+    }
+    return cluster;
   }
 
   /// Slivers and coincident triangles, a plane, a torus, and one far from its eye.
@@ -106,6 +143,44 @@ class TreeCase {
   TriangleTree tree_;
   TreeBody body_;
 };
+
+/// How far a point is outside of a box.
+double outside_m(const Vec3& point, const Vec3& low, const Vec3& high) {
+  return (low - point).cwiseMax(point - high).maxCoeff();
+}
+
+TEST(TreeBody, ItsBoxesHoldBothEndsOfItsTriangles) {
+  geometry::RandomTriangles random(8100);
+  for (int run = 0; run < 60; ++run) {
+    TreeCase c(random);
+    c.place(/*is_moving=*/true);
+    TreeBody& body = c.body();
+    const double rounding_m = body.rounding_m(c.index().bounds());
+    std::vector<std::uint32_t> waiting = {TreeBody::kRoot};
+    while (!waiting.empty()) {
+      const std::uint32_t place = waiting.back();
+      waiting.pop_back();
+      if (!body.node_at(place).is_leaf()) {
+        const std::uint32_t first = body.children_of(place);
+        waiting.insert(waiting.end(), {first, first + 1});
+      }
+      const TreeBody::Placed placed = body.placed(place);
+      const auto corner = [](const std::array<double, 4>& a) { return Vec3(a[0], a[1], a[2]); };
+      const TriangleTree::Node& node = body.node_at(place);
+      for (std::uint32_t i = node.begin; i < node.end; ++i) {
+        for (const Triangle& end : body.ends(body.tree().order()[i])) {
+          for (const Vec3& vertex : end) {
+            ASSERT_LE(outside_m(vertex, corner(placed.sides.low_m), corner(placed.sides.high_m)),
+                      rounding_m);
+            ASSERT_LE(outside_m(body.to_body(vertex), corner(placed.oblique.low_m),
+                                corner(placed.oblique.high_m)),
+                      rounding_m);
+          }
+        }
+      }
+    }
+  }
+}
 
 TEST(TreeSearch, FindsTheDistanceOfALoopOverAllPairs) {
   geometry::RandomTriangles random(8101);
