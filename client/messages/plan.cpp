@@ -8,7 +8,7 @@
 namespace camway {
 namespace {
 
-static_assert(static_cast<int>(Body::Shape::kMesh) == body_t::MESH);
+static_assert(static_cast<int>(Body::Shape::kSolidMesh) == body_t::SOLID_MESH);
 static_assert(static_cast<int>(Correction::Method::kShrink) == correction_t::SHRINK);
 static_assert(static_cast<int>(Objective::kSafest) == plan_request_t::SAFEST);
 static_assert(static_cast<int>(Orientation::Policy::kTarget) == orientation_t::TARGET);
@@ -37,7 +37,7 @@ void convert(const Body& mine, body_t& wire) {
       wire.piece_sizes.push_back(static_cast<std::int32_t>(piece.size()));
       convert(piece, wire.points_m);
     }
-  } else if (mine.shape == Body::Shape::kMesh) {
+  } else if (mine.shape == Body::Shape::kMesh || mine.shape == Body::Shape::kSolidMesh) {
     convert(mine.vertices_m, wire.points_m);
     convert(mine.triangles, wire.triangles);
   }

@@ -61,7 +61,7 @@ std::optional<std::string> fault_in_form(const PlanRequest& request) {
         // An empty piece has a size on the wire all the same.
         fault_in_count("body.pieces_m", body.pieces_m.size(), wire::kMaxBodyPoints),
         fault_in_count("points in body.pieces_m", points, wire::kMaxBodyPoints),
-        fault_in_count("body.vertices_m", body.vertices_m.size(), wire::kMaxBodyPoints),
+        fault_in_count("body.vertices_m", body.vertices_m.size(), wire::kMaxBodyVertices),
         fault_in_count("body.triangles", body.triangles.size(), wire::kMaxBodyTriangles),
         fault_in_count("keyframes", request.keyframes.size(), kMaxKeyframes),
         fault_in_times(request)}) {

@@ -35,6 +35,10 @@ class ClearanceSearch {
   }
 
  private:
+  [[nodiscard]] unsigned steps_per_clock() const {
+    return probe_.body().tree() != nullptr ? kStepsPerClockOfTree : kStepsPerClock;
+  }
+
   // Finds a first upper bound at the closest of a few places; a small one excludes most of the
   // path.
   void seed(const motion::Path& path) {
@@ -60,7 +64,7 @@ class ClearanceSearch {
     const SegmentMotion motion(segment);
     double width = 1.0;
     for (double u = 0.0; u < 1.0;) {
-      if (steps_++ % kStepsPerClock == 0 && deadline_.passed()) {
+      if (steps_++ % steps_per_clock() == 0 && deadline_.passed()) {
         timed_out_ = true;
         return false;
       }

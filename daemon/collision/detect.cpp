@@ -231,7 +231,9 @@ class Detector {
   }
 
   bool out_of_time() {
-    if (steps_++ % kStepsPerClock != 0 || !deadline_.passed()) return false;
+    const unsigned steps_per_clock =
+        probe_.body().tree() != nullptr ? kStepsPerClockOfTree : kStepsPerClock;
+    if (steps_++ % steps_per_clock != 0 || !deadline_.passed()) return false;
     timed_out_ = finished_ = true;
     return true;
   }

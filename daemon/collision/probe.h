@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/collision/obstacles.h"
+#include "daemon/collision/tree_queries.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/stretch.h"
 #include "daemon/scene/index/scene_index.h"
@@ -121,38 +122,67 @@ class Probe {
     const double scene_m = field_distance_m(stretch) - keep_m_;
     return has_bounds_ ? std::min(scene_m, ball_depth_m(stretch) - body_.ball_radius_m()) : scene_m;
   }
-  /// The body's triangles placed at the middle of `stretch`; valid until the next call.
-  std::span<const geometry::Triangle> place(const motion::Stretch& stretch);
+  /// Places the body at the middle of `stretch`.
+  void place(const motion::Stretch& stretch);
+  /// Returns about the nearest triangle of the scene to the body as it was placed last, if it is
+  /// nearer than `cutoff_m`. As `scene::SceneIndex::near`.
+  std::optional<scene::Nearest> nearest_in_scene(double cutoff_m, double share);
+  /// Calls `visit(number, part, index, obstacle)` for pairs of triangle `part` of the body as it
+  /// was placed last, which has the number `number`, and triangle `obstacle` of the scene, until it
+  /// returns false: for all that are within `within_m` of each other, and maybe others.
+  template <class Visit>
+  void for_each_pair(double within_m, const Visit& visit);
+  /// Calls `visit(number, part, obstacle)` for triangle `obstacle` of the scene alone.
+  template <class Visit>
+  void for_each_pair_with(std::uint32_t obstacle, double within_m, const Visit& visit);
+  /// Calls `visit(vertex, vertex_W)` for vertices of the body as it was placed last, until it
+  /// returns false: for all that are at most `within_m` deep inside a side of the bounds, and maybe
+  /// others.
+  template <class Visit>
+  void for_each_vertex(std::size_t side, double within_m, const Visit& visit) const;
+  /// Box of the vertices of the body as it was placed last.
+  [[nodiscard]] geometry::Box vertex_box() const;
+  /// Vertex 3 × a triangle of the body + its index in it, as the body was placed last.
+  [[nodiscard]] geometry::Vec3 vertex_W(std::size_t vertex) const;
+  /// The triangle of the body, as it was placed last, that is nearest to a point.
+  [[nodiscard]] std::uint32_t nearest_part(const geometry::Vec3& point_W);
+  /// Depth of a point inside a solid of the body at the middle of `stretch`, about; nothing
+  /// outside.
+  [[nodiscard]] std::optional<double> depth_in_body_m(const motion::Stretch& stretch,
+                                                      const geometry::Vec3& point_W);
   [[nodiscard]] const Obstacles& obstacles() const { return obstacles_; }
   [[nodiscard]] const motion::Body& body() const { return body_; }
   /// The vertex and the side of the bounds with the least depth inside, as computed, for the body
   /// as it was placed last; nothing without bounds.
-  struct Edge {
-    std::size_t side = 0;
-    std::size_t vertex = 0;  ///< vertex of the body: 3 × its triangle + its index in it
-    double gap_m = 0.0;
-  };
   [[nodiscard]] std::optional<Edge> nearest_edge() const;
   /// Distance of the body's triangles from the scene at which the body collides: radius of its ball
   /// plus required clearance.
   [[nodiscard]] double keep_m() const { return keep_m_; }
 
  private:
+  /// Upper bound of the rounding of a sum of a few positive numbers, half an epsilon each.
+  static constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
+
   [[nodiscard]] ProbeResult check_scene(const motion::Stretch& stretch, double margin_m, Way way);
   /// Adds the check of the bounds to that of the scene.
   void check_bounds(const motion::Stretch& stretch, double margin_m, Way way, ProbeResult& result);
   /// Lower bound of the depth of the body's triangles inside the bounds.
   [[nodiscard]] double ball_depth_m(const motion::Stretch& stretch) const;
-  /// Least depths of the body's vertices inside the bounds, as it was moved last: at the middle of
-  /// the stretch, and at its ends in the direction of the check.
-  struct Depths {
-    double middle_m = std::numeric_limits<double>::infinity();
-    double first_m = std::numeric_limits<double>::infinity();
-    double last_m = std::numeric_limits<double>::infinity();
-  };
+  /// Least depths for the body as it was moved last.
   [[nodiscard]] Depths least_depths() const;
-  /// The body on the stretch; valid until it is placed again.
-  scene::SweptBody move(const motion::Stretch& stretch, Way way);
+  /// Moves the body along the stretch.
+  void move(const motion::Stretch& stretch, Way way);
+  /// Whether the body as it was moved last keeps `keep_m` and the error of distances, which is
+  /// added to `rounding_m`, from the scene. Returns nothing if the motion is too large to know.
+  std::optional<scene::SweptResult> swept(const motion::Stretch& stretch, double keep_m,
+                                          double& rounding_m);
+  /// The linear bound with these values at the eye and at the body's radius.
+  [[nodiscard]] scene::RadialBound radial(double at_eye_m, double at_radius_m) const;
+  bool touches(const geometry::Triangle& obstacle);
+  [[nodiscard]] double bend_m(const motion::Stretch& stretch) const {
+    return (stretch.bend_m(radius_m_) + body_.slack_m()) * kRoundUp;
+  }
+  [[nodiscard]] geometry::Box box_W() const;
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
   /// Whether a part of the body as it was placed last is inside a solid of the scene. Requires that
@@ -160,17 +190,77 @@ class Probe {
   [[nodiscard]] bool is_in_solid() const;
   /// Checks the body as it was placed last, for motions up to `moved_m`.
   [[nodiscard]] bool surely_leaves(double moved_m) const;
-  [[nodiscard]] bool surely_meets(const geometry::Triangle& obstacle, double moved_m) const;
+  [[nodiscard]] bool surely_meets(const geometry::Triangle& part,
+                                  const geometry::Triangle& obstacle, double moved_m) const;
+  /// False only if `surely_meets` is false for all pairs.
+  [[nodiscard]] bool may_surely_meet(double moved_m) const;
+  std::optional<std::uint32_t> surely_hit_by_few(double moved_m);
+  std::optional<std::uint32_t> surely_hit_by_tree(double moved_m);
+  [[nodiscard]] bool is_in_body(const motion::Stretch& stretch,
+                                const geometry::Vec3& point_W) const;
 
   Obstacles obstacles_;
   const motion::Body& body_;
   bool has_bounds_;
   double keep_m_;
   double radius_m_;
-  geometry::Vec3 center_C_;       ///< centre of a ball about the body's triangles
-  double center_radius_m_ = 0.0;  ///< radius of that ball
+  double center_radius_m_;  ///< radius of a ball about the middle of the body's box
+  /// The body on the stretch, if it has a tree; otherwise its triangles, and two ends of each.
+  std::optional<TreeQueries> tree_;
   std::vector<geometry::Triangle> placed_;
-  std::vector<geometry::Triangle> ends_;  ///< two for each triangle
+  std::vector<geometry::Triangle> ends_;
 };
+
+template <class Visit>
+void Probe::for_each_pair(double within_m, const Visit& visit) {
+  if (tree_) {
+    tree_->for_each_pair(within_m, [&](std::uint32_t number, std::uint32_t index,
+                                       const geometry::Triangle& obstacle) {
+      return visit(number, tree_->triangle(number), index, obstacle);
+    });
+    return;
+  }
+  geometry::Box box = box_W();
+  box = {box.min() - geometry::Vec3::Constant(within_m),
+         box.max() + geometry::Vec3::Constant(within_m)};
+  obstacles_.index.for_each_touching(box, [&](std::uint32_t index) {
+    const geometry::Triangle obstacle = obstacles_.index.triangle(index);
+    for (std::uint32_t i = 0; i < placed_.size(); ++i) {
+      if (!visit(i, placed_[i], index, obstacle)) return false;
+    }
+    return true;
+  });
+}
+
+template <class Visit>
+void Probe::for_each_vertex(std::size_t side, double within_m, const Visit& visit) const {
+  if (tree_) {
+    tree_->for_each_leaf(side, within_m, [&](std::uint32_t number) {
+      const geometry::Triangle placed = tree_->triangle(number);
+      return visit(3 * std::size_t{number}, placed[0]) &&
+             visit(3 * std::size_t{number} + 1, placed[1]) &&
+             visit(3 * std::size_t{number} + 2, placed[2]);
+    });
+    return;
+  }
+  for (std::size_t vertex = 0; vertex < 3 * placed_.size(); ++vertex) {
+    if (!visit(vertex, vertex_W(vertex))) return;
+  }
+}
+
+template <class Visit>
+void Probe::for_each_pair_with(std::uint32_t index, double within_m, const Visit& visit) {
+  const geometry::Triangle obstacle = obstacles_.index.triangle(index);
+  if (tree_) {
+    tree_->for_each_pair_with(index, obstacle, within_m,
+                              [&](std::uint32_t number, std::uint32_t, const geometry::Triangle&) {
+                                return visit(number, tree_->triangle(number), obstacle);
+                              });
+    return;
+  }
+  for (std::uint32_t i = 0; i < placed_.size(); ++i) {
+    if (!visit(i, placed_[i], obstacle)) return;
+  }
+}
 
 }  // namespace camway::collision

@@ -13,9 +13,11 @@ namespace camway::collision {
 
 namespace {
 
-using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
+
+// Most pairs that are looked at of a body of many triangles, which takes about a millisecond.
+constexpr int kMaxPairs = 4096;
 
 // The smaller of the two depths to which `moving` reaches through the plane of `fixed`.
 double depth_through_plane_m(const Triangle& moving, const Triangle& fixed) {
@@ -66,8 +68,9 @@ Vec3 closest_on_triangle(const Triangle& triangle, const Vec3& point) {
 
 // The feature of a near quadrilateral that a triangle cuts: a corner if it cuts both edges there,
 // one edge, or only the inside. Numbered as in `motion::Body::feature_name`.
-std::uint32_t camera_feature(std::span<const Triangle> quad, const Triangle& obstacle) {
-  const std::array<Vec3, 4> corners{quad[0][0], quad[0][1], quad[0][2], quad[1][2]};
+std::uint32_t camera_feature(const Probe& probe, const Triangle& obstacle) {
+  const std::array<Vec3, 4> corners{probe.vertex_W(0), probe.vertex_W(1), probe.vertex_W(2),
+                                    probe.vertex_W(5)};
   std::array<bool, 4> cut{};
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3& next = corners[(i + 1) % 4];
@@ -82,54 +85,26 @@ std::uint32_t camera_feature(std::span<const Triangle> quad, const Triangle& obs
   return 0;
 }
 
-Box grown_bounds(std::span<const Triangle> placed, double by_m) {
-  Box box;
-  for (const Triangle& triangle : placed) box.extend(geometry::bounds(triangle));
-  return {box.min() - Vec3::Constant(by_m), box.max() + Vec3::Constant(by_m)};
-}
-
 // The triangle whose first vertex is deepest inside a solid of the body.
-std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stretch,
-                                      std::span<const Triangle> placed) {
+std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stretch) {
   const scene::SceneIndex& index = probe.obstacles().index;
   std::optional<Witness> deepest;
-  if (probe.body().solids_C().empty()) return deepest;
-  index.for_each_touching(grown_bounds(placed, 0.0), [&](std::uint32_t number) {
+  if (!probe.body().is_solid()) return deepest;
+  index.for_each_touching(probe.vertex_box(), [&](std::uint32_t number) {
     const Vec3 point_W = index.triangle(number)[0];
-    const Vec3 point_C = stretch.R_WC.transpose() * (point_W - stretch.eye_W);
-    for (const motion::Solid& solid : probe.body().solids_C()) {
-      double depth_m = std::numeric_limits<double>::infinity();
-      for (const geometry::HalfSpace& face : solid.faces_C)
-        depth_m = std::min(depth_m, face.offset_m - face.normal.dot(point_C));
-      if (!(depth_m > 0.0) || (deepest && depth_m <= deepest->depth_m)) continue;
-      deepest = Witness{0.0, number, 0, depth_m + probe.keep_m(), point_W};
-    }
+    const std::optional<double> depth_m = probe.depth_in_body_m(stretch, point_W);
+    if (!depth_m || (deepest && *depth_m + probe.keep_m() <= deepest->depth_m)) return true;
+    deepest = Witness{0.0, number, 0, *depth_m + probe.keep_m(), point_W};
     return true;
   });
   return deepest;
 }
 
-// The part of the body that is nearest to a point.
-std::uint32_t nearest_part(std::span<const Triangle> placed, const Vec3& point_W) {
-  std::uint32_t nearest = 0;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (std::uint32_t part = 0; part < placed.size(); ++part) {
-    const double distance_m =
-        geometry::triangle_distance(placed[part], {point_W, point_W, point_W});
-    if (distance_m >= least_m) continue;
-    least_m = distance_m;
-    nearest = part;
-  }
-  return nearest;
-}
-
 // The vertex that is farthest beyond the bounds. Requires the body to be placed.
-std::optional<Witness> beyond_bounds(const Probe& probe, std::span<const Triangle> placed,
-                                     double beyond_m) {
-  const std::optional<Probe::Edge> edge = probe.nearest_edge();
+std::optional<Witness> beyond_bounds(const Probe& probe, double beyond_m) {
+  const std::optional<Edge> edge = probe.nearest_edge();
   if (!edge || edge->gap_m > beyond_m) return std::nullopt;
-  const std::size_t part = edge->vertex / 3;
-  const Vec3& vertex_W = placed[part][edge->vertex % 3];
+  const Vec3 vertex_W = probe.vertex_W(edge->vertex);
   Witness witness;
   witness.triangle = Obstacles::number_of_side(edge->side);
   witness.depth_m = std::max(0.0, -edge->gap_m);
@@ -137,44 +112,46 @@ std::optional<Witness> beyond_bounds(const Probe& probe, std::span<const Triangl
   witness.point_W = vertex_W - probe.obstacles().bounds.depth_m(edge->side, vertex_W) * inward;
   // The corners of (c0, c1, c2) and (c0, c2, c3).
   constexpr std::array<std::uint32_t, 6> kCorners = {0, 1, 2, 0, 2, 3};
-  witness.feature =
-      probe.body().is_camera() ? 5 + kCorners[edge->vertex] : static_cast<std::uint32_t>(part);
+  witness.feature = probe.body().is_camera() ? 5 + kCorners[edge->vertex]
+                                             : static_cast<std::uint32_t>(edge->vertex / 3);
   return witness;
+}
+
+// The deepest contact with a triangle, without its point; its feature is the part of the body.
+std::optional<Witness> deepest_pair(Probe& probe, double beyond_m) {
+  const double keep_m = probe.keep_m();
+  std::optional<Witness> deepest;
+  int left = kMaxPairs;
+  probe.for_each_pair(keep_m + beyond_m, [&](std::uint32_t part, const Triangle& placed,
+                                             std::uint32_t number, const Triangle& obstacle) {
+    const bool goes_on = probe.body().tree() == nullptr || --left > 0;
+    const bool touches = geometry::triangles_touch(placed, obstacle);
+    if (!touches && !(keep_m + beyond_m > 0.0)) return goes_on;
+    const double distance_m = touches ? 0.0 : geometry::triangle_distance(placed, obstacle);
+    if (distance_m > keep_m + beyond_m) return goes_on;
+    const double crossing_m = touches ? depth_of_crossing_m(placed, obstacle) : 0.0;
+    const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
+    const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
+    if (!deepest || depth_m > deepest->depth_m || tie)
+      deepest = Witness{0.0, number, part, depth_m, Vec3::Zero()};
+    return goes_on;
+  });
+  return deepest;
 }
 
 std::optional<Witness> deepest_in_scene(Probe& probe, const motion::Stretch& stretch,
                                         double beyond_m) {
-  const double keep_m = probe.keep_m();
-  const std::span<const Triangle> placed = probe.place(stretch);
-  const scene::SceneIndex& index = probe.obstacles().index;
-  std::optional<Witness> deepest;
-  std::uint32_t part_of_deepest = 0;
-  index.for_each_touching(grown_bounds(placed, keep_m + beyond_m), [&](std::uint32_t number) {
-    const Triangle obstacle = index.triangle(number);
-    for (std::uint32_t part = 0; part < placed.size(); ++part) {
-      const bool touches = geometry::triangles_touch(placed[part], obstacle);
-      if (!touches && !(keep_m + beyond_m > 0.0)) continue;
-      const double distance_m = touches ? 0.0 : geometry::triangle_distance(placed[part], obstacle);
-      if (distance_m > keep_m + beyond_m) continue;
-      const double crossing_m = touches ? depth_of_crossing_m(placed[part], obstacle) : 0.0;
-      const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
-      const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
-      if (deepest && !(depth_m > deepest->depth_m) && !tie) continue;
-      deepest = Witness{0.0, number, part, depth_m, Vec3::Zero()};
-      part_of_deepest = part;
-    }
-    return true;
-  });
-  std::optional<Witness> inside = deepest_inside(probe, stretch, placed);
+  probe.place(stretch);
+  std::optional<Witness> deepest = deepest_pair(probe, beyond_m);
+  std::optional<Witness> inside = deepest_inside(probe, stretch);
   if (inside && (!deepest || inside->depth_m > deepest->depth_m)) {
-    inside->feature = nearest_part(placed, inside->point_W);
+    inside->feature = probe.nearest_part(inside->point_W);
     return inside;
   }
   if (!deepest) return std::nullopt;
-  const Triangle obstacle = index.triangle(deepest->triangle);
-  const Vec3 middle = grown_bounds(placed, 0.0).center();
-  deepest->point_W = closest_on_triangle(obstacle, middle);
-  deepest->feature = probe.body().is_camera() ? camera_feature(placed, obstacle) : part_of_deepest;
+  const Triangle obstacle = probe.obstacles().index.triangle(deepest->triangle);
+  deepest->point_W = closest_on_triangle(obstacle, probe.vertex_box().center());
+  if (probe.body().is_camera()) deepest->feature = camera_feature(probe, obstacle);
   return deepest;
 }
 
@@ -183,7 +160,7 @@ std::optional<Witness> deepest_in_scene(Probe& probe, const motion::Stretch& str
 std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
                                        double beyond_m) {
   const std::optional<Witness> scene = deepest_in_scene(probe, stretch, beyond_m);
-  const std::optional<Witness> outside = beyond_bounds(probe, probe.place(stretch), beyond_m);
+  const std::optional<Witness> outside = beyond_bounds(probe, beyond_m);
   return outside && (!scene || outside->depth_m > scene->depth_m) ? outside : scene;
 }
 

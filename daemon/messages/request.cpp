@@ -23,8 +23,10 @@ using planning::FieldSpec;
 using Points = std::vector<std::vector<double>>;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
+static_assert(wire::kMaxBodyVertices == motion::kMaxBodyVertices);
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
 static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
+static_assert(planning::kSolidMesh == body_t::SOLID_MESH);
 
 /// Returns the name on the wire of the member at `path`. There options are members of the request,
 /// and the points of all pieces of a body are one list.
@@ -118,7 +120,7 @@ static void translate(const orientation_t& wire, OrientationPolicy& mine, Refusa
 /// are checked by `planning::validate`.
 static void translate(const body_t& wire, std::optional<BodyShape>& shape, Refusal& refusal) {
   shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
-  if (!shape) return refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNames));
+  if (!shape) return refusal.add(wire.type, unknown_value(wire.type, planning::kShapeNumberNames));
   const auto read = [&](auto& part) {
     read_used(refusal, wire, wire.type,
               [&](const auto& visit) { planning::visit_shape(visit, part, wire); });

@@ -221,7 +221,7 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                    bounded.bounds.any() ? deadline.share_of_rest(kShareWithinBounds) : deadline);
     if (may_have_path_outside_bounds(request, result) && !deadline.passed()) {
       add_path_outside_bounds(plan_among(snapshot, scene.without_bounds(), request, deadline),
-                              request, result);
+                              scene.without_bounds(), request, result);
     }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {

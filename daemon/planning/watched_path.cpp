@@ -116,7 +116,7 @@ std::vector<collision::CollisionInterval> WatchedPath::collisions(
 
 std::size_t WatchedPath::memory_bytes() const {
   return sizeof(WatchedPath) + swept_.size() * (sizeof(motion::Segment) + sizeof(Box)) +
-         body_.triangles_C().size() * sizeof(geometry::Triangle);
+         body_.memory_bytes();
 }
 
 }  // namespace camway::planning

@@ -61,12 +61,13 @@ inline constexpr std::size_t kMaxMissingPages = 4096;
 /// Size of every page of an exported map except the last.
 inline constexpr std::size_t kMapPageBytes = 48'000;
 
-/// Limits of a body. A body within them fits page 0 of a request.
+/// Limits of a body: points of all convex pieces, vertices and triangles of a mesh.
 inline constexpr std::size_t kMaxBodyPoints = 512;
-inline constexpr std::size_t kMaxBodyTriangles = 1024;
+inline constexpr std::size_t kMaxBodyVertices = 100'000;
+inline constexpr std::size_t kMaxBodyTriangles = 100'000;
 
 /// Largest numbers of pages of a request and of an answer.
-inline constexpr std::int32_t kMaxRequestPages = 192;
+inline constexpr std::int32_t kMaxRequestPages = 256;
 inline constexpr std::int32_t kMaxResponsePages = 1024;
 
 /// A field of a message, in the order of the .lcm file. LCM encodes big-endian without padding.

@@ -3,6 +3,7 @@
 
 #include <camway/members.h>
 
+#include <type_traits>
 #include <utility>
 
 #include "lcmtypes/wire/check.h"
@@ -14,17 +15,34 @@ namespace {
 std::int32_t most_pages(const plan_request_t&) { return kMaxRequestPages; }
 std::int32_t most_pages(const plan_response_t&) { return kMaxResponsePages; }
 
+/// Calls `visit(list_of)` for each list that is cut into pages; `list_of(message)` is the list.
+/// Those of the body come first.
+template <class Message, class Visit>
+void for_each_paged_list(const Visit& visit) {
+  if constexpr (std::is_same_v<Message, plan_request_t>) {
+    for_each_list<body_t>([&](auto list, auto) {
+      visit([list](auto& message) -> auto& { return message.body.*list; });
+    });
+  }
+  for_each_list<Message>(
+      [&](auto list, auto) { visit([list](auto& message) -> auto& { return message.*list; }); });
+}
+
+void set_all_counts(plan_request_t& request) {
+  set_counts(request.body);
+  set_counts(request);
+}
+void set_all_counts(plan_response_t& response) { set_counts(response); }
+
 void clear_body(plan_request_t& request) { request.body = body_t{}; }
 void clear_body(plan_response_t&) {}
 
-/// Returns the bytes that later pages save by having no body.
-std::size_t body_bytes(const plan_request_t& request) {
-  return static_cast<std::size_t>(request.body._getEncodedSizeNoHash() -
-                                  body_t{}._getEncodedSizeNoHash());
-}
-std::size_t body_bytes(const plan_response_t&) { return 0; }
-
 std::size_t bytes_of(std::int32_t number) { return sizeof(number); }
+
+template <class Number>
+std::size_t bytes_of(const std::vector<Number>& numbers) {
+  return numbers.size() * sizeof(Number);
+}
 
 template <class Element>
 std::size_t bytes_of(const Element& element) {
@@ -33,8 +51,8 @@ std::size_t bytes_of(const Element& element) {
 
 template <class Message>
 Message without_lists(Message message) {
-  for_each_list<Message>([&](auto list, auto) { (message.*list).clear(); });
-  set_counts(message);
+  for_each_paged_list<Message>([&](const auto& list_of) { list_of(message).clear(); });
+  set_all_counts(message);
   return message;
 }
 
@@ -55,12 +73,13 @@ Bytes page_head(const Message& page) {
   return encode(head);
 }
 
-/// Returns the size of a message without the elements of its lists.
+/// Returns the size of a page without the elements of its lists. All pages have the same: an empty
+/// body is as long as any without its lists.
 template <class Message>
 std::size_t header_bytes(const Message& whole) {
   auto bytes = static_cast<std::size_t>(whole.getEncodedSize());
-  for_each_list<Message>([&](auto list, auto) {
-    for (const auto& element : whole.*list) bytes -= bytes_of(element);
+  for_each_paged_list<Message>([&](const auto& list_of) {
+    for (const auto& element : list_of(whole)) bytes -= bytes_of(element);
   });
   return bytes;
 }
@@ -70,20 +89,19 @@ std::size_t room_beside(std::size_t bytes) {
 }
 
 /// Distributes the elements over pages, each list from where it stopped on the page before: calls
-/// `turn_page()` before each page but the first and `put(list, element)` in between.
+/// `turn_page()` before each page but the first and `put(list_of, element)` in between.
 template <class Message, class TurnPage, class Put>
 void distribute(const Message& whole, const TurnPage& turn_page, const Put& put) {
-  const std::size_t first_header = header_bytes(whole);
-  const std::size_t later_room = room_beside(first_header - body_bytes(whole));
-  std::size_t left = room_beside(first_header);
-  for_each_list<Message>([&](auto list, auto) {
-    for (const auto& element : whole.*list) {
+  const std::size_t room = room_beside(header_bytes(whole));
+  std::size_t left = room;
+  for_each_paged_list<Message>([&](const auto& list_of) {
+    for (const auto& element : list_of(whole)) {
       const std::size_t size = bytes_of(element);
       if (left < size) {
         turn_page();
-        left = later_room;
+        left = room;
       }
-      put(list, element);
+      put(list_of, element);
       left -= size;
     }
   });
@@ -97,11 +115,11 @@ std::vector<Bytes> encode_pages(const Message& whole) {
   std::vector<Message> pages{without_lists(whole)};
   distribute(
       whole, [&] { pages.push_back(blank); },
-      [&](auto list, const auto& element) { (pages.back().*list).push_back(element); });
+      [&](const auto& list_of, const auto& element) { list_of(pages.back()).push_back(element); });
   std::vector<Bytes> encoded;
   encoded.reserve(pages.size());
   for (Message& page : pages) {
-    set_counts(page);
+    set_all_counts(page);
     page.page = static_cast<std::int32_t>(encoded.size());
     page.num_pages = static_cast<std::int32_t>(pages.size());
     encoded.push_back(encode(page));
@@ -113,7 +131,7 @@ template <class Message>
 std::size_t count_pages(const Message& whole) {
   std::size_t pages = 1;
   distribute(
-      whole, [&] { ++pages; }, [](auto, const auto&) {});
+      whole, [&] { ++pages; }, [](const auto&, const auto&) {});
   return pages;
 }
 
@@ -157,11 +175,12 @@ Message PageSet<Message>::whole() const {
   Message whole = without_lists(pages_.begin()->second);
   whole.num_pages = 1;
   for (const auto& [number, page] : pages_) {
-    for_each_list<Message>([&whole, &from = page](auto list, auto) {
-      (whole.*list).insert((whole.*list).end(), (from.*list).begin(), (from.*list).end());
+    for_each_paged_list<Message>([&whole, &from = page](const auto& list_of) {
+      auto& into = list_of(whole);
+      into.insert(into.end(), list_of(from).begin(), list_of(from).end());
     });
   }
-  set_counts(whole);
+  set_all_counts(whole);
   return whole;
 }
 

@@ -11,8 +11,9 @@
 #include <camway/plan_response_t.hpp>
 
 /// Messages that are sent in pages: `Message` is plan_request_t or plan_response_t. A page is a
-/// message of its own, with a part of the lists; all else stands on every page, but for the body of
-/// a request, which stands on page 0 alone. Daemon and client cut and join by this.
+/// message of its own, with a part of the lists, those of a request's body included. All else stands
+/// on every page, but for the numbers of the body, which stand on page 0 alone. Daemon and client
+/// cut and join by this.
 namespace camway::wire {
 
 /// A message as it is encoded.
@@ -20,8 +21,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Encodes `whole` as messages of at most `kMaxMessageBytes`: as many list elements on each page as
 /// fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The same
-/// message gives the same bytes. Requires counts that agree with their lists, a body within the
-/// limits of `layout.h`, and less than 2 GB in all, since LCM counts bytes in an int.
+/// message gives the same bytes. Requires counts that agree with their lists, and less than 2 GB in
+/// all, since LCM counts bytes in an int.
 template <class Message>
 std::vector<Bytes> encode_pages(const Message& whole);
 

@@ -209,5 +209,37 @@ TEST_F(PlanningTest, SameIdGetsTheSameAnswerWithoutPlanningAgain) {
   EXPECT_THAT(other.error, HasSubstr("77"));
 }
 
+// The largest body comes in some sixty pages.
+TEST_F(PlanningTest, PlansWithTheLargestBody) {
+  start_daemon();
+  Client client(patient());
+  PlanRequest request = request_of("office-free-corridor", "office");
+  constexpr int kAround = 500;
+  constexpr int kAcross = 100;
+  std::vector<Body::Point> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  const auto at = [](int i, int j) { return i % kAround * kAcross + j % kAcross; };
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kAcross; ++j) {
+      const double a = 2.0 * M_PI * i / kAround;
+      const double b = 2.0 * M_PI * j / kAcross;
+      const double radius = 0.05 + 0.01 * std::cos(b);
+      vertices.push_back({radius * std::cos(a), radius * std::sin(a), 0.01 * std::sin(b)});
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  request.body = Body::solid_mesh(vertices, triangles);
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error << response.message;
+  EXPECT_TRUE(response.certified);
+
+  request.body.triangles.pop_back();
+  const PlanResponse refused = client.plan(request);
+  EXPECT_FALSE(refused.ok());
+  EXPECT_THAT(refused.message,
+              HasSubstr("body.triangles: are no closed surface: the edge between"));
+}
+
 }  // namespace
 }  // namespace camway::integration

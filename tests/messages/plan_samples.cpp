@@ -202,18 +202,24 @@ std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random) {
     for (geometry::Vec3& p : list) p = point(random);
     return list;
   };
-  return {std::nullopt, motion::BoxShape{point(random), point(random).cwiseAbs()},
+  return {std::nullopt,
+          motion::BoxShape{point(random), point(random).cwiseAbs()},
           motion::SphereShape{point(random), 0.25},
           motion::ConvexShape{{points(4), points(1), points(7)}},
-          motion::MeshShape{points(4), {{0, 1, 2}, {0, 2, 3}}}};
+          motion::MeshShape{points(4), {{0, 1, 2}, {0, 2, 3}}},
+          motion::MeshShape{points(4), {{0, 1, 2}, {0, 2, 3}}, /*solid=*/true}};
 }
 
 motion::BodyShape largest_body(Random& random) {
-  motion::ConvexShape convex;
-  for (std::size_t i = 0; i < motion::kMaxBodyPoints; ++i) {
-    convex.pieces_C.push_back({point(random)});
+  motion::MeshShape mesh;
+  for (std::size_t i = 0; i < motion::kMaxBodyVertices; ++i) {
+    mesh.vertices_C.push_back(point(random));
   }
-  return convex;
+  constexpr auto kVertices = static_cast<std::uint32_t>(motion::kMaxBodyVertices);
+  for (std::uint32_t i = 0; i < motion::kMaxBodyTriangles; ++i) {
+    mesh.triangles.push_back({i % kVertices, (i + 1) % kVertices, (i + 2) % kVertices});
+  }
+  return mesh;
 }
 
 planning::PlanResult sample_result(std::size_t segments, Random& random) {

@@ -26,7 +26,7 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random);
 /// Returns one body of each kind; an unset one stands for the camera's near quadrilateral.
 std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random);
 
-/// Returns the largest body that a request may hold: `kMaxBodyPoints` pieces of one point.
+/// Returns the largest body that a request may hold, a mesh.
 motion::BodyShape largest_body(Random& random);
 
 /// Returns a result with the form of a plan: a path of `segments` segments, twice as many

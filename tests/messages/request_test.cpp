@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "daemon/messages/convert.h"
+#include "daemon/planning/request/body_members.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/pages.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 #include "tests/support/random.h"
@@ -271,12 +273,14 @@ TEST(WireRequest, EveryBodySurvivesTheWayThereAndBack) {
     planning::PlanRequest request = sample_request(2, random);
     request.body = body;
     const plan_request_t wire = to_wire(request, kRequestIds);
-    ASSERT_FALSE(wire::check(wire::layout_of<plan_request_t>(), wire::encode(wire)));
+    for (const wire::Bytes& page : wire::encode_pages(wire)) {
+      ASSERT_FALSE(wire::check(wire::layout_of<plan_request_t>(), page));
+    }
     const auto back = from_wire(wire);
     ASSERT_TRUE(back) << back.error;
     ASSERT_EQ(back->body.has_value(), body.has_value());
     if (body) {
-      EXPECT_EQ(back->body->index(), body->index());
+      EXPECT_EQ(planning::number_of(*back->body), planning::number_of(*body));
     }
     EXPECT_EQ(back->options.clearance_m, 0.0625);
     EXPECT_EQ(wire::encode(to_wire(*back, kRequestIds)), wire::encode(wire));
@@ -319,10 +323,10 @@ TEST(WireRequest, BodiesThatCannotBeAreErrorsThatNameTheField) {
   EXPECT_EQ(error_of([](body_t&) {}), "");
   EXPECT_EQ(error_of([](body_t& b) { b.type = 9; }),
             "body.type: 9 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
-            "4 (mesh)");
+            "4 (mesh), 5 (solid mesh)");
   EXPECT_EQ(error_of([](body_t& b) { b.type = -1; }),
             "body.type: -1 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
-            "4 (mesh)");
+            "4 (mesh), 5 (solid mesh)");
   EXPECT_EQ(error_of([](body_t& b) { b.piece_sizes = {1}; }),
             "body.piece_sizes: 2 points belong to no piece");
   EXPECT_EQ(error_of([](body_t& b) {

@@ -95,26 +95,31 @@ TEST(WirePages, RequestsComeInPagesToo) {
   }
 }
 
-TEST(WirePages, TheBodyGoesOnPageZero) {
+TEST(WirePages, TheListsOfABodyGoOnOverPagesAndItsNumbersStandOnPageZero) {
   Random random(kSeed);
   planning::PlanRequest request = sample_request(5000, random);
   request.body = testing::largest_body(random);
   const plan_request_t whole = to_wire(request, {"tester", 5, 0});
   std::vector<Bytes> pages = wire::encode_pages(whole);
   ASSERT_GT(pages.size(), 5U);
+  std::size_t points = 0;
   for (std::size_t i = 0; i < pages.size(); ++i) {
     ASSERT_LE(pages[i].size(), wire::kMaxMessageBytes);
     const auto page = decoded<plan_request_t>(pages[i]);
-    EXPECT_EQ(page.body.points_m.size(), i == 0 ? motion::kMaxBodyPoints : 0);
-    EXPECT_EQ(page.body.type, i == 0 ? body_t::CONVEX : body_t::CAMERA);
+    EXPECT_EQ(page.body.type, i == 0 ? body_t::MESH : body_t::CAMERA);
+    points += page.body.points_m.size();
+    if (!page.keyframes.empty()) {
+      EXPECT_EQ(points, motion::kMaxBodyVertices) << "come first";
+    }
   }
+  EXPECT_EQ(points, motion::kMaxBodyVertices);
   std::shuffle(pages.begin(), pages.end(), random);
   const std::optional<plan_request_t> back = joined<plan_request_t>(pages);
   ASSERT_TRUE(back);
   EXPECT_EQ(wire::encode(*back), wire::encode(whole));
 }
 
-TEST(WirePages, ABodyOnALaterPageDoesNotCount) {
+TEST(WirePages, NumbersOfABodyOnALaterPageDoNotCount) {
   Random random(kSeed);
   planning::PlanRequest request = sample_request(1100, random);
   request.body = motion::SphereShape{{1, 2, 3}, 0.5};
@@ -235,9 +240,9 @@ TEST(PageAssembly, RefusesPageNumbersThatCannotBe) {
     message.num_pages = num_pages;
     return assembly.add(std::move(message)).error;
   };
-  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 192");
-  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 192");
-  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 192");
+  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 256");
+  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 256");
+  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 256");
   EXPECT_EQ(error_of(2, 2), "page: 2 is not within 0 to 1");
   EXPECT_EQ(error_of(-1, 2), "page: -1 is not within 0 to 1");
   EXPECT_EQ(error_of(1, 1), "page: 1 is not within 0 to 0");

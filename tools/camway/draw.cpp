@@ -14,6 +14,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/camway/common/commands.h"
+#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/side_by_side.h"
@@ -77,7 +78,7 @@ ExitCode run_draw(const DrawFlags& flags) {
   if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
     return invalid(fault);
   }
-  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
+  const base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return invalid(request.error);
   const base::Result<planning::PlanResult> result = read_as<planning::PlanResult>(flags.response);
   if (!result) return invalid(result.error);

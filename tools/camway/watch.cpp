@@ -25,6 +25,7 @@
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
 #include "tools/camway/common/key_file.h"
+#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_io.h"
 #include "tools/support/client_request.h"
@@ -287,7 +288,7 @@ ExitCode invalid_input(std::string_view message) {
 }
 
 ExitCode run_watch(WatchFlags flags) {
-  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
+  const base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return invalid_input(request.error);
   // The daemon would refuse this, too, but with the names of the wire.
   if (const auto fault = planning::validate(*request)) {

@@ -48,7 +48,8 @@ struct ShapeReader : JsonReader {
 ///     {"type": "sphere", "radius_m": r, "center": [x, y, z]}
 ///     {"type": "convex", "points": [[x, y, z], ...]}
 ///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
-///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}
+///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...],
+///      "solid": true}
 ///
 /// Returns nothing for a camera, and after an error.
 std::optional<motion::BodyShape> read_body(const Field& field) {
@@ -63,6 +64,24 @@ std::optional<motion::BodyShape> read_body(const Field& field) {
   std::visit(read, *shape);
   if (std::holds_alternative<motion::Camera>(*shape)) shape.reset();
   return shape;
+}
+
+/// Reads a body whose mesh is in a file of its own.
+///
+///     {"type": "mesh", "file": "piano.obj", "scale": 0.001, "solid": true}
+BodyFile read_body_file(const Field& field) {
+  field.allow_only({"type", "file", "scale", "solid"});
+  const JsonReader io(field);
+  BodyFile body;
+  const Field type = field.member("type");
+  if (type.text() != "mesh") type.fail("must be mesh for a body with a file");
+  io(planning::FileName{"file"}, body.file);
+  io(may_lack("scale"), body.scale);
+  io(may_lack("solid"), body.solid);
+  if (body.file.empty()) field.member("file").fail("is empty; it must name a mesh file");
+  if (!(body.scale > 0.0 && std::isfinite(body.scale)))
+    field.member("scale").fail("must be above 0 and finite");
+  return body;
 }
 
 /// Reads the time of the last keyframe, which must have one exactly if the first one has one.
@@ -155,7 +174,14 @@ void read_value(const Field& root, RequestFile& request) {
   const JsonReader io(root);
   io(may_lack("scene"), request.scene);
   request.reading = read_reading(root);
-  if (const auto body = root.optional_member("body")) request.body = read_body(*body);
+  if (const auto body = root.optional_member("body")) {
+    if (body->optional_member("file")) {
+      request.body_file = read_body_file(*body);
+      request.body = motion::MeshShape{};
+    } else {
+      request.body = read_body(*body);
+    }
+  }
   if (!request.body || root.optional_member("camera")) {
     read_value(root.member("camera"), request.camera);
   }

@@ -22,9 +22,19 @@ struct SceneReading {
   std::optional<scene::UnknownSpace> unknown;
 };
 
+/// A mesh file that is the body of a request.
+struct BodyFile {
+  std::string file;    ///< relative to the request's folder
+  double scale = 1.0;  ///< metres per unit of the file [Limit: 0 < value]
+  bool solid = false;
+};
+
 /// A request file: the planning request, and the options for reading its scene.
 struct RequestFile : planning::PlanRequest {
   SceneReading reading;
+  /// Set if the body is a mesh file. Then `body` is a mesh without triangles, until someone reads
+  /// the file (`read_request`).
+  std::optional<BodyFile> body_file;
   /// Whether a keyframe has an `orientation_xyzw`, which shows that its order is intended.
   bool says_xyzw = false;
 };

@@ -40,7 +40,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
     if (!request.has_times) sent.keyframes.back().time_s.reset();
   }
   if (!request.body) return sent;
-  sent.body.shape = static_cast<Body::Shape>(request.body->index());
+  sent.body.shape = static_cast<Body::Shape>(planning::number_of(*request.body));
   const auto write = [&](const auto& shape) { planning::visit_shape(io, shape, sent.body); };
   std::visit(write, *request.body);
   return sent;

@@ -15,11 +15,12 @@ namespace camway {
 ///     request.body = camway::Body::box({0.4, 0.2, 0.4});   // a drone around its camera
 struct Body {
   enum class Shape {
-    kCamera,  ///< the near quadrilateral of the request's camera
-    kBox,     ///< a solid box along the camera's axes: `center_m`, `size_m`
-    kSphere,  ///< a solid ball: `center_m`, `radius_m`
-    kConvex,  ///< a union of solid convex hulls: `pieces_m`
-    kMesh,    ///< a surface without an inside: `vertices_m`, `triangles`
+    kCamera,     ///< the near quadrilateral of the request's camera
+    kBox,        ///< a solid box along the camera's axes: `center_m`, `size_m`
+    kSphere,     ///< a solid ball: `center_m`, `radius_m`
+    kConvex,     ///< a union of solid convex hulls: `pieces_m`
+    kMesh,       ///< a surface without an inside: `vertices_m`, `triangles`
+    kSolidMesh,  ///< a closed surface and its inside: `vertices_m`, `triangles`
   };
   using Point = std::array<double, 3>;
 
@@ -29,8 +30,8 @@ struct Body {
   double radius_m = 0.0;  ///< [Limit: 0 < value]
   /// Point sets; the body is the union of their convex hulls. [Limit: 512 points in all]
   std::vector<std::vector<Point>> pieces_m;
-  std::vector<Point> vertices_m;  ///< [Limit: 512 vertices]
-  /// Indices into `vertices_m`, counted from 0. [Limit: 1024 triangles]
+  std::vector<Point> vertices_m;  ///< [Limit: 100,000 vertices]
+  /// Indices into `vertices_m`, counted from 0. [Limit: 100,000 triangles]
   std::vector<std::array<std::int32_t, 3>> triangles;
 
   static Body box(const Point& size_m, const Point& center_m = {}) {
@@ -59,6 +60,13 @@ struct Body {
     body.shape = Shape::kMesh;
     body.vertices_m = std::move(vertices_m);
     body.triangles = std::move(triangles);
+    return body;
+  }
+  /// Each edge has two triangles, which run through it in opposite directions.
+  static Body solid_mesh(std::vector<Point> vertices_m,
+                         std::vector<std::array<std::int32_t, 3>> triangles) {
+    Body body = mesh(std::move(vertices_m), std::move(triangles));
+    body.shape = Shape::kSolidMesh;
     return body;
   }
 };

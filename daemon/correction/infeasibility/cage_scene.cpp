@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "daemon/correction/infeasibility/surface_parity.h"
+#include "daemon/geometry/ray_crossing.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::correction {
@@ -241,8 +241,8 @@ CageBoxes::Sides CageBoxes::nearest_flats(const Vec3& center) const {
       const Triangle t = scene_.mesh().triangle(flat.triangle);
       const std::uint32_t barrier = scene_.barrier_of(flat.triangle);
       return (barrier == kNoIndex || !scene_.barriers()[barrier].is_bar) &&
-             ray_hit(turned(center, 0.0),
-                     {turned(t[0], 1.0), turned(t[1], 1.0), turned(t[2], 1.0)}) == RayHit::kHit;
+             geometry::passes_through(geometry::ray_hit(
+                 turned(center, 0.0), {turned(t[0], 1.0), turned(t[1], 1.0), turned(t[2], 1.0)}));
     };
     const auto above =
         std::upper_bound(flats.begin(), flats.end(), center[axis],

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/correction/infeasibility/surface_parity.h"
+#include "daemon/geometry/ray_crossing.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::correction {
@@ -264,7 +265,8 @@ std::size_t FaceGrid::block_flat(const scene::Mesh& mesh, const scene::Mesh& exa
         bool odd = false;
         for (const auto& [a, b, c] : flat) {
           const Triangle ahead = {ahead_of(a.seen), ahead_of(b.seen), ahead_of(c.seen)};
-          odd ^= ray_hit(Vec3(0.0, point.x(), point.y()), ahead) == RayHit::kHit;
+          odd ^=
+              geometry::passes_through(geometry::ray_hit(Vec3(0.0, point.x(), point.y()), ahead));
         }
         return odd;
       });

@@ -91,10 +91,7 @@ void Prover::look_for_cage() {
 // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
 std::optional<Cage> Prover::cage_of_camera(double smallest,
                                            const std::vector<motion::Pose>& poses) {
-  geometry::Box rectangle_C;
-  for (const geometry::Triangle& part : body_.triangles_C()) {
-    rectangle_C.extend(geometry::bounds(part));
-  }
+  const geometry::Box& rectangle_C = body_.box_C();
   const Vec3 center_C = rectangle_C.center();
   const double side_m = rectangle_C.sizes().head<2>().minCoeff();
   return find_cage(*mesh_, surfaces(), points_W(poses, center_C), smallest * side_m,

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "daemon/correction/infeasibility/surface_parity.h"
+#include "daemon/geometry/ray_crossing.h"
 #include "daemon/geometry/triangle_distance.h"
 
 namespace camway::correction {
@@ -104,7 +105,8 @@ class Search {
                                   [&](std::uint32_t i, double y) { return points_[i].y() < y; });
     for (; point != by_y.end() && points_[*point].y() <= high; ++point) {
       // The point is on a triangle; `proof` finds that the distance is 0.
-      if (ray_hit(points_[*point], triangle) == RayHit::kHit) hits.push_back(*point);
+      if (geometry::passes_through(geometry::ray_hit(points_[*point], triangle)))
+        hits.push_back(*point);
     }
   }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "daemon/correction/infeasibility/surface_parity.h"
+#include "daemon/geometry/ray_crossing.h"
 
 namespace camway::correction {
 
@@ -37,9 +37,9 @@ std::optional<IndexSet> SurfaceSides::around(const Vec3& point_W) const {
   met.erase(std::unique(met.begin(), met.end()), met.end());
   IndexSet inside;
   for (const std::uint32_t t : met) {
-    const RayHit hit = ray_hit(point_W, mesh_.triangle(t));
-    if (hit == RayHit::kOnTriangle) return std::nullopt;
-    if (hit == RayHit::kHit) inside = sum_mod_2(inside, surfaces_of_[patch_of_[t]]);
+    const geometry::RayHit hit = geometry::ray_hit(point_W, mesh_.triangle(t));
+    if (hit == geometry::RayHit::kOnTriangle) return std::nullopt;
+    if (geometry::passes_through(hit)) inside = sum_mod_2(inside, surfaces_of_[patch_of_[t]]);
   }
   return inside;
 }

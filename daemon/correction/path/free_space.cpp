@@ -30,15 +30,8 @@ FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& pol
       policy_(policy),
       closeness_(closeness),
       probe_(query.obstacles, query.body, query.options.clearance_m) {
-  const motion::Body& body = query.body;
-  geometry::Box box;
-  for (const Triangle& triangle : body.triangles_C()) box.extend(geometry::bounds(triangle));
-  center_C_ = box.center();
-  for (const Triangle& triangle : body.triangles_C()) {
-    for (const Vec3& vertex : triangle)
-      ball_radius_m_ = std::max(ball_radius_m_, (vertex - center_C_).norm());
-  }
-  ball_radius_m_ += body.ball_radius_m();
+  center_C_ = query.body.center_C();
+  ball_radius_m_ = query.body.center_radius_m() + query.body.ball_radius_m();
 }
 
 bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
@@ -55,10 +48,11 @@ double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
 std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, double up_to_m) {
   const motion::Stretch standing = motion::standing_at(pose);
   if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
-  std::optional<scene::Nearest> found = query_.obstacles.index.near(
-      probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
+  probe_.place(standing);
+  std::optional<scene::Nearest> found =
+      probe_.nearest_in_scene(up_to_m + probe_.keep_m(), kNearestShare);
   if (found) found->distance_m -= probe_.keep_m();
-  const std::optional<collision::Probe::Edge> edge = probe_.nearest_edge();
+  const std::optional<collision::Edge> edge = probe_.nearest_edge();
   if (edge && edge->gap_m < (found ? found->distance_m : up_to_m))
     return scene::Nearest{edge->gap_m, collision::Obstacles::number_of_side(edge->side)};
   return found;
@@ -119,8 +113,8 @@ double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m
 motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {
   const geometry::Bounds inner =
       query_.obstacles.bounds.shrunk_by(margin_m).shrunk_by(query_.body.ball_radius_m());
-  geometry::Box box;
-  for (const Triangle& triangle : placed(pose)) box.extend(geometry::bounds(triangle));
+  probe_.place(motion::standing_at(pose));
+  const geometry::Box box = probe_.vertex_box();
   const Vec3 below = (inner.min_W - box.min()).cwiseMax(0.0);
   const Vec3 above = (box.max() - inner.max_W).cwiseMax(0.0);
   if (below.isZero(0.0) && above.isZero(0.0)) return pose;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "daemon/base/deadline.h"
 #include "daemon/collision/interval.h"
@@ -38,9 +37,10 @@ class FreeSpace {
   [[nodiscard]] double at_least_m(const motion::Pose& pose) const {
     return probe_.at_least_m(motion::standing_at(pose));
   }
-  /// The body's triangles at `pose`; valid until the next query.
-  std::span<const geometry::Triangle> placed(const motion::Pose& pose) {
-    return probe_.place(motion::standing_at(pose));
+  /// The probe, with the body placed at `pose`; valid until the next query.
+  collision::Probe& placed(const motion::Pose& pose) {
+    probe_.place(motion::standing_at(pose));
+    return probe_;
   }
   /// Distance between the body's triangles and the scene at which the body collides.
   [[nodiscard]] double keep_m() const { return probe_.keep_m(); }

@@ -78,35 +78,81 @@ class PairCollector {
   std::vector<NearPair> pairs_;
 };
 
-bool overlap(const Box& a, const Box& b) { return a.intersects(b); }
+/// The triangles of the body that may be near a box, in the camera frame.
+class PartFinder {
+ public:
+  explicit PartFinder(const motion::Body& body) : body_(body) {}
+
+  /// Calls `use(number)` for each triangle whose box, or that of a leaf about it, meets `box_C`.
+  template <class Use>
+  void for_each_near(const Box& box_C, const Use& use) {
+    if (body_.tree() == nullptr) {
+      for (std::uint32_t i = 0; i < body_.triangles_C().size(); ++i) {
+        if (geometry::bounds(body_.triangles_C()[i]).intersects(box_C)) use(i);
+      }
+      return;
+    }
+    const geometry::TriangleTree& tree = *body_.tree();
+    waiting_ = {0};
+    while (!waiting_.empty()) {
+      const std::uint32_t number = waiting_.back();
+      waiting_.pop_back();
+      const geometry::TriangleTree::Node& node = tree.nodes()[number];
+      if (!Box(node.center - node.half, node.center + node.half).intersects(box_C)) continue;
+      if (node.is_leaf()) {
+        for (std::uint32_t i = node.begin; i < node.end; ++i) use(tree.order()[i]);
+      } else {
+        waiting_.push_back(node.second_child);
+        waiting_.push_back(number + 1);
+      }
+    }
+  }
+
+ private:
+  const motion::Body& body_;
+  std::vector<std::uint32_t> waiting_;
+};
+
+Vec3 to_world(const motion::Pose& pose, const Vec3& point_C) {
+  return pose.position + pose.orientation * point_C;
+}
+
+/// The triangles of the scene that may be within `reach_m` of the body, each once.
+std::vector<std::uint32_t> near_obstacles(const FreeSpace& space, const motion::Pose& pose,
+                                          double reach_m) {
+  const Box& box_C = space.body().box_C();
+  const Vec3 half = pose.orientation.toRotationMatrix().cwiseAbs() * (0.5 * box_C.sizes()) +
+                    Vec3::Constant(reach_m);
+  const Vec3 center_W = to_world(pose, box_C.center());
+  std::vector<std::uint32_t> obstacles;
+  space.obstacles().index.for_each_touching(Box(center_W - half, center_W + half),
+                                            [&](std::uint32_t index) {
+                                              obstacles.push_back(index);
+                                              return true;
+                                            });
+  std::ranges::sort(obstacles);
+  const auto repeated = std::ranges::unique(obstacles);
+  obstacles.erase(repeated.begin(), repeated.end());
+  return obstacles;
+}
 
 }  // namespace
 
 std::vector<NearPair> near_pairs(FreeSpace& space, const motion::Pose& pose, double horizon_m) {
   PairCollector collector(space.keep_m(), horizon_m);
+  PartFinder finder(space.body());
   const Vec3 reach = Vec3::Constant(collector.reach_m());
-  const std::span<const Triangle> parts = space.placed(pose);
-  std::vector<Box> boxes;
-  Box whole;
-  for (const Triangle& part : parts) {
-    const Box box = geometry::bounds(part);
-    boxes.emplace_back(box.min() - reach, box.max() + reach);
-    whole.extend(boxes.back());
-  }
-  std::vector<std::uint32_t> obstacles;
-  space.obstacles().index.for_each_touching(whole, [&](std::uint32_t index) {
-    obstacles.push_back(index);
-    return true;
-  });
-  std::ranges::sort(obstacles);
-  const auto repeated = std::ranges::unique(obstacles);
-  obstacles.erase(repeated.begin(), repeated.end());
-  for (const std::uint32_t index : obstacles) {
+  for (const std::uint32_t index : near_obstacles(space, pose, collector.reach_m())) {
     const Triangle obstacle = space.obstacles().index.triangle(index);
-    const Box box = geometry::bounds(obstacle);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (overlap(boxes[i], box)) collector.add(parts[i], obstacle);
+    Box box_C;
+    for (const Vec3& vertex : obstacle) {
+      box_C.extend(Vec3(pose.orientation.conjugate() * (vertex - pose.position)));
     }
+    finder.for_each_near(Box(box_C.min() - reach, box_C.max() + reach), [&](std::uint32_t number) {
+      Triangle part = space.body().triangles_C()[number];
+      for (Vec3& vertex : part) vertex = to_world(pose, vertex);
+      collector.add(part, obstacle);
+    });
   }
   std::vector<NearPair>& pairs = collector.pairs();
   std::ranges::stable_sort(pairs, {}, &NearPair::gap_m);

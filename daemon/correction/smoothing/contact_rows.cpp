@@ -49,54 +49,63 @@ void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
 
 /// The body at a pose, and the rotations that steps of its image make.
 struct Place {
-  std::span<const Triangle> parts;
+  collision::Probe& probe;
   motion::Pose pose;
   Turns turns;
   double lever_m;
 
-  /// The row for vertex `i` of body triangle `k`, which is `room_m` beyond the plane.
-  [[nodiscard]] ContactRow row(std::uint32_t obstacle, std::size_t k, std::size_t i,
+  /// The row for a vertex of the body at `vertex_W`, which is `room_m` beyond the plane.
+  [[nodiscard]] ContactRow row(std::uint32_t obstacle, std::size_t vertex, const Vec3& vertex_W,
                                const Vec3& away_W, double room_m) const {
     ContactRow row;
     row.room_m = room_m;
     row.triangle = obstacle;
-    row.vertex = 3 * k + i;
+    row.vertex = vertex;
     row.direction.head<3>() = away_W;
     row.direction.tail<4>() =
-        turns.transpose() * (parts[k][i] - pose.position).cross(away_W) / lever_m;
+        turns.transpose() * (vertex_W - pose.position).cross(away_W) / lever_m;
     return row;
   }
 };
 
-void add_rows_of_triangle(std::uint32_t index, const Triangle& obstacle, double keep_m,
-                          double horizon_m, const Place& place, std::vector<ContactRow>& rows) {
-  for (std::size_t k = 0; k < place.parts.size(); ++k) {
-    const Triangle& part = place.parts[k];
-    const geometry::TriangleGap gap =
-        geometry::triangle_gap(obstacle, part, std::numeric_limits<double>::infinity());
-    const double length = gap.direction.norm();
-    if (!(length > 0.0)) continue;
-    const Vec3 away_W = gap.direction / length;
-    double plane_m = -std::numeric_limits<double>::infinity();
-    for (const Vec3& vertex : obstacle) plane_m = std::max(plane_m, away_W.dot(vertex));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double room_m = away_W.dot(part[i]) - plane_m - keep_m;
-      if (room_m <= horizon_m) rows.push_back(place.row(index, k, i, away_W, room_m));
-    }
-  }
+/// Most rows that are made for an obstacle and a body of many triangles, the nearest ones about
+/// first: enough to choose the tightest from.
+constexpr std::size_t kMostOfMany = 256;
+
+void add_rows_of_triangle(std::uint32_t index, double keep_m, double horizon_m, const Place& place,
+                          std::vector<ContactRow>& rows) {
+  const std::size_t first = rows.size();
+  // A part has no row where its distance exceeds the horizon.
+  const double within_m = std::max(0.0, keep_m + horizon_m);
+  place.probe.for_each_pair_with(
+      index, within_m, [&](std::uint32_t k, const Triangle& part, const Triangle& obstacle) {
+        const geometry::TriangleGap gap =
+            geometry::triangle_gap(obstacle, part, std::numeric_limits<double>::infinity());
+        const double length = gap.direction.norm();
+        if (!(length > 0.0)) return true;
+        const Vec3 away_W = gap.direction / length;
+        double plane_m = -std::numeric_limits<double>::infinity();
+        for (const Vec3& vertex : obstacle) plane_m = std::max(plane_m, away_W.dot(vertex));
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double room_m = away_W.dot(part[i]) - plane_m - keep_m;
+          if (room_m <= horizon_m)
+            rows.push_back(place.row(index, 3 * std::size_t{k} + i, part[i], away_W, room_m));
+        }
+        return place.probe.body().tree() == nullptr || rows.size() - first < kMostOfMany;
+      });
 }
 
 void add_rows_of_side(std::uint32_t number, const FreeSpace& space, double horizon_m,
                       const Place& place, std::vector<ContactRow>& rows) {
+  const std::size_t first = rows.size();
   const std::size_t side = collision::Obstacles::side_of(number);
   const Vec3 inward_W = geometry::Bounds::inward(side);
-  for (std::size_t k = 0; k < place.parts.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double room_m =
-          space.obstacles().bounds.depth_m(side, place.parts[k][i]) - space.body().ball_radius_m();
-      if (room_m <= horizon_m) rows.push_back(place.row(number, k, i, inward_W, room_m));
-    }
-  }
+  const double ball_m = space.body().ball_radius_m();
+  place.probe.for_each_vertex(side, horizon_m + ball_m, [&](std::size_t vertex, const Vec3& at_W) {
+    const double room_m = space.obstacles().bounds.depth_m(side, at_W) - ball_m;
+    if (room_m <= horizon_m) rows.push_back(place.row(number, vertex, at_W, inward_W, room_m));
+    return place.probe.body().tree() == nullptr || rows.size() - first < kMostOfMany;
+  });
 }
 
 }  // namespace
@@ -113,8 +122,7 @@ void add_contact_rows(FreeSpace& space, const StackedPlace& at,
     if (collision::Obstacles::is_side(number)) {
       add_rows_of_side(number, space, horizon_m, place, rows);
     } else {
-      add_rows_of_triangle(number, space.obstacles().index.triangle(number), space.keep_m(),
-                           horizon_m, place, rows);
+      add_rows_of_triangle(number, space.keep_m(), horizon_m, place, rows);
     }
     keep_tightest(rows, first_row);
   }

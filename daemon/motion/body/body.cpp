@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "daemon/geometry/convex_hull.h"
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
+#include "daemon/motion/body/closed_mesh.h"
 
 namespace camway::motion {
 namespace {
@@ -26,15 +28,8 @@ constexpr double kCameraCornerRounding = 4.0 * kUnitRoundoff;
 /// One addition (halving a size is exact, or loses less than the smallest normal number).
 constexpr double kBoxCornerRounding = 2.0 * kUnitRoundoff;
 
-/// Length of `v`, never below the true one: three quotients, three squares, two sums, a root and a
-/// product are fewer than 8 roundings in sequence. Scaled, so that squares neither overflow nor
-/// vanish.
-double length_above(const Vec3& v) {
-  const double scale = v.lpNorm<Eigen::Infinity>();
-  if (scale == 0.0) return 0.0;
-  constexpr double kRounding = 8.0 * kUnitRoundoff;
-  return scale * (v / scale).norm() * (1.0 + 2.0 * kRounding) + geometry::kSmallestNormal;
-}
+/// Most triangles of a body without a tree: a box, which has 12, is faster without.
+constexpr std::size_t kMostWithoutTree = 16;
 
 /// The corner of the box on the upper side of the axes whose bits are set.
 Vec3 box_corner(const BoxShape& box, unsigned bits) {
@@ -51,7 +46,7 @@ Vec3 box_corner(const BoxShape& box, unsigned bits) {
 
 Body::Body(const Corners& c)
     : triangles_C_{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}, is_camera_(true) {
-  measure();
+  prepare();
 }
 
 Body::Body(const Camera& camera) : Body(near_corners_C(camera)) {
@@ -70,7 +65,7 @@ base::Result<Body> Body::make(const BodyShape& shape) {
         if constexpr (!std::is_same_v<Shape, Camera>) body.add(part);
       },
       shape);
-  body.measure();
+  body.prepare();
   if (std::holds_alternative<BoxShape>(shape))
     body.slack_m_ = kBoxCornerRounding * body.radius_m_ + geometry::kSmallestNormal;
   return body;
@@ -89,19 +84,22 @@ bool Body::is_near(const Vec3& point_C, double distance_m) const {
 }
 
 Body Body::scaled(const Vec3& center_C, double factor) const {
-  Body body = *this;
+  Body body;
+  body.triangles_C_ = triangles_C_;
   for (Triangle& triangle : body.triangles_C_) {
     for (Vec3& vertex : triangle) vertex = center_C + factor * (vertex - center_C);
   }
+  body.solids_C_ = solids_C_;
   for (Solid& solid : body.solids_C_) {
     for (geometry::HalfSpace& face : solid.faces_C) {
       face.offset_m = factor * face.offset_m + (1.0 - factor) * face.normal.dot(center_C);
     }
   }
-  body.ball_radius_m_ *= factor;
-  body.is_camera_ = false;
-  body.radius_m_ = 0.0;
-  body.measure();
+  body.parts_ = parts_;
+  body.ball_radius_m_ = factor * ball_radius_m_;
+  body.slack_m_ = slack_m_;
+  body.is_solid_mesh_ = is_solid_mesh_;
+  body.prepare();
   return body;
 }
 
@@ -152,12 +150,32 @@ void Body::add(const ConvexShape& convex) {
 void Body::add(const MeshShape& mesh) {
   for (const std::array<std::uint32_t, 3>& t : mesh.triangles)
     triangles_C_.push_back({mesh.vertices_C[t[0]], mesh.vertices_C[t[1]], mesh.vertices_C[t[2]]});
+  if (triangles_C_.size() > kMostWithoutTree) parts_ = motion::connected_parts(mesh);
+  is_solid_mesh_ = mesh.solid;
 }
 
-void Body::measure() {
+void Body::prepare() {
+  for (const Triangle& triangle : triangles_C_) box_C_.extend(geometry::bounds(triangle));
+  center_C_ = box_C_.center();
   for (const Triangle& triangle : triangles_C_) {
-    for (const Vec3& vertex : triangle) radius_m_ = std::max(radius_m_, length_above(vertex));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& vertex = triangle[k];
+      longest_edge_m_ =
+          std::max(longest_edge_m_, geometry::length_above(triangle[(k + 1) % 3] - vertex));
+      radius_m_ = std::max(radius_m_, geometry::length_above(vertex));
+      center_radius_m_ = std::max(center_radius_m_, (vertex - center_C_).norm());
+    }
   }
+  if (parts_.empty()) {
+    parts_.resize(triangles_C_.size());
+    std::iota(parts_.begin(), parts_.end(), 0U);
+  }
+  if (triangles_C_.size() > kMostWithoutTree || is_solid_mesh_) tree_.emplace(triangles_C_);
+}
+
+std::size_t Body::memory_bytes() const {
+  return triangles_C_.size() * sizeof(Triangle) + parts_.size() * sizeof(std::uint32_t) +
+         (tree_ ? tree_->memory_bytes() : 0);
 }
 
 }  // namespace camway::motion

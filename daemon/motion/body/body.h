@@ -12,6 +12,7 @@
 
 #include "daemon/base/result.h"
 #include "daemon/geometry/half_space.h"
+#include "daemon/geometry/triangle_tree.h"
 #include "daemon/motion/body/camera.h"
 
 namespace camway::motion {
@@ -31,10 +32,14 @@ struct SphereShape {
 struct ConvexShape {
   std::vector<std::vector<geometry::Vec3>> pieces_C;
 };
-/// A surface: like the scene's, it has no inside. It is not a single point.
+/// A surface. Like the scene's, it has no inside, unless it is declared solid. It is not a single
+/// point.
 struct MeshShape {
   std::vector<geometry::Vec3> vertices_C;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Whether the inside belongs to the body: all points that the surface goes round
+  /// (`geometry::winding_number`). Then the surface must be closed (`fault_of_surface`).
+  bool solid = false;
 };
 using BodyShape = std::variant<Camera, BoxShape, SphereShape, ConvexShape, MeshShape>;
 
@@ -45,9 +50,10 @@ struct Solid {
 };
 
 /// Limits of shapes.
-inline constexpr std::size_t kMaxBodyPoints = 512;  ///< points of all pieces, or vertices of a mesh
-inline constexpr std::size_t kMaxBodyTriangles = 1024;  ///< triangles of a mesh
-inline constexpr double kMaxBodyCoordinate_m = 1e9;     ///< any coordinate, size or radius
+inline constexpr std::size_t kMaxBodyPoints = 512;        ///< points of all convex pieces
+inline constexpr std::size_t kMaxBodyVertices = 100000;   ///< vertices of a mesh
+inline constexpr std::size_t kMaxBodyTriangles = 100000;  ///< triangles of a mesh
+inline constexpr double kMaxBodyCoordinate_m = 1e9;       ///< any coordinate, size or radius
 
 /// A fault of a shape.
 struct ShapeFault {
@@ -65,6 +71,9 @@ std::optional<ShapeFault> fault_in(const BodyShape& shape);
 /// - A sphere is one triangle, shrunk to its centre, and a ball.
 /// - A box or a convex piece with volume is the triangles of its surface and a solid.
 /// - A flat convex piece or a mesh is triangles alone.
+/// - The inside of a solid mesh belongs to the body, too.
+///
+/// A body of many triangles has a tree over them.
 ///
 /// Immutable. Thread-safe.
 class Body {
@@ -97,6 +106,26 @@ class Body {
   /// or a box; 0 for shapes given by their points, as hulls are exact (`convex_hull.h`).
   [[nodiscard]] double slack_m() const { return slack_m_; }
   [[nodiscard]] bool is_camera() const { return is_camera_; }
+
+  /// The tree over the triangles; null for a body of few triangles, which queries look at one by
+  /// one.
+  [[nodiscard]] const geometry::TriangleTree* tree() const { return tree_ ? &*tree_ : nullptr; }
+  /// Whether the triangles are the surface of a solid. If so, there is a tree.
+  [[nodiscard]] bool is_solid_mesh() const { return is_solid_mesh_; }
+  /// Whether the body has an inside: solids, or a solid mesh.
+  [[nodiscard]] bool is_solid() const { return is_solid_mesh_ || !solids_C_.empty(); }
+  /// Numbers of triangles, at least one of each connected part of the surface.
+  [[nodiscard]] std::span<const std::uint32_t> connected_parts() const { return parts_; }
+  /// The smallest box that holds the triangles.
+  [[nodiscard]] const geometry::Box& box_C() const { return box_C_; }
+  /// Middle of that box, and the largest distance of a vertex from it, as computed.
+  [[nodiscard]] const geometry::Vec3& center_C() const { return center_C_; }
+  [[nodiscard]] double center_radius_m() const { return center_radius_m_; }
+  /// Longest edge of a triangle, rounded up. [Units: metres]
+  [[nodiscard]] double longest_edge_m() const { return longest_edge_m_; }
+  /// Memory that the body takes beside this object.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
   /// Name of a feature for users: of a near quadrilateral "inside" (0), "edge 0" to "edge 3" (1 to
   /// 4; edge i joins corners i and i + 1) and "corner 0" to "corner 3" (5 to 8); "surface" of a
   /// sphere; of other bodies "face k" for triangle k.
@@ -108,14 +137,22 @@ class Body {
   void add(const SphereShape& sphere);
   void add(const ConvexShape& convex);
   void add(const MeshShape& mesh);
-  void measure();
+  /// Measures the triangles, and makes the tree. Requires that all have been added.
+  void prepare();
 
   std::vector<geometry::Triangle> triangles_C_;
   std::vector<Solid> solids_C_;
+  std::optional<geometry::TriangleTree> tree_;
+  std::vector<std::uint32_t> parts_;
+  geometry::Box box_C_;
+  geometry::Vec3 center_C_ = geometry::Vec3::Zero();
+  double center_radius_m_ = 0.0;
+  double longest_edge_m_ = 0.0;
   double ball_radius_m_ = 0.0;
   double radius_m_ = 0.0;
   double slack_m_ = 0.0;
   bool is_camera_ = false;
+  bool is_solid_mesh_ = false;
 };
 
 }  // namespace camway::motion

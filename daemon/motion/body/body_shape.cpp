@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/motion/body/body.h"
+#include "daemon/motion/body/closed_mesh.h"
 
 namespace camway::motion {
 namespace {
@@ -89,8 +90,16 @@ Fault fault_in_shape(const ConvexShape& convex) {
   return std::nullopt;
 }
 
+bool is_single_point(const MeshShape& mesh) {
+  const Vec3& first = mesh.vertices_C[mesh.triangles.front().front()];
+  const auto is_first = [&](std::uint32_t vertex) { return mesh.vertices_C[vertex] == first; };
+  return std::ranges::all_of(mesh.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
+    return std::ranges::all_of(triangle, is_first);
+  });
+}
+
 Fault fault_in_shape(const MeshShape& mesh) {
-  if (Fault fault = fault_in_count("vertices", mesh.vertices_C.size(), kMaxBodyPoints))
+  if (Fault fault = fault_in_count("vertices", mesh.vertices_C.size(), kMaxBodyVertices))
     return fault;
   if (Fault fault = fault_in_count("triangles", mesh.triangles.size(), kMaxBodyTriangles))
     return fault;
@@ -107,13 +116,10 @@ Fault fault_in_shape(const MeshShape& mesh) {
                                     mesh.vertices_C.size())};
     }
   }
-  const Vec3& first = mesh.vertices_C[mesh.triangles.front().front()];
-  const auto is_first = [&](std::uint32_t vertex) { return mesh.vertices_C[vertex] == first; };
-  if (std::ranges::all_of(mesh.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
-        return std::ranges::all_of(triangle, is_first);
-      })) {
-    return single_point("triangles");
-  }
+  if (is_single_point(mesh)) return single_point("triangles");
+  if (!mesh.solid) return std::nullopt;
+  if (std::optional<std::string> fault = fault_of_surface(mesh))
+    return ShapeFault{"triangles", "are no closed surface: " + *fault};
   return std::nullopt;
 }
 

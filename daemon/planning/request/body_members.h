@@ -18,14 +18,26 @@ namespace camway::planning {
 inline constexpr std::array<std::string_view, 5> kShapeNames = {"camera", "box", "sphere", "convex",
                                                                 "mesh"};
 
+/// The number on the wire of a mesh that is solid. In files a mesh has a member for that.
+inline constexpr std::size_t kSolidMesh = kShapeNames.size();
+/// Names of the numbers on the wire.
+inline constexpr std::array<std::string_view, kSolidMesh + 1> kShapeNumberNames = {
+    "camera", "box", "sphere", "convex", "mesh", "solid mesh"};
+
 /// Returns the shape with this number, its members as they are by default; nothing for a number
 /// that no shape has.
 inline std::optional<motion::BodyShape> blank_shape(std::size_t number) {
-  const std::array<motion::BodyShape, kShapeNames.size()> shapes = {
-      motion::Camera{}, motion::BoxShape{}, motion::SphereShape{}, motion::ConvexShape{},
-      motion::MeshShape{}};
+  const std::array<motion::BodyShape, kShapeNumberNames.size()> shapes = {
+      motion::Camera{},      motion::BoxShape{},  motion::SphereShape{},
+      motion::ConvexShape{}, motion::MeshShape{}, motion::MeshShape{{}, {}, /*solid=*/true}};
   if (number >= shapes.size()) return std::nullopt;
   return shapes[number];
+}
+
+/// Returns the number of a shape.
+inline std::size_t number_of(const motion::BodyShape& shape) {
+  const auto* const mesh = std::get_if<motion::MeshShape>(&shape);
+  return mesh != nullptr && mesh->solid ? kSolidMesh : shape.index();
 }
 
 namespace body {
@@ -36,6 +48,7 @@ inline constexpr FieldSpec kCenter{.name = "center", .wire = "center_m"};
 inline constexpr FieldSpec kPieces{.name = "pieces", .wire = "piece_sizes"};
 inline constexpr FieldSpec kPoints{.name = "points", .wire = "points_m"};  ///< of a single piece
 inline constexpr FieldSpec kVertices{.name = "vertices", .wire = "points_m", .is_needed = true};
+inline constexpr FieldSpec kSolid{.name = "solid", .wire = "type"};  ///< in files only
 inline constexpr FieldSpec kTriangles{.name = "triangles", .is_needed = true};
 
 }  // namespace body
@@ -62,6 +75,9 @@ void visit_shape(const Visit& visit, Shape& shape, Wire&... wire) {
   }
   if constexpr (requires { shape.triangles; }) {
     visit(body::kTriangles, shape.triangles, wire.triangles...);
+  }
+  if constexpr (sizeof...(Wire) == 0) {
+    if constexpr (requires { shape.solid; }) visit(body::kSolid, shape.solid);
   }
 }
 

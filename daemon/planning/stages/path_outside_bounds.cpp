@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "daemon/collision/probe.h"
+
 namespace camway::planning {
 
 namespace {
@@ -21,20 +23,19 @@ struct Excess {
 };
 
 /// Returns where samples of `path` are furthest beyond the bounds.
-Excess largest_excess(const motion::Path& path, const motion::Body& body, const Bounds& bounds) {
+Excess largest_excess(const motion::Path& path, const motion::Body& body,
+                      const collision::Obstacles& obstacles, const Bounds& bounds) {
   Excess largest;
-  const auto extend = [&](const Vec3& point_W) {
-    for (std::size_t side = 0; side < Bounds::kSides; ++side) {
-      const double by_m = body.ball_radius_m() - bounds.depth_m(side, point_W);
-      if (by_m > largest.by_m) largest = {side, by_m};
-    }
-  };
+  collision::Probe probe(obstacles, body, /*clearance_m=*/0.0);
   for (const motion::Segment& segment : path.segments()) {
     for (int i = 0; i <= kSamplesASegment; ++i) {
       const double u = static_cast<double>(i) / kSamplesASegment;
-      const motion::Pose pose = path.pose(motion::segment_time_s(segment, u));
-      for (const geometry::Triangle& part : body.triangles_C()) {
-        for (const Vec3& vertex_C : part) extend(pose.position + pose.orientation * vertex_C);
+      probe.place(motion::standing_at(path.pose(motion::segment_time_s(segment, u))));
+      const geometry::Box box = probe.vertex_box();
+      for (std::size_t side = 0; side < Bounds::kSides; ++side) {
+        const Vec3& outermost_W = side < 3 ? box.min() : box.max();
+        const double by_m = body.ball_radius_m() - bounds.depth_m(side, outermost_W);
+        if (by_m > largest.by_m) largest = {side, by_m};
       }
     }
   }
@@ -50,14 +51,14 @@ bool may_have_path_outside_bounds(const PlanRequest& request, const PlanResult& 
   return result.bounds.any() && is_open && !result.remaining_collisions.empty();
 }
 
-void add_path_outside_bounds(const PlanResult& unbounded, const PlanRequest& request,
-                             PlanResult& result) {
+void add_path_outside_bounds(const PlanResult& unbounded, const collision::Obstacles& obstacles,
+                             const PlanRequest& request, PlanResult& result) {
   result.timing.correct_ms += unbounded.timing.total_ms;
   result.timing.total_ms += unbounded.timing.total_ms;
   if (!unbounded.certificate.certified) return;
   const auto body = motion::Body::make(body_shape(request, unbounded.near_scale));
   if (!body) return;
-  const Excess excess = largest_excess(unbounded.path, *body, result.bounds);
+  const Excess excess = largest_excess(unbounded.path, *body, obstacles, result.bounds);
   result.message += fmt::format("; a way was found only beyond the bounds, by up to {:.2g} m at {}",
                                 excess.by_m, Bounds::kSideNames[excess.side]);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "daemon/collision/obstacles.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 
@@ -16,7 +17,7 @@ bool may_have_path_outside_bounds(const PlanRequest& request, const PlanResult& 
 /// Adds the time that `unbounded` took to that of `result`. If `unbounded` has a path that is
 /// proved free, also adds to the message of `result` that a free path was found only outside of its
 /// bounds, and by how much. `unbounded`: the result for the same request without bounds.
-void add_path_outside_bounds(const PlanResult& unbounded, const PlanRequest& request,
-                             PlanResult& result);
+void add_path_outside_bounds(const PlanResult& unbounded, const collision::Obstacles& obstacles,
+                             const PlanRequest& request, PlanResult& result);
 
 }  // namespace camway::planning

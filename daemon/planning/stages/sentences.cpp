@@ -156,10 +156,7 @@ std::string note_of_tilt(const PlanRequest& request) {
 }
 
 double body_size_m(const motion::Body& body) {
-  geometry::Box box;
-  for (const geometry::Triangle& triangle : body.triangles_C())
-    box.extend(geometry::bounds(triangle));
-  return box.sizes().maxCoeff() + 2.0 * body.ball_radius_m();
+  return body.box_C().sizes().maxCoeff() + 2.0 * body.ball_radius_m();
 }
 
 std::string note_of_tolerance(const PlanRequest& request, const motion::Body& body) {

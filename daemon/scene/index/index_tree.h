@@ -104,6 +104,7 @@ class IndexTree {
 
  private:
   friend class IndexWalk;
+  friend class TreeWalk;
 
   /// The tree of a part with all entries, which `splitter` divides.
   static IndexTree assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads);

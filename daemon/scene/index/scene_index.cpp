@@ -15,6 +15,8 @@
 #include "daemon/scene/index/distance_search.h"
 #include "daemon/scene/index/index_walk.h"
 #include "daemon/scene/index/swept_search.h"
+#include "daemon/scene/index/tree_search.h"
+#include "daemon/scene/index/tree_walk.h"
 
 namespace camway::scene {
 
@@ -132,6 +134,49 @@ class BoxQuery {
   bool is_done_ = false;
 };
 
+/// A query for `IndexWalk` that searches what is inside a closed body.
+class InsideQuery {
+ public:
+  using IsInside = std::function<bool(const Vec3&)>;
+
+  InsideQuery(const TreeBody& body, const Box& scene, const IsInside& is_inside)
+      : body_(body),
+        root_(body.placed(TreeBody::kRoot)),
+        rounding_m_(body.rounding_m(scene)),
+        is_inside_(is_inside) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return root_.sides; }
+  [[nodiscard]] const ObliqueSides* oblique() const { return &root_.oblique; }
+  [[nodiscard]] double squared_reach_m2() const { return rounding_m_ * rounding_m_; }
+  [[nodiscard]] bool is_beyond(double) const { return found_; }
+  [[nodiscard]] bool is_done() const { return found_; }
+  [[nodiscard]] bool found() const { return found_; }
+
+  [[nodiscard]] bool enters(const IndexNode& node, std::size_t slot) const {
+    const Box box = node.frame.box_of(get_box(node.boxes, slot));
+    if (body_.may_touch(box, rounding_m_)) return true;
+    found_ = found_ || is_inside_(box.center());
+    return false;
+  }
+
+  void enter(const IndexedPart& part) { part_ = &part; }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t triangle) {
+      found_ = is_inside_(part_->triangle(triangle)[0]);
+      return !found_;
+    });
+  }
+
+ private:
+  const TreeBody& body_;
+  TreeBody::Placed root_;
+  double rounding_m_;
+  const IsInside& is_inside_;
+  const IndexedPart* part_ = nullptr;
+  mutable bool found_ = false;  // `enters` decides for whole nodes
+};
+
 /// A query for `IndexWalk` over the boxes of parts: runs `query` through the tree of each part in
 /// reach.
 template <class Query>
@@ -162,6 +207,42 @@ class PartsQuery {
 
  private:
   Query& query_;
+  std::span<const IndexedPart> parts_;
+};
+
+/// A query for `IndexWalk` over the boxes of parts: searches the trees of those within reach of the
+/// root of a body's tree.
+class RootQuery {
+ public:
+  RootQuery(TreeSearch& search, std::span<const IndexedPart> parts)
+      : search_(search), root_(search.body().placed(TreeBody::kRoot)), parts_(parts) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return root_.sides; }
+  [[nodiscard]] const ObliqueSides* oblique() const { return &root_.oblique; }
+  [[nodiscard]] double squared_reach_m2() const {
+    return search_.squared_reach_m2(search_.body().node(root_.node));
+  }
+  [[nodiscard]] bool is_beyond(double squared) const {
+    return search_.is_beyond(search_.body().node(root_.node), squared);
+  }
+  static bool enters(const IndexNode&, std::size_t) { return true; }
+  [[nodiscard]] bool is_done() const { return search_.is_done(); }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t number) {
+      enter(parts_[number]);
+      return !is_done();
+    });
+  }
+
+  void enter(const IndexedPart& part) {
+    search_.enter(part);
+    TreeWalk(part.indexed->tree, {part.first_triangle, part.first_leaf}, search_).run();
+  }
+
+ private:
+  TreeSearch& search_;
+  TreeBody::Placed root_;  // a copy: placing children moves the original
   std::span<const IndexedPart> parts_;
 };
 
@@ -228,6 +309,24 @@ void SceneIndex::run(Query& query) const {
   } else {
     IndexWalk(top_).run(parts);
   }
+}
+
+void SceneIndex::search(TreeSearch& search) const {
+  if (parts_.empty()) return;
+  RootQuery query(search, parts_);
+  if (parts_.size() == 1) {
+    query.enter(parts_.front());
+  } else {
+    IndexWalk(top_).run(query);
+  }
+}
+
+bool SceneIndex::has_inside(const TreeBody& body,
+                            const std::function<bool(const Vec3&)>& is_inside) const {
+  if (parts_.empty()) return false;
+  InsideQuery query(body, bounds_, is_inside);
+  run(query);
+  return query.found();
 }
 
 /// Calls `visit(query, leaf)` for every leaf that `triangle` touches until it returns false.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -17,6 +18,9 @@
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::scene {
+
+class TreeBody;
+class TreeSearch;
 
 struct IndexStatistics {
   std::uint64_t nodes = 0;   ///< inner nodes of all trees, leaves of the trees of meshes
@@ -173,6 +177,16 @@ class SceneIndex {
   /// none, which proves that all triangles are at least `distance_m - nearest_error_m(body)` away.
   [[nodiscard]] std::optional<Nearest> any_within(std::span<const geometry::Triangle> body,
                                                   double distance_m) const;
+
+  /// Runs a search of the triangles near a body that has a tree.
+  void search(TreeSearch& search) const;
+
+  /// Whether a triangle of the scene is inside the closed surface of `body` as it was placed last,
+  /// of which `is_inside` tells on which side a point is. Requires that the surface touches no
+  /// triangle of the scene. So a part of the scene whose box it does not touch is on one side, and
+  /// so is each triangle.
+  [[nodiscard]] bool has_inside(const TreeBody& body,
+                                const std::function<bool(const geometry::Vec3&)>& is_inside) const;
 
   /// Calls `visit(index)` for every triangle that has a point in the closed `box`, until it returns
   /// false; then returns false. Conservative: also visits triangles whose bounding boxes meet

@@ -58,6 +58,28 @@ TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
   EXPECT_TRUE(response->remaining_collisions.empty());
 }
 
+TEST_F(CliPlan, ReadsTheMeshOfTheBodyFromAFileBesideTheRequest) {
+  // A closed tetrahedron in centimetres.
+  folder_.write("body.obj",
+                "v -5 -5 0\nv 5 -5 0\nv 0 5 0\nv 0 0 5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::vector<std::string> keyframes = {keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)};
+  const auto planned = [&](const std::string& body) {
+    std::string text = request_json(keyframes);
+    text.insert(text.rfind('}'), ", \"body\": " + body);
+    return run_camway({"plan", "--request", folder_.write("mesh.json", text)});
+  };
+  const CliRun solid =
+      planned(R"({"type": "mesh", "file": "body.obj", "scale": 0.01, "solid": true})");
+  EXPECT_EQ(solid.exit_code, 0) << solid.err;
+  const CliRun missing = planned(R"({"type": "mesh", "file": "nobody.obj"})");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("mesh.json: body.file: "));
+  EXPECT_THAT(missing.err, HasSubstr("nobody.obj: there is no such file"));
+  const CliRun open = planned(R"({"type": "mesh", "file": "wall.obj", "solid": true})");
+  EXPECT_EQ(open.exit_code, 2);
+  EXPECT_THAT(open.err, HasSubstr("wall.obj: triangles: are no closed surface: the edge between"));
+}
+
 TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
   // A wall without end: there is no way around.
   folder_.write("wide.obj",

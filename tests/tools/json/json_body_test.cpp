@@ -135,5 +135,41 @@ TEST(JsonBody, LeavesRangesToValidation) {
               StartsWith("body.points: passes the 512 points"));
 }
 
+TEST(JsonBody, ReadsWhetherAMeshIsSolid) {
+  const std::string mesh =
+      R"({"type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "triangles": )";
+  const std::string closed = "[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]";
+  EXPECT_FALSE(std::get<motion::MeshShape>(*read(mesh + closed + "}").body).solid);
+  const auto request = read(mesh + closed + R"(, "solid": true})");
+  EXPECT_TRUE(std::get<motion::MeshShape>(*request.body).solid);
+  EXPECT_FALSE(planning::validate(request));
+  const auto fault = planning::validate(read(mesh + R"([[0, 2, 1]], "solid": true})"));
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(
+      fault->message,
+      StartsWith("body.triangles: are no closed surface: the edge between vertices 0 and 1"));
+}
+
+TEST(JsonBody, ReadsTheNameOfAMeshFile) {
+  const auto parsed = parse_as<RequestFile>(
+      request_with(R"({"type": "mesh", "file": "a/piano.obj", "scale": 0.001, "solid": true})"),
+      "R.json");
+  ASSERT_TRUE(parsed) << parsed.error;
+  ASSERT_TRUE(parsed->body_file);
+  EXPECT_EQ(parsed->body_file->file, "a/piano.obj");
+  EXPECT_EQ(parsed->body_file->scale, 0.001);
+  EXPECT_TRUE(parsed->body_file->solid);
+  EXPECT_TRUE(planning::validate(*parsed)) << "the file is still to be read";
+  const auto error_of = [](const std::string& body) {
+    return parse_as<RequestFile>(request_with(body), "R.json").error;
+  };
+  EXPECT_EQ(error_of(R"({"type": "box", "file": "a.obj"})"),
+            "R.json: body.type: must be mesh for a body with a file");
+  EXPECT_EQ(error_of(R"({"type": "mesh", "file": "a.obj", "scale": 0})"),
+            "R.json: body.scale: must be above 0 and finite");
+  EXPECT_THAT(error_of(R"({"type": "mesh", "file": "a.obj", "vertices": []})"),
+              StartsWith("R.json: body.vertices: is unknown"));
+}
+
 }  // namespace
 }  // namespace camway::tools

@@ -11,6 +11,7 @@
 #include "daemon/planning/stages/sentences.h"
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"
+#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_io.h"
 
@@ -70,7 +71,7 @@ base::Result<CheckInput> read_files(const CheckFlags& flags,
 }
 
 base::Result<CheckInput> read_input(const CheckFlags& flags) {
-  const base::Result<RequestFile> request = read_as<RequestFile>(flags.request);
+  const base::Result<RequestFile> request = read_request(flags.request);
   base::Result<CheckInput> input = read_files(flags, request);
   if (!input) return input;
   std::optional<std::string> fault = planning::find_fault(input->path.segments());

@@ -16,6 +16,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
+#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/load/load_occupancy.h"
 #include "tools/camway/load/load_run.h"
@@ -68,7 +69,7 @@ LoadPlan make_plan(const LoadFlags& flags) {
   }
   LoadPlan plan{{parsed->name, scene.result.snapshot->digest}, {}};
   for (const std::string& file : flags.requests) {
-    const base::Result<RequestFile> request = read_as<RequestFile>(file);
+    const base::Result<RequestFile> request = read_request(file);
     if (!request) {
       print_error(request.error);
       return {};

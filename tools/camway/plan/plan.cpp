@@ -17,6 +17,7 @@
 #include "daemon/planning/result/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "tools/camway/common/commands.h"
+#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/plan/option_flags.h"
 #include "tools/camway/plan/plan_summary.h"
@@ -96,7 +97,7 @@ void answer_in_scene(const scene::Snapshot& snapshot, const RequestFile& request
 
 Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {
   Answer answer;
-  base::Result<RequestFile> request = read_as<RequestFile>(file);
+  base::Result<RequestFile> request = read_request(file);
   if (!request) {
     answer.result = invalid(request.error);
     return answer;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/common/request_file.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "daemon/scene/import/import.h"
+#include "tools/json/json_document.h"
+
+namespace camway::tools {
+namespace {
+
+/// Returns the mesh of a file as a body, or the reason why there is none.
+base::Result<motion::MeshShape> read_mesh(const std::filesystem::path& file, const BodyFile& body) {
+  scene::ImportOptions options;
+  options.scale = body.scale;
+  scene::ImportResult read = scene::import_mesh(file, options);
+  if (!read.mesh) return base::Failure{read.error};
+  motion::MeshShape mesh{std::move(read.mesh->vertices), std::move(read.mesh->triangles),
+                         body.solid};
+  if (const std::optional<motion::ShapeFault> fault = motion::fault_in(mesh)) {
+    return base::Failure{file.string() + ": " + fault->field + (fault->field.empty() ? "" : ": ") +
+                         fault->reason};
+  }
+  return mesh;
+}
+
+}  // namespace
+
+base::Result<RequestFile> read_request(const std::string& file) {
+  base::Result<RequestFile> request = read_as<RequestFile>(file);
+  if (!request || !request->body_file) return request;
+  const std::filesystem::path folder =
+      file == "-" ? std::filesystem::path() : std::filesystem::path(file).parent_path();
+  base::Result<motion::MeshShape> mesh =
+      read_mesh(folder / request->body_file->file, *request->body_file);
+  if (!mesh) return base::Failure{source_of(file) + ": body.file: " + mesh.error};
+  request->body = *std::move(mesh.value);
+  return request;
+}
+
+}  // namespace camway::tools
