@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/messages/plan.h"
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 

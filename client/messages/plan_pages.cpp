@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "client/messages/plan.h"
 #include "client/messages/plan_faults.h"
 #include "lcmtypes/wire/check.h"

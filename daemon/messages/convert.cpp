@@ -6,7 +6,7 @@
 
 #include <camway/occupancy_response_t.hpp>
 
-#include "daemon/messages/members.h"
+#include "daemon/messages/converter.h"
 #include "lcmtypes/wire/path_fault.h"
 
 namespace camway::messages {

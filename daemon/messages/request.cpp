@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "daemon/messages/convert.h"
-#include "daemon/messages/members.h"
+#include "daemon/messages/converter.h"
 #include "daemon/planning/request/body_members.h"
 #include "lcmtypes/wire/layout.h"
 

@@ -2,7 +2,7 @@
 #include <limits>
 #include <utility>
 
-#include "daemon/planning/result/members.h"
+#include "daemon/planning/result/result_members.h"
 #include "tools/json/json_io.h"
 #include "tools/json/json_reader.h"
 
