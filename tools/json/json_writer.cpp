@@ -13,7 +13,7 @@
 #include "daemon/collision/obstacles.h"
 #include "daemon/planning/result/result_members.h"
 #include "tools/json/json_angle.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

@@ -12,7 +12,8 @@
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

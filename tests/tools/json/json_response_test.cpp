@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/json/json_response.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +17,6 @@
 #include "tests/support/random.h"
 #include "tools/camway/replay/difference.h"
 #include "tools/json/json_angle.h"
-#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {
