@@ -14,7 +14,8 @@
 #include <vector>
 
 #include "daemon/base/named_enum.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
+#include "daemon/messages/text.h"
 #include "daemon/planning/request/options.h"
 #include "daemon/planning/result/result_members.h"
 #include "lcmtypes/wire/convert.h"

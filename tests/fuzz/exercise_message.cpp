@@ -26,7 +26,7 @@
 #include "client/messages/plan.h"
 #include "client/messages/plan_pages.h"
 #include "client/messages/status.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"

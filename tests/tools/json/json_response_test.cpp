@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "daemon/collision/obstacles.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/support/random.h"
 #include "tools/camway/replay/difference.h"
 #include "tools/json/json_angle.h"

@@ -15,7 +15,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
+#include "daemon/messages/text.h"
 #include "daemon/planning/result/result_members.h"
 
 namespace camway::tools {

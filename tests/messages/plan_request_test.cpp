@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
