@@ -5,7 +5,7 @@
 
 #include <camway/plan_request_t.hpp>
 
-#include "client/messages/plan_pages.h"
+#include "client/messages/plan.h"
 #include "daemon/messages/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
