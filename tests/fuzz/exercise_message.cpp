@@ -22,6 +22,7 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
+#include "client/engine/occupancy_collector.h"
 #include "client/engine/plan_collector.h"
 #include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
