@@ -11,7 +11,7 @@
 #include "client/engine/engine.h"
 #include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "client/messages/plan_faults.h"
 #include "client/messages/scene.h"
 

@@ -11,6 +11,7 @@
 
 #include <camway/cancel_t.hpp>
 
+#include "client/engine/occupancy_collector.h"
 #include "client/messages/occupancy.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/utime.h"

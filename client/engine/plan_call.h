@@ -8,7 +8,7 @@
 #include <string>
 
 #include "client/engine/context.h"
-#include "client/messages/plan_pages.h"
+#include "client/engine/plan_collector.h"
 
 namespace camway {
 

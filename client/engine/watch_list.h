@@ -17,8 +17,8 @@
 #include <camway/watched_path_t.hpp>
 
 #include "client/engine/context.h"
+#include "client/engine/plan_collector.h"
 #include "client/messages/plan.h"
-#include "client/messages/plan_pages.h"
 
 namespace camway {
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "client/messages/text.h"
-#include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 #include "lcmtypes/wire/utime.h"
 
@@ -102,22 +101,6 @@ std::vector<occupancy_request_t> to_requests(const OccupancyBatch& batch,
   splitter.add(batch.distances, &Request::num_distances, &Request::distances_m);
   splitter.add(batch.sphere_paths, &Request::num_sphere_paths, &Request::sphere_paths_m);
   return splitter.take();
-}
-
-OccupancyCollector::OccupancyCollector(std::string client_id, std::int64_t request_id)
-    : client_id_(std::move(client_id)), request_id_(request_id) {}
-
-OccupancyCollector::Taken OccupancyCollector::take(std::span<const std::uint8_t> bytes) {
-  wire::Decoded<occupancy_response_t> decoded = wire::decode<occupancy_response_t>(bytes);
-  if (!decoded.message) {
-    fault_ = decoded.fault.text("occupancy_response_t");
-    return Taken::kBad;
-  }
-  if (decoded.message->client_id != client_id_ || decoded.message->request_id != request_id_) {
-    return Taken::kForeign;
-  }
-  response_ = std::move(*decoded.message);
-  return Taken::kNew;
 }
 
 std::optional<std::string> append(const occupancy_request_t& request,

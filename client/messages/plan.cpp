@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "client/messages/plan.h"
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/utime.h"
 
 namespace camway {
 namespace {
@@ -51,6 +52,16 @@ void convert(const PlanRequest& mine, plan_request_t& wire) {
   wire.correct_nothing = mine.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = has_times(mine) ? 1 : 0;
   wire::set_counts(wire);
+}
+
+std::vector<wire::Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
+                                  std::int64_t request_id) {
+  plan_request_t wire{};
+  convert(request, wire);
+  wire.client_id = client_id;
+  wire.request_id = request_id;
+  wire.utime = wire::utime_now();
+  return wire::encode_pages(wire);
 }
 
 void convert(const keyframe_t& wire, PathKeyframe& mine) {

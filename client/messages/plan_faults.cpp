@@ -2,19 +2,12 @@
 #include "client/messages/plan_faults.h"
 
 #include "client/messages/text.h"
-#include "lcmtypes/wire/check.h"
-#include "lcmtypes/wire/path_fault.h"
+#include "lcmtypes/wire/layout.h"
 
 namespace camway {
 namespace {
 
 constexpr std::size_t kMaxKeyframes = 100'000;  // as in plan_request_t.lcm
-
-/// Returns whether plan requests are answered with this status.
-bool is_known(std::int32_t status) {
-  return (status >= 0 && status <= plan_response_t::STATUS_MALFORMED) ||
-         status == plan_response_t::STATUS_CANCELLED || status == plan_response_t::STATUS_LIMIT;
-}
 
 std::optional<std::string> fault_in_count(const std::string& field, std::size_t count,
                                           std::size_t most) {
@@ -36,20 +29,6 @@ std::optional<std::string> fault_in_times(const PlanRequest& request) {
 }
 
 }  // namespace
-
-std::optional<std::string> fault_in_answer(const plan_response_t& whole) {
-  if (!is_known(whole.status)) return "status " + std::to_string(whole.status) + " is unknown";
-  if (std::string fault = wire::path_fault(whole.segments); !fault.empty()) return fault;
-  for (const correction_t& correction : whole.corrections) {
-    if (correction.method < correction_t::NONE || correction.method > correction_t::SHRINK) {
-      return "a correction by method " + std::to_string(correction.method);
-    }
-  }
-  if (whole.status == plan_response_t::STATUS_OK && whole.segments.empty()) {
-    return "status ok without a path";
-  }
-  return std::nullopt;
-}
 
 std::optional<std::string> fault_in_form(const PlanRequest& request) {
   const Body& body = request.body;

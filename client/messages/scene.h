@@ -15,11 +15,11 @@
 #include <camway/upload_page_t.hpp>
 #include <camway/upload_status_t.hpp>
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 
 namespace camway {
 
-/// Reads an object. Other structs of scenes follow from their names (`members.h`).
+/// Reads an object. Other structs of scenes follow from their names (`convert.h`).
 void convert(const scene_object_t& wire, SceneObject& mine);
 
 /// Writes the description of `shape` into `request`. Returns the bytes to upload; empty if none.

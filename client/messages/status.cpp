@@ -5,7 +5,7 @@
 
 #include <camway/status_t.hpp>
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/latency_buckets.h"

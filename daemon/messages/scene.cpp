@@ -5,7 +5,8 @@
 #include <chrono>
 #include <cstdint>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
+#include "daemon/messages/text.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::messages {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/deadline_limits.h"
 #include "daemon/service/core/core_config.h"
 #include "daemon/service/plans/plan_config.h"
 #include "daemon/service/scenes/scene_config.h"

@@ -14,7 +14,7 @@
 #include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/import/import.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::bench {
 

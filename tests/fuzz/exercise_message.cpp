@@ -22,11 +22,12 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
+#include "client/engine/occupancy_collector.h"
+#include "client/engine/plan_collector.h"
 #include "client/messages/occupancy.h"
 #include "client/messages/plan.h"
-#include "client/messages/plan_pages.h"
 #include "client/messages/status.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"

@@ -10,7 +10,8 @@
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 #include "tools/camway/replay/session.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 
 namespace camway::testing {
 namespace {

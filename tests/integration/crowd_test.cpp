@@ -14,7 +14,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "client/messages/plan_pages.h"
+#include "client/messages/plan.h"
 #include "tests/integration/fixture.h"
 #include "tools/camway/load/load_tally.h"
 

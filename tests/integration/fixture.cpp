@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 
 namespace camway::integration {

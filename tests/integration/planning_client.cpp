@@ -13,7 +13,7 @@
 #include <string>
 #include <type_traits>
 
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 
 namespace {

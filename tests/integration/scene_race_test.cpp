@@ -17,7 +17,7 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/integration/fixture.h"
 #include "tools/camway/load/load_tally.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::integration {
 namespace {

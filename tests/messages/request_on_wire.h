@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 
 /// Requests as a client sends them, for tests of what reads them.
 namespace camway::messages {

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 

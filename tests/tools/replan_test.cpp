@@ -14,7 +14,8 @@
 
 #include "daemon/planning/plan.h"
 #include "daemon/scene/import/import.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 
 /// The keyframes of an answer are the answer: a request with them, and with the answer's frame,
 /// gets the same path, without a correction.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "lcmtypes/wire/pages.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/support/allocation_meter.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/page_assembly.h"
 #include "tests/messages/plan_samples.h"

@@ -18,7 +18,8 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/side_by_side.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {

@@ -27,7 +27,7 @@
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 
 namespace camway::tools {

@@ -17,7 +17,7 @@
 #include "daemon/scene/import/import.h"
 #include "tools/demo/report.h"
 #include "tools/drawing/floor_plan.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 
 namespace camway::demo {

@@ -17,7 +17,7 @@
 #include "daemon/geometry/bounds.h"
 #include "daemon/planning/request/field_spec.h"
 #include "daemon/planning/request/request.h"
-#include "daemon/planning/result/members.h"
+#include "daemon/planning/result/result_members.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
 
@@ -65,8 +65,8 @@ void allow_only(const Field& field, std::vector<std::string_view> names,
   field.allow_only(names, old_names);
 }
 
-/// Reads the members of an object that are in a list (`planning/result/members.h`) or a table
-/// (`planning/request/options.h`). Ignores other members.
+/// Reads the members of an object that are in a list (`planning/result/result_members.h`) or a
+/// table (`planning/request/options.h`). Ignores other members.
 class JsonReader {
  public:
   explicit JsonReader(const Field& object) : object_(object) {}

@@ -11,9 +11,9 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/collision/obstacles.h"
-#include "daemon/planning/result/members.h"
+#include "daemon/planning/result/result_members.h"
 #include "tools/json/json_angle.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {
@@ -41,7 +41,7 @@ class JsonWriter {
     indent_ = outer;
   }
 
-  /// Writes a member (`planning/result/members.h`).
+  /// Writes a member (`planning/result/result_members.h`).
   template <class Value>
   void operator()(FileName name, const Value& member) {
     if (!name.is_written) return;

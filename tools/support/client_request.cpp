@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/support/client_request.h"
 
-#include "client/messages/members.h"
-#include "daemon/messages/members.h"
+#include "client/messages/convert.h"
+#include "daemon/messages/converter.h"
 #include "daemon/planning/request/body_members.h"
 
 namespace camway {

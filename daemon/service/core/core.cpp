@@ -8,7 +8,7 @@
 
 #include <camway/error_t.hpp>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/text.h"
 
 namespace camway::service {
 

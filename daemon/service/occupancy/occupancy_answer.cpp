@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/text.h"
 #include "daemon/scene/mirror/scene_mirror.h"
 #include "lcmtypes/wire/layout.h"
 

@@ -9,6 +9,7 @@
 
 #include <camway/cancel_t.hpp>
 
+#include "daemon/messages/text.h"
 #include "daemon/service/occupancy/occupancy_answer.h"
 
 namespace camway::service {

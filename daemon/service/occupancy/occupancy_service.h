@@ -11,7 +11,7 @@
 #include <camway/occupancy_response_t.hpp>
 
 #include "daemon/base/deadline.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/deadline_limits.h"
 #include "daemon/service/core/core.h"
 #include "daemon/service/transport/answer_pages.h"
 

@@ -7,7 +7,8 @@
 #include <camway/plan_response_t.hpp>
 
 #include "daemon/base/deadline.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/deadline_limits.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "daemon/service/core/core.h"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/deadline_limits.h"
 #include "daemon/planning/request/request.h"
 #include "lcmtypes/wire/layout.h"
 #include "lcmtypes/wire/page_assembly.h"

@@ -11,6 +11,7 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
+#include "daemon/messages/text.h"
 #include "daemon/service/plans/plan_answer.h"
 
 namespace camway::service {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/messages/convert.h"
 #include "daemon/messages/scene.h"
+#include "daemon/messages/text.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::service {

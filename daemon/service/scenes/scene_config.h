@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/deadline_limits.h"
 #include "daemon/service/queue/fair_queue.h"
 #include "daemon/service/scenes/map_exports.h"
 #include "daemon/service/scenes/scene_rules.h"

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "daemon/messages/convert.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/map_scan.h"

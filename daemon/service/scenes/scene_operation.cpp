@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/messages/scene.h"
 #include "daemon/messages/scene_names.h"
 #include "daemon/planning/request/request.h"

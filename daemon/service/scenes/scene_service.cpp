@@ -13,6 +13,7 @@
 #include <camway/cancel_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
+#include "daemon/messages/text.h"
 #include "daemon/service/scenes/ineffective_members.h"
 #include "daemon/service/scenes/scene_answers.h"
 #include "lcmtypes/wire/check.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/text.h"
 #include "lcmtypes/wire/check.h"
 
 namespace camway::service {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/support/random.h"
 
 namespace camway::process {

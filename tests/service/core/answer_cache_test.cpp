@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 

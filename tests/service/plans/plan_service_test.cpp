@@ -15,7 +15,7 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 #include "tests/service/running_service.h"

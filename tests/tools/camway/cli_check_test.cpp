@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/camway/cli_runner.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

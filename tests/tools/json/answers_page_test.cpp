@@ -13,7 +13,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "tests/messages/plan_samples.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 /// docs/answers.md names every member that an answer can have, and no other.
 namespace camway::tools {

@@ -12,7 +12,7 @@
 
 #include "tests/messages/plan_samples.h"
 #include "tools/json/json_angle.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::tools {
 namespace {

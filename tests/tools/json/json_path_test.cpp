@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

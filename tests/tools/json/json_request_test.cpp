@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/json/json_request.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/random.h"
-#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {

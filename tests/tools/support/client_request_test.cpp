@@ -5,8 +5,8 @@
 
 #include <camway/plan_request_t.hpp>
 
-#include "client/messages/plan_pages.h"
-#include "daemon/messages/convert.h"
+#include "client/messages/plan.h"
+#include "daemon/messages/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
 

@@ -13,7 +13,8 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "daemon/base/result.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::tools {
 

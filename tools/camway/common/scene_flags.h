@@ -11,7 +11,7 @@
 
 #include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/snapshot.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::tools {
 

@@ -20,7 +20,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/load/load_occupancy.h"
 #include "tools/camway/load/load_run.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 #include "tools/support/output_file.h"
 

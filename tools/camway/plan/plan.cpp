@@ -21,7 +21,8 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/plan/option_flags.h"
 #include "tools/camway/plan/plan_summary.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
+#include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {

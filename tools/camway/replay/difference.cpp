@@ -15,8 +15,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "daemon/messages/convert.h"
-#include "daemon/planning/result/members.h"
+#include "daemon/messages/plan.h"
+#include "daemon/messages/text.h"
+#include "daemon/planning/result/result_members.h"
 
 namespace camway::tools {
 namespace {
@@ -56,8 +57,8 @@ bool has_same_bits(const std::tuple<Member&, Member&>& then,
 }
 
 /// Finds the first member in which a recorded message differs from the message of a new result. The
-/// lists of members (`planning/result/members.h`) call it with each member of the result, of the
-/// recorded message and of the new one.
+/// lists of members (`planning/result/result_members.h`) call it with each member of the result, of
+/// the recorded message and of the new one.
 /// Not thread-safe.
 class MessageComparer {
  public:

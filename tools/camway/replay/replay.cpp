@@ -14,7 +14,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "daemon/messages/text.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/page_assembly.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/request/request.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "tools/camway/replay/event_log.h"

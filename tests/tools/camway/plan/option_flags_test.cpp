@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 namespace camway::tools {
 namespace {

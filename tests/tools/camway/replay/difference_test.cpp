@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/motion/spline/interpolate.h"
 
 namespace camway::tools {

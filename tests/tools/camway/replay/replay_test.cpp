@@ -9,7 +9,7 @@
 #include "lcmtypes/wire/check.h"
 #include "tests/tools/camway/replay/log_builder.h"
 #include "tools/camway/replay/replay_run.h"
-#include "tools/json/json_io.h"
+#include "tools/json/json_response.h"
 
 namespace camway::tools {
 namespace {

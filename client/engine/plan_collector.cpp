@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: MIT
-#include "client/messages/plan_pages.h"
+#include "client/engine/plan_collector.h"
 
 #include <optional>
 #include <utility>
 
-#include "client/messages/members.h"
+#include "client/messages/convert.h"
 #include "client/messages/plan.h"
-#include "client/messages/plan_faults.h"
 #include "lcmtypes/wire/check.h"
-#include "lcmtypes/wire/utime.h"
+#include "lcmtypes/wire/path_fault.h"
 
 namespace camway {
 namespace {
+
+/// Returns whether plan requests are answered with this status.
+bool is_known(std::int32_t status) {
+  return (status >= 0 && status <= plan_response_t::STATUS_MALFORMED) ||
+         status == plan_response_t::STATUS_CANCELLED || status == plan_response_t::STATUS_LIMIT;
+}
+
+/// Returns why the path and the report of an answer make no sense; nothing if they do. `whole`: all
+/// pages of the answer, joined.
+std::optional<std::string> fault_in_answer(const plan_response_t& whole) {
+  if (!is_known(whole.status)) return "status " + std::to_string(whole.status) + " is unknown";
+  if (std::string fault = wire::path_fault(whole.segments); !fault.empty()) return fault;
+  for (const correction_t& correction : whole.corrections) {
+    if (correction.method < correction_t::NONE || correction.method > correction_t::SHRINK) {
+      return "a correction by method " + std::to_string(correction.method);
+    }
+  }
+  if (whole.status == plan_response_t::STATUS_OK && whole.segments.empty()) {
+    return "status ok without a path";
+  }
+  return std::nullopt;
+}
 
 PlanResponse bad_answer(const plan_response_t& wire, const std::string& what) {
   PlanResponse response;
@@ -24,16 +45,6 @@ PlanResponse bad_answer(const plan_response_t& wire, const std::string& what) {
 }
 
 }  // namespace
-
-std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
-                            std::int64_t request_id) {
-  plan_request_t wire{};
-  convert(request, wire);
-  wire.client_id = client_id;
-  wire.request_id = request_id;
-  wire.utime = wire::utime_now();
-  return wire::encode_pages(wire);
-}
 
 PlanCollector::PlanCollector(std::string client_id, std::int64_t request_id)
     : client_id_(std::move(client_id)), request_id_(request_id) {}

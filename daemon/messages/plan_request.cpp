@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <concepts>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "daemon/messages/convert.h"
-#include "daemon/messages/members.h"
+#include "daemon/messages/converter.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/request/body_members.h"
 #include "lcmtypes/wire/layout.h"
 
@@ -127,11 +125,6 @@ static void translate(const body_t& wire, std::optional<BodyShape>& shape, Refus
   };
   std::visit(read, *shape);
   if (wire.type == body_t::CAMERA) shape.reset();
-}
-
-double deadline_of(double wire_s, const DeadlineLimits& limits) {
-  const double deadline_s = wire_s == 0.0 ? limits.default_s : wire_s;
-  return deadline_s > limits.max_s ? limits.max_s : deadline_s;
 }
 
 base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,

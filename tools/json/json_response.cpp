@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "tools/json/json_response.h"
+
 #include <limits>
 #include <utility>
 
-#include "daemon/planning/result/members.h"
-#include "tools/json/json_io.h"
+#include "daemon/planning/result/result_members.h"
 #include "tools/json/json_reader.h"
 
 namespace camway::tools {

@@ -6,20 +6,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <camway/plan_response_t.hpp>
 
 #include "lcmtypes/wire/pages.h"
 
 namespace camway {
-
-using wire::Bytes;
-
-/// Returns the pages of a request, each of at most `wire::kMaxMessageBytes`. Requires a request
-/// without `fault_in_form`.
-std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
-                            std::int64_t request_id);
 
 /// Collects the pages of the answer to one request, which may come in any order and repeatedly.
 /// Pages of a new answer to the same request, after a restart of the daemon, replace the old ones.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "daemon/planning/request/body_members.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/pages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_io.h"
+#include "tools/json/json_request.h"
 
 #include <algorithm>
 #include <cmath>

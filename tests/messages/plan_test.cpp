@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -214,9 +214,7 @@ TEST(WireAnswer, EveryPlanningStatusHasItsNumber) {
     result.status = status;
     const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
     EXPECT_EQ(wire.status, number);
-    EXPECT_EQ(status_name(number), planning::to_string(status));
   }
-  EXPECT_EQ(status_name(plan_response_t::STATUS_OVERLOADED), "overloaded");
 }
 
 TEST(WireAnswer, KeyframeAtFaultIsMinusOneForNone) {
@@ -240,13 +238,7 @@ TEST(WireAnswer, SegmentsThatAreNoPathAreRefused) {
   EXPECT_EQ(path_of(nan.segments).error, "segments[3]: holds numbers that are not finite");
 }
 
-TEST(WireAnswer, LongTextsAreCutBetweenCharacters) {
-  EXPECT_EQ(clipped("abcdef", 4), "abcd");
-  EXPECT_EQ(clipped("abcd", 4), "abcd");
-  EXPECT_EQ(clipped(std::string_view("ab\0cd", 5), 4), "ab");
-  EXPECT_EQ(clipped("abc\xc3\xa4", 4), "abc");  // ä: two bytes
-  EXPECT_EQ(clipped("abc\xc3\xa4", 5), "abc\xc3\xa4");
-  EXPECT_EQ(clipped("\x80\x80\x80", 2), "");  // never UTF-8, still ends
+TEST(WireAnswer, LongTextsAreCutToTheirLimits) {
   planning::PlanResult result;
   result.message = std::string(5000, 'm');
   const plan_response_t wire = to_wire(result, {kIds, std::string(5000, 's'), 0, ""});

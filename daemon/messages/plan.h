@@ -11,6 +11,7 @@
 
 #include "daemon/base/result.h"
 #include "daemon/geometry/bounds.h"
+#include "daemon/messages/deadline_limits.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 
@@ -18,16 +19,6 @@
 /// `planning::validate` checks the values. Functions without state.
 /// Thread-safe.
 namespace camway::messages {
-
-/// Limits of the time that a request may take from its receipt to the end of planning.
-struct DeadlineLimits {
-  double default_s = 10.0;  ///< if the request's is 0 [Limit: 0 < value] [Units: seconds]
-  double max_s = 60.0;      ///< longer deadlines are cut to this [Limit: default_s <= value]
-};
-
-/// Returns the deadline, in seconds, for a request whose deadline is `wire_s`. Only an exact 0 asks
-/// for the default: NaN and negative values stay, for `planning::validate`.
-double deadline_of(double wire_s, const DeadlineLimits& limits);
 
 /// Converts a request; `wire` holds the keyframes of all pages. Zeros become the defaults of
 /// `planning::PlanOptions`. Returns an error for a name or number that has no meaning, e.g.
@@ -65,12 +56,5 @@ plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& 
 /// Returns an answer that holds only a status of `plan_response_t` and a message.
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header);
-
-/// Returns the name of a status of any answer, for logs: "ok", "partial", ..., "limit", "no_map".
-std::string_view status_name(std::int32_t wire_status);
-
-/// Returns `text` as a message may carry it: without NUL and at most `max_bytes` long, cut between
-/// characters of UTF-8.
-std::string clipped(std::string_view text, std::size_t max_bytes);
 
 }  // namespace camway::messages

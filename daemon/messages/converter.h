@@ -14,14 +14,15 @@
 #include <vector>
 
 #include "daemon/base/named_enum.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
+#include "daemon/messages/text.h"
 #include "daemon/planning/request/options.h"
-#include "daemon/planning/result/members.h"
+#include "daemon/planning/result/result_members.h"
 #include "lcmtypes/wire/convert.h"
 
 /// Conversion between planning's structs and messages, member by member: `ToWire` and `FromWire`
-/// follow the lists of `planning/result/members.h`. Structs whose members have the same names need
-/// no list, and other values follow from their types (`wire::convert`).
+/// follow the lists of `planning/result/result_members.h`. Structs whose members have the same
+/// names need no list, and other values follow from their types (`wire::convert`).
 namespace camway::messages {
 
 /// The first fault of a request that is read. It names the member as the message does.

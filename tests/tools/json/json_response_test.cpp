@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/json/json_response.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,11 +13,10 @@
 #include <utility>
 
 #include "daemon/collision/obstacles.h"
-#include "daemon/messages/convert.h"
+#include "daemon/messages/plan.h"
 #include "tests/support/random.h"
 #include "tools/camway/replay/difference.h"
 #include "tools/json/json_angle.h"
-#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {
