@@ -10,7 +10,7 @@ namespace {
 
 // Chosen by measurement.
 constexpr double kForceSettled = 1e-3;  // in radii of the ball
-constexpr double kWorthOfRoom = 0.75;    // of all missing gaps together, relative to the form
+constexpr double kWorthOfRoom = 0.6;    // of all missing gaps together, relative to the form
 
 }  // namespace
 

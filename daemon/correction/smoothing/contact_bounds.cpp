@@ -13,6 +13,8 @@ namespace {
 constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
 constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
 constexpr double kKeptShare = 0.9;     // share of a smaller gap that is kept
+constexpr double kLittle = 0.15;       // share of the wanted gap: the first part of a gap, ...
+constexpr double kMoreWorth = 6.0;     // ... which is worth so much more
 constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 
@@ -62,7 +64,8 @@ void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, doub
   const double offset_m = row.direction.dot(moved) - row.room_m;
   const bool has_room = row.room_m >= wanted_m_;
   add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
-  const double stiffness = price_of_room_ * response * row.direction.squaredNorm();
+  const double urgency = 1.0 + kMoreWorth * std::max(0.0, 1.0 - row.room_m / (kLittle * wanted_m_));
+  const double stiffness = urgency * price_of_room_ * response * row.direction.squaredNorm();
   if (has_room || !(stiffness > 0.0)) {
     contact.soft_multiplier = 0.0;
   } else {

@@ -33,8 +33,9 @@ class ContactBounds {
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
-  /// Sets what half a square metre of a missing gap costs, in units of the form that is minimised.
-  /// 0, the default, makes no room. `kSafest` has a price of its own. [Limit: 0 <= value]
+  /// Sets what half a square metre of a missing gap costs, in units of the form that is minimised;
+  /// a gap of next to nothing costs more. 0, the default, makes no room. `kSafest` has a price of
+  /// its own. [Limit: 0 <= value]
   void set_price_of_room(double price) { price_of_room_ = price; }
 
   void clear();

@@ -17,7 +17,7 @@ struct Improvement {
   /// passes where this costs little. No effect for `kSafest`, which always makes room.
   bool makes_room = false;
   int most_steps = 12;  ///< of one relaxation [Limit: 0 <= value]
-  double worth = 0.1;  ///< least relative gain of the objective for which `polished` takes steps
+  double worth = 0.1;   ///< least relative gain of the objective for which `polished` takes steps
 };
 
 }  // namespace camway::correction

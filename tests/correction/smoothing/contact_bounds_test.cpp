@@ -74,12 +74,12 @@ TEST(ContactBounds, BuyRoomUntilItCostsMoreThanItsPrice) {
     bounds.set_price_of_room(kPrice);
     StackedPoint along = StackedPoint::Zero();
     along[1] = 1.0;
-    std::vector<Contact> near = {contact(along, 0.02, 0, 0)};
+    std::vector<Contact> near = {contact(along, 0.06, 0, 0)};
     bounds.add(0, StackedPoint::Zero(), response, near);
     solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, response),
              1e-12);
     bounds.remember();
-    const double missing_m = bounds.wanted_m() - 0.02 - response * near[0].soft_multiplier;
+    const double missing_m = bounds.wanted_m() - 0.06 - response * near[0].soft_multiplier;
     EXPECT_NEAR(near[0].soft_multiplier, kPrice * missing_m, 1e-9) << response;
   }
 }

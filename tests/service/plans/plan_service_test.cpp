@@ -581,7 +581,7 @@ TEST(PlanService, ABodyThatCannotBeIsInvalidByName) {
   EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
   EXPECT_EQ(answer->message,
             "body.type: 77 is unknown; the values are 0 (camera), 1 (box), 2 (sphere), 3 (convex), "
-            "4 (mesh)");
+            "4 (mesh), 5 (solid mesh)");
 }
 
 }  // namespace
