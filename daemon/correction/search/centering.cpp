@@ -19,11 +19,12 @@ using motion::Pose;
 using Twist = Eigen::Matrix<double, 6, 1>;
 
 // Chosen by measurement; none changes what is proved.
-constexpr int kMostCenterings = 16;         // of one centring
-constexpr int kMostTwistSweeps = 40;        // of the solver, over all pairs
-constexpr double kFirstGain = 0.5;          // gain asked of a step, relative to the gap
-constexpr double kLeastGain = 0.02;         // the same: less is not worth a step
-constexpr double kPairHorizon = 5.0;        // of pairs, relative to the gap
+constexpr int kMostCenterings = 16;   // of one centring
+constexpr int kMostTwistSweeps = 40;  // of the solver, over all pairs
+constexpr double kFirstGain = 0.5;    // gain asked of a step, relative to the gap
+constexpr double kLeastGain = 0.02;   // the same: less is not worth a step
+constexpr double kLeastAsked = 3e-5;  // gain asked of a step from contact, in radii of the ball
+constexpr double kPairHorizon = 5.0;  // of pairs, relative to the gap
 constexpr double kLeastPairHorizon = 0.03;  // the same, in radii of the ball
 constexpr double kMostTwist = 10.0;         // length of a step, relative to the gain asked for
 constexpr std::array<double, 5> kFirstScales = {0.95, 0.9, 0.8, 0.65, 0.5};
@@ -89,7 +90,7 @@ Centered centered(FreeSpace& space, const Pose& pose, double enough_m, const Vec
       rows.push_back(gradient(pair, space.center_W(now.pose), along_W, radius_m));
     }
     for (; gain > kLeastGain; gain *= 0.5) {
-      const double asked_m = gain * std::max(now.gap_m, 1e-3 * kLeastPairHorizon * radius_m);
+      const double asked_m = gain * std::max(now.gap_m, kLeastAsked * radius_m);
       Twist twist = shortest_twist(pairs, rows, now.gap_m + asked_m);
       const double length_m = twist.norm();
       if (length_m > kMostTwist * asked_m) twist *= kMostTwist * asked_m / length_m;
@@ -116,16 +117,16 @@ struct Fitter::Thin {
   FreeSpace space;
 };
 
-Fitter::Fitter(FreeSpace& space) : space_(space) {
-  for (const double scale : kFirstScales) thin_.push_back(std::make_unique<Thin>(space, scale));
-}
+Fitter::Fitter(FreeSpace& space, const base::Deadline& deadline)
+    : space_(space), deadline_(deadline), thin_(kFirstScales.size()) {}
 
 Fitter::~Fitter() = default;
 
 double Fitter::free_scale(const Pose& place) {
   if (space_.is_free(place, 0.0)) return 1.0;
-  for (const std::unique_ptr<Thin>& thin : thin_) {
-    if (thin->space.is_free(place, 0.0)) return thin->scale;
+  for (std::size_t i = 0; i < thin_.size() && !deadline_.passed(); ++i) {
+    if (!thin_[i]) thin_[i] = std::make_unique<Thin>(space_, kFirstScales[i]);
+    if (thin_[i]->space.is_free(place, 0.0)) return thin_[i]->scale;
   }
   return 0.0;
 }
@@ -135,7 +136,7 @@ std::optional<Centered> Fitter::fitted(const Pose& place) {
   if (scale == 0.0) return std::nullopt;
   const double radius_m = space_.ball_radius_m();
   Centered now{place, 0.0};
-  for (int i = 0; i < kMostGrowths; ++i) {
+  for (int i = 0; i < kMostGrowths && !deadline_.passed(); ++i) {
     const bool is_whole = scale == 1.0;
     std::optional<Thin> thin;
     if (!is_whole) thin.emplace(space_, scale);

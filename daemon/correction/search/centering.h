@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "daemon/base/deadline.h"
 #include "daemon/correction/path/free_space.h"
 
 namespace camway::correction {
@@ -34,8 +35,8 @@ Centered centered(FreeSpace& space, const motion::Pose& pose, double enough_m,
 /// Not thread-safe.
 class Fitter {
  public:
-  /// Refers to `space`, which must outlive it.
-  explicit Fitter(FreeSpace& space);
+  /// Refers to both arguments, which must outlive it. From the deadline on nothing fits.
+  Fitter(FreeSpace& space, const base::Deadline& deadline);
   ~Fitter();
   Fitter(const Fitter&) = delete;
   Fitter& operator=(const Fitter&) = delete;
@@ -51,7 +52,9 @@ class Fitter {
   struct Thin;
 
   FreeSpace& space_;
-  std::vector<std::unique_ptr<Thin>> thin_;  ///< the first scales, the largest first
+  const base::Deadline& deadline_;
+  /// Of the first scales, the largest first; null until one is needed.
+  std::vector<std::unique_ptr<Thin>> thin_;
 };
 
 }  // namespace camway::correction

@@ -22,6 +22,7 @@ constexpr double kShortestStepOut = 0.005;
 constexpr double kLongestWayOut = 12.0;  // length of a way
 constexpr double kNearestPairs = 3.0;   // gap of the pairs that lead the way, relative to the least
 constexpr double kMarginOfStart = 0.3;  // margin of a way out, relative to the gap at its start
+constexpr double kHabit = 1e-3;         // of the last direction, relative to all pairs
 constexpr double kLeastAhead = 0.9;     // cosine between two steps
 
 /// The direction in which the nearest pairs change least; `before_W` where there are none.
@@ -33,7 +34,7 @@ Vec3 direction_W(FreeSpace& space, const motion::Pose& pose, double gap_m, const
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const NearPair& pair : pairs) sum += pair.away_W * pair.away_W.transpose();
   // Where several directions change nothing, the last one goes on.
-  sum -= 1e-3 * sum.trace() * before_W * before_W.transpose();
+  sum -= kHabit * sum.trace() * before_W * before_W.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
   const Vec3 least_W = solver.eigenvectors().col(0);
   return least_W.dot(before_W) < 0.0 ? Vec3(-least_W) : least_W;

@@ -127,7 +127,7 @@ class Threader {
   /// Returns a motion through the narrow place in which the middle of `line` is, from a pose that
   /// fits only if the body is turned more finely than `fitting` does.
   std::optional<NarrowPassage> fitted_in(const HoleLine& line, std::span<const Vec3> way_W) {
-    Fitter fitter(space_);
+    Fitter fitter(space_, deadline_);
     for (const ThinFit& fit : thin_fits(widened(space_, line), fitter)) {
       if (deadline_.passed()) return std::nullopt;
       const std::optional<Centered> found = fitter.fitted(fit.pose);

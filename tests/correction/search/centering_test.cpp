@@ -77,7 +77,8 @@ TEST(Fitter, FitsABodyIntoAHoleThatIsLittleLarger) {
       FreeSpace space = scene.space();
       const motion::Pose place{0.03 * random.in_cube(1.0),
                                Quat(Eigen::AngleAxisd(random.uniform(-0.07, 0.07), Vec3::UnitZ()))};
-      Fitter fitter(space);
+      const base::Deadline never = base::Deadline::never();
+      Fitter fitter(space, never);
       const std::optional<Centered> found = fitter.fitted(place);
       ASSERT_TRUE(found);
       EXPECT_GT(found->gap_m, 0.0);
@@ -88,11 +89,22 @@ TEST(Fitter, FitsABodyIntoAHoleThatIsLittleLarger) {
   }
 }
 
+TEST(Fitter, EndsAtTheDeadline) {
+  const SearchScene scene(wall_with_hole(1.01 * kBox_m.x(), 1.01 * kBox_m.y(), 0.2), box());
+  FreeSpace space = scene.space();
+  const base::Deadline passed = base::Deadline::after_s(0.0);
+  Fitter fitter(space, passed);
+  const motion::Pose place{Vec3(0.01, 0.01, 0.0), Quat::Identity()};
+  EXPECT_EQ(fitter.free_scale(place), 0.0);
+  EXPECT_FALSE(fitter.fitted(place));
+}
+
 TEST(Fitter, FitsNothingIntoAHoleThatIsTooSmall) {
   testing::Random random(5204);
   const SearchScene scene(wall_with_hole(0.99 * kBox_m.x(), 0.99 * kBox_m.y(), 0.2), box());
   FreeSpace space = scene.space();
-  Fitter fitter(space);
+  const base::Deadline never = base::Deadline::never();
+  Fitter fitter(space, never);
   for (int run = 0; run < 6; ++run) {
     const motion::Pose place{0.02 * random.in_cube(1.0), Quat::Identity()};
     EXPECT_LT(fitter.free_scale(place), 1.0);
