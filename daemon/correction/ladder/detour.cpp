@@ -158,8 +158,8 @@ class Detour {
   // it is in none.
   std::optional<Candidate> between_ways_out() {
     if (is_limited(space_.policy())) return std::nullopt;
-    const std::optional<Guide> out = way_out(space_, from_, deadline_);
-    const std::optional<Guide> back = out ? way_out(space_, to_, deadline_) : std::nullopt;
+    const std::optional<Guide> out = way_out_from(from_);
+    const std::optional<Guide> back = out ? way_out_from(to_) : std::nullopt;
     if (!back || out->size() + back->size() == 2) return std::nullopt;
     const SignedPose& from = out->back();
     const SignedPose& to = back->back();
@@ -174,6 +174,13 @@ class Detour {
     found.guide.insert(found.guide.begin(), out->begin(), out->end() - 1);
     found.guide.insert(found.guide.end(), back->rbegin() + 1, back->rend());
     return followed(found);
+  }
+
+  [[nodiscard]] std::optional<Guide> way_out_from(const SignedPose& end) {
+    if (!has_center_) {
+      if (auto found = way_out(space_, end, HasRoom::kByBall, deadline_)) return found;
+    }
+    return way_out(space_, end, HasRoom::kByGap, deadline_);
   }
 
   // A detour through the narrow places on the way of a small ball. Keeps that way, and the pocket
@@ -265,7 +272,7 @@ class Detour {
   const double radius_m_;
   const SignedPose from_;
   const SignedPose to_;
-  const bool has_center_;  ///< whether the centre of the ball about the body is in the body
+  const bool has_center_;          ///< whether the centre of the ball about the body is in the body
   std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
   DetourResult result_;
 };

@@ -48,8 +48,12 @@ SignedPose signed_like(const motion::Pose& pose, const SignedPose& other) {
 
 class Walker {
  public:
-  Walker(FreeSpace& space, double margin_m, const base::Deadline& deadline)
-      : space_(space), margin_m_(margin_m), deadline_(deadline), radius_m_(space.ball_radius_m()) {}
+  Walker(FreeSpace& space, HasRoom has_room, double margin_m, const base::Deadline& deadline)
+      : space_(space),
+        has_room_(has_room),
+        margin_m_(margin_m),
+        deadline_(deadline),
+        radius_m_(space.ball_radius_m()) {}
 
   std::optional<Guide> run(const SignedPose& from, Vec3 along_W) {
     Guide guide = {from};
@@ -80,7 +84,7 @@ class Walker {
   [[nodiscard]] bool is_open(const SignedPose& at) {
     const motion::Pose pose = motion::unsigned_pose(at);
     gap_m_ = space_.gap_m(pose, kOpenGap * radius_m_);
-    return gap_m_ >= kOpenGap * radius_m_ ||
+    return (has_room_ == HasRoom::kByGap && gap_m_ >= kOpenGap * radius_m_) ||
            space_.ball_gap_m(space_.center_W(pose), radius_m_, 0.01 * radius_m_) > 0.0;
   }
 
@@ -99,6 +103,7 @@ class Walker {
   }
 
   FreeSpace& space_;
+  const HasRoom has_room_;
   const double margin_m_;
   const base::Deadline& deadline_;
   const double radius_m_;
@@ -108,18 +113,18 @@ class Walker {
 }  // namespace
 
 std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, const Vec3& along_W,
-                             double margin_m, const base::Deadline& deadline) {
-  return Walker(space, margin_m, deadline).run(from, along_W);
+                             HasRoom has_room, double margin_m, const base::Deadline& deadline) {
+  return Walker(space, has_room, margin_m, deadline).run(from, along_W);
 }
 
-std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from,
+std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, HasRoom has_room,
                              const base::Deadline& deadline) {
   const motion::Pose pose = motion::unsigned_pose(from);
   const double gap_m = space.gap_m(pose, space.ball_radius_m());
   const Vec3 along_W = direction_W(space, pose, gap_m, Vec3::Zero());
   for (const double sign : {1.0, -1.0}) {
     std::optional<Guide> found =
-        way_out(space, from, sign * along_W, kMarginOfStart * gap_m, deadline);
+        way_out(space, from, sign * along_W, has_room, kMarginOfStart * gap_m, deadline);
     if (found) return found;
   }
   return std::nullopt;
@@ -127,9 +132,9 @@ std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from,
 
 std::optional<Guide> corridor(FreeSpace& space, const SignedPose& middle, const Vec3& along_W,
                               double margin_m, const base::Deadline& deadline) {
-  std::optional<Guide> back = way_out(space, middle, -along_W, margin_m, deadline);
+  std::optional<Guide> back = way_out(space, middle, -along_W, HasRoom::kByGap, margin_m, deadline);
   if (!back) return std::nullopt;
-  std::optional<Guide> forth = way_out(space, middle, along_W, margin_m, deadline);
+  std::optional<Guide> forth = way_out(space, middle, along_W, HasRoom::kByGap, margin_m, deadline);
   if (!forth) return std::nullopt;
   std::ranges::reverse(*back);
   back->insert(back->end(), forth->begin() + 1, forth->end());

@@ -8,21 +8,26 @@
 
 namespace camway::correction {
 
-/// Follows the narrow place in which the body is at `from`, to where it has room: where a ball
-/// about it fits, or its gap is a share of that ball's radius. Returns the poses on the way,
-/// `from` first, joined by straight motions that are free with `margin_m`; nothing if it ends
-/// before.
+/// When a body has left a narrow place.
+enum class HasRoom {
+  kByGap,   ///< its gap is a share of the radius of the ball about it, or the ball fits
+  kByBall,  ///< the ball fits: a ring about a thin pole has a gap, and is not free of it
+};
+
+/// Follows the narrow place in which the body is at `from`, to where it has room. Returns the poses
+/// on the way, `from` first, joined by straight motions that are free with `margin_m`; nothing if
+/// it ends before.
 ///
 /// Goes in small steps, with the body centred after each (`centering.h`). The direction is that in
 /// which contacts change least: the eigenvector of the least eigenvalue of Σ n·nᵀ over the normals
 /// n of the nearest pairs, with the sign that is nearer to `along_W` and later to the last step.
 std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
-                             const geometry::Vec3& along_W, double margin_m,
+                             const geometry::Vec3& along_W, HasRoom has_room, double margin_m,
                              const base::Deadline& deadline);
 
 /// Returns the way out of a narrow place in which the body is at `from` already, in either
 /// direction; only `from` where it has room, nothing if no way out was found.
-std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
+std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from, HasRoom has_room,
                              const base::Deadline& deadline);
 
 /// Ways out to either side: from a pose in a narrow place backwards and forwards along `along_W`,

@@ -15,8 +15,9 @@ std::string metres(double length_m) {
   return text.data();
 }
 
-/// "3 of zero area, 1 with a coordinate that ..."; empty if nothing was left out.
-std::string left_out(const ImportReport& report) {
+}  // namespace
+
+std::string faces_left_out(const ImportReport& report) {
   struct Reason {
     std::uint64_t count;
     std::string_view text;
@@ -36,8 +37,6 @@ std::string left_out(const ImportReport& report) {
   return list;
 }
 
-}  // namespace
-
 double finest_length_m(double interval_tolerance_m, double clearance_m) {
   return clearance_m > 0.0 ? std::min(interval_tolerance_m, clearance_m) : interval_tolerance_m;
 }
@@ -45,7 +44,7 @@ double finest_length_m(double interval_tolerance_m, double clearance_m) {
 std::vector<std::string> import_warnings(const ImportReport& report,
                                          std::optional<double> resolution_m) {
   std::vector<std::string> warnings;
-  if (const std::string list = left_out(report); !list.empty()) {
+  if (const std::string list = faces_left_out(report); !list.empty()) {
     warnings.push_back("the scene is without faces of its file: " + list);
   }
   if (report.ignored_statements > 0) {

@@ -9,6 +9,11 @@
 
 namespace camway::scene {
 
+/// Returns the faces of the file that the mesh is without: "3 of zero area, 1 with a coordinate
+/// that
+/// ..."; empty if there are none.
+std::string faces_left_out(const ImportReport& report);
+
 /// Returns the finest length that matters to a request: the smaller of its interval tolerance and
 /// its required clearance, or the tolerance if the clearance is 0.
 double finest_length_m(double interval_tolerance_m, double clearance_m);

@@ -78,6 +78,17 @@ TEST_F(CliPlan, ReadsTheMeshOfTheBodyFromAFileBesideTheRequest) {
   const CliRun open = planned(R"({"type": "mesh", "file": "wall.obj", "solid": true})");
   EXPECT_EQ(open.exit_code, 2);
   EXPECT_THAT(open.err, HasSubstr("wall.obj: triangles: are no closed surface: the edge between"));
+  // Parts of a body are never left out in silence.
+  const std::string corners = "v -5 -5 0\nv 5 -5 0\nv 0 5 0\nv 0 0 5\n";
+  folder_.write("hole.obj", corners + "f 1 3 2\nf 1 2 9\n");
+  folder_.write("spike.obj", corners + "f 1 3 2\nf 1 1 4\n");
+  const CliRun hole = planned(R"({"type": "mesh", "file": "hole.obj", "scale": 0.01})");
+  EXPECT_EQ(hole.exit_code, 2);
+  EXPECT_THAT(hole.err, HasSubstr("hole.obj: the body would be without faces of its file: 1 with a "
+                                  "vertex that does not exist"));
+  const CliRun spike = planned(R"({"type": "mesh", "file": "spike.obj", "scale": 0.01})");
+  EXPECT_EQ(spike.exit_code, 2);
+  EXPECT_THAT(spike.err, HasSubstr("1 of zero area"));
 }
 
 TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/common/request_file.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
 #include "daemon/scene/import/import.h"
+#include "daemon/scene/import/import_warnings.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -15,12 +18,20 @@ base::Result<motion::MeshShape> read_mesh(const std::filesystem::path& file, con
   scene::ImportOptions options;
   options.scale = body.scale;
   scene::ImportResult read = scene::import_mesh(file, options);
-  if (!read.mesh) return base::Failure{read.error};
+  const std::string scaled =
+      body.scale == 1.0 ? "" : fmt::format(" (with a scale of {})", body.scale);
+  if (!read.mesh) return base::Failure{read.error + scaled};
+  // A body without a part of it would be proved free where that part collides. A closed surface has
+  // lost none with faces of zero area.
+  if (body.solid) read.report.degenerate_triangles = 0;
+  if (const std::string list = scene::faces_left_out(read.report); !list.empty()) {
+    return base::Failure{file.string() + ": the body would be without faces of its file: " + list};
+  }
   motion::MeshShape mesh{std::move(read.mesh->vertices), std::move(read.mesh->triangles),
                          body.solid};
   if (const std::optional<motion::ShapeFault> fault = motion::fault_in(mesh)) {
     return base::Failure{file.string() + ": " + fault->field + (fault->field.empty() ? "" : ": ") +
-                         fault->reason};
+                         fault->reason + scaled};
   }
   return mesh;
 }
