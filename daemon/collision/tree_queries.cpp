@@ -34,12 +34,7 @@ scene::SweptResult TreeQueries::swept(const scene::TreeMargins& margins) {
     return {true, std::nullopt, std::numeric_limits<double>::infinity()};
   if (!body_.is_usable()) return {false, scene::Nearest{0.0, 0}, 0.0};
   scene::TreeSwept search(body_, obstacles_.index.bounds(), margins);
-  if (last_pair_) {
-    search.ask_first(last_pair_->number, last_pair_->triangle,
-                     obstacles_.index.triangle(last_pair_->triangle));
-  }
-  if (!search.is_done()) obstacles_.index.search(search);
-  if (search.pair()) last_pair_ = search.pair();
+  run(search);
   return search.result();
 }
 
@@ -48,12 +43,7 @@ std::optional<scene::Nearest> TreeQueries::near(double cutoff_m, double share) {
   if (!body_.is_usable() || std::isnan(cutoff_m)) return scene::Nearest{0.0, 0};
   scene::TreeDistance search(body_, obstacles_.index.bounds(), cutoff_m, scene::DistanceGoal::kNear,
                              /*certain_m=*/0.0, share);
-  if (last_pair_) {
-    search.ask_first(last_pair_->number, last_pair_->triangle,
-                     obstacles_.index.triangle(last_pair_->triangle));
-  }
-  if (!search.is_done()) obstacles_.index.search(search);
-  if (search.pair()) last_pair_ = search.pair();
+  run(search);
   return search.result();
 }
 

@@ -103,6 +103,17 @@ class TreeQueries {
   [[nodiscard]] geometry::Box vertex_box() const;
 
  private:
+  /// Runs a search, the pair that decided the last one first, and notes the pair that decides it.
+  template <class Search>
+  void run(Search& search) {
+    if (last_pair_) {
+      search.ask_first(last_pair_->number, last_pair_->triangle,
+                       obstacles_.index.triangle(last_pair_->triangle));
+    }
+    if (!search.is_done()) obstacles_.index.search(search);
+    if (search.pair()) last_pair_ = search.pair();
+  }
+
   /// When a vertex is looked at.
   enum class Instant : std::uint8_t { kBegin, kMiddle, kEnd };
   /// The depth inside a side of the nodes of a body: a box is nowhere deeper than its vertices.

@@ -10,8 +10,8 @@
 #include "daemon/scene/index/scene_index.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
-#include "tests/bench/embree_peer.h"
-#include "tests/bench/fcl_peer.h"
+#include "tests/bench/peers/embree_peer.h"
+#include "tests/bench/peers/fcl_peer.h"
 #include "tests/bench/tiled_scene.h"
 
 namespace camway::bench {

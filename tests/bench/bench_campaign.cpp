@@ -9,8 +9,8 @@
 
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
-#include "tests/bench/fcl_peer.h"
 #include "tests/bench/motion_samples.h"
+#include "tests/bench/peers/fcl_peer.h"
 #include "tests/collision/crossing_campaign.h"
 
 namespace camway::bench {

@@ -16,7 +16,7 @@
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 #include "tests/bench/field_values.h"
-#include "tests/bench/ompl_peer.h"
+#include "tests/bench/peers/ompl_peer.h"
 
 namespace camway::bench {
 namespace {

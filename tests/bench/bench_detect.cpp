@@ -12,9 +12,9 @@
 #include "tests/bench/camway_side.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
-#include "tests/bench/embree_peer.h"
-#include "tests/bench/fcl_peer.h"
 #include "tests/bench/motion_samples.h"
+#include "tests/bench/peers/embree_peer.h"
+#include "tests/bench/peers/fcl_peer.h"
 
 namespace camway::bench {
 namespace {

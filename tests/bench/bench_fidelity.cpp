@@ -16,7 +16,6 @@
 
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
-#include "tests/bench/fcl_peer.h"
 #include "tests/bench/fidelity/answers.h"
 #include "tests/bench/fidelity/best_known.h"
 #include "tests/bench/fidelity/fidelity.h"
@@ -24,6 +23,7 @@
 #include "tests/bench/fidelity/other_sides.h"
 #include "tests/bench/fidelity/shot.h"
 #include "tests/bench/field_values.h"
+#include "tests/bench/peers/fcl_peer.h"
 
 namespace camway::bench {
 namespace {

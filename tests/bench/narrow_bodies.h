@@ -12,8 +12,8 @@
 /// Bodies that have to pass holes little larger than they are.
 namespace camway::bench {
 
-/// What moves. Each but the ring goes through a hole in a wall that fits its profile, from one room
-/// to another; the ring is lifted off a pole.
+/// The bodies that move. Each but the ring goes through a hole in a wall that fits its profile,
+/// from one room to another; the ring is lifted off a pole.
 inline constexpr std::array<std::string_view, 5> kNarrowBodies = {"box", "L", "table", "piano",
                                                                   "ring"};
 

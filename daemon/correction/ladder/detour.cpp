@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "daemon/correction/ladder/follow_guide.h"
+#include "daemon/correction/narrow/corridor.h"
+#include "daemon/correction/narrow/threaded_guide.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/search/ball_escape.h"
 #include "daemon/correction/search/cell_search.h"
-#include "daemon/correction/search/corridor.h"
 #include "daemon/correction/search/lattice_ways.h"
 #include "daemon/correction/search/other_side.h"
 #include "daemon/correction/search/small_ball_way.h"
-#include "daemon/correction/search/threaded_guide.h"
 #include "daemon/correction/search/tree_search.h"
 
 namespace camway::correction {

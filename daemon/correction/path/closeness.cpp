@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "daemon/motion/path/bezier.h"
 #include "daemon/motion/path/quaternion.h"
 
 namespace camway::correction {
@@ -80,11 +79,6 @@ double simpson_weight(int i, int steps) {
   return i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
 }
 
-motion::CubicPoint point_at(const CubicPiece& piece, double time_s) {
-  const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
-  return {motion::bezier::value_at(piece.position, u), motion::bezier::value_at(piece.image, u)};
-}
-
 /// ∫ shift dt over a piece, which lies in the piece `before` of the original path.
 double integral_of_shift(const CubicPiece& piece, const CubicPiece& before,
                          const Closeness& closeness, double& largest_rad) {
@@ -92,7 +86,8 @@ double integral_of_shift(const CubicPiece& piece, const CubicPiece& before,
   for (int i = 0; i <= kSamplesAPiece; ++i) {
     const double time_s =
         std::lerp(piece.t0_s, piece.t1_s, static_cast<double>(i) / kSamplesAPiece);
-    const double shift = shift_rad(point_at(piece, time_s), point_at(before, time_s), closeness);
+    const double shift =
+        shift_rad(motion::point_at(piece, time_s), motion::point_at(before, time_s), closeness);
     largest_rad = std::max(largest_rad, shift);
     sum += simpson_weight(i, kSamplesAPiece) * shift;
   }

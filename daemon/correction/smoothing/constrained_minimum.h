@@ -29,7 +29,8 @@ class ConstrainedMinimum {
   StackedPoints find(const StackedPoints& variables, std::vector<PathSample>& samples);
 
  private:
-  /// Sets the price at which all gaps that are missing now are worth `kWorthOfRoom` of the form.
+  /// Sets the price of room. At that price all gaps that are missing now are worth `kWorthOfRoom`
+  /// of the form, beside what `ContactBounds` adds for small ones.
   void price_room(const StackedPoints& variables, const std::vector<PathSample>& samples);
   /// Finds the samples with contacts, and how they respond to one another.
   void find_touching(std::vector<PathSample>& samples);

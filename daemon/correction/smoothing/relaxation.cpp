@@ -117,8 +117,8 @@ class Relaxation {
       if (*moved_m < kSettled * radius_m_) return;
       const bool was_whole = *moved_m < 0.99 * trust_m;
       // Room is no part of the form.
-      const bool is_all = !is_safest_ && !makes_room_;
-      if (was_whole && is_all && before - form_.value(variables_) < kGained * before) {
+      const bool form_is_all = !is_safest_ && !makes_room_;
+      if (was_whole && form_is_all && before - form_.value(variables_) < kGained * before) {
         return;
       }
       trust_m = std::min(2.0 * trust_m, kMostTrust * radius_m_);
@@ -155,7 +155,7 @@ class Relaxation {
     form_.bound_about(variables_);
   }
 
-  /// Of the cost, for `kClosest`.
+  /// The largest growth of the cost that is accepted, for `kClosest`.
   [[nodiscard]] double most_growth() const { return makes_room_ ? kPriceOfRoom : 1.0; }
 
   void add_sample(double time_s) {

@@ -10,6 +10,7 @@
 #include "daemon/geometry/convex_hull.h"
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
+#include "daemon/geometry/winding.h"
 #include "daemon/motion/body/closed_mesh.h"
 
 namespace camway::motion {
@@ -78,6 +79,10 @@ bool Body::is_near(const Vec3& point_C, double distance_m) const {
     });
   });
   const Triangle point = {point_C, point_C, point_C};
+  // A point on the surface has no winding number, and is at no distance.
+  if (is_solid_mesh_ && geometry::winding_number(point_C, triangles_C_, *tree_).value_or(0) != 0) {
+    return true;
+  }
   return is_inside || std::ranges::any_of(triangles_C_, [&](const Triangle& triangle) {
            return geometry::triangle_distance(point, triangle) <= distance_m + ball_radius_m_;
          });

@@ -87,7 +87,7 @@ class Body {
   /// Returns a body of any shape. Fails exactly if `fault_in` returns a fault.
   static base::Result<Body> make(const BodyShape& shape);
 
-  /// Whether a point is within `distance_m` of the body, as computed.
+  /// Whether a point is inside the body or within `distance_m` of it, as computed.
   [[nodiscard]] bool is_near(const geometry::Vec3& point_C, double distance_m) const;
 
   /// Returns the body scaled about a point by a factor; for searches, since it bounds no rounding.

@@ -33,11 +33,12 @@ CubicPoint CubicPath::second_derivative(double time_s) const {
           scale * ((1.0 - u) * (x[0] - 2.0 * x[1] + x[2]) + u * (x[1] - 2.0 * x[2] + x[3]))};
 }
 
-CubicPoint CubicPath::at(double time_s) const {
-  const CubicPiece& piece = piece_at(time_s);
+CubicPoint point_at(const CubicPiece& piece, double time_s) {
   const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
   return {bezier::value_at(piece.position, u), bezier::value_at(piece.image, u)};
 }
+
+CubicPoint CubicPath::at(double time_s) const { return point_at(piece_at(time_s), time_s); }
 
 Pose CubicPath::pose(double time_s) const { return pose_of(reference, at(time_s)); }
 

@@ -24,6 +24,9 @@ struct CubicPoint {
   geometry::Vec4 image = geometry::Vec4::Zero();
 };
 
+/// The point of a piece at a time, which is clamped to that of the piece.
+CubicPoint point_at(const CubicPiece& piece, double time_s);
+
 /// The representation of a path that corrections work on: the C² cubic spline of positions and
 /// images that interpolation made, from which the segments of a `Path` follow. Adding any C² bump
 /// to the spline keeps it C²; that would not hold for the sextics of the segments. A value type.

@@ -134,8 +134,8 @@ class TreeDistance : public TreeSearch {
   std::uint32_t number_ = 0;
 };
 
-/// What a moving body keeps from the scene, as `SweptBody` has it. The bounds are those of a point
-/// at a distance from the eye.
+/// The distances that a moving body keeps from the scene, as `SweptBody` has them. The bounds are
+/// those of a point at a distance from the eye.
 struct TreeMargins {
   RadialBound bend;
   RadialBound reach;

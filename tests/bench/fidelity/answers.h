@@ -9,7 +9,7 @@
 #include "daemon/motion/spline/cubic_path.h"
 #include "daemon/planning/request/options.h"
 #include "tests/bench/fidelity/shot.h"
-#include "tests/bench/ompl_peer.h"
+#include "tests/bench/peers/ompl_peer.h"
 
 namespace camway::bench {
 

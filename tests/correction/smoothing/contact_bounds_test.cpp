@@ -31,6 +31,8 @@ std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
 
 constexpr double kViewingDistance_m = 6.0;
 constexpr double kPrice = 30.0;
+constexpr double kSettled_m = 1e-12;  // of the solver; multipliers are off by it over a response
+constexpr double kForceRounding = 1e-9;
 
 /// Returns the distance of the vertex beyond the plane at which the bound is tight.
 double room_at(const BoundConstraint& bound, const Contact& contact, const StackedPoint& moved) {
@@ -77,11 +79,32 @@ TEST(ContactBounds, BuyRoomUntilItCostsMoreThanItsPrice) {
     std::vector<Contact> near = {contact(along, 0.06, 0, 0)};
     bounds.add(0, StackedPoint::Zero(), response, near);
     solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, response),
-             1e-12);
+             kSettled_m);
     bounds.remember();
     const double missing_m = bounds.wanted_m() - 0.06 - response * near[0].soft_multiplier;
-    EXPECT_NEAR(near[0].soft_multiplier, kPrice * missing_m, 1e-9) << response;
+    EXPECT_NEAR(near[0].soft_multiplier, kPrice * missing_m, kForceRounding) << response;
   }
+}
+
+// A body that all but touches gets its first room at a multiple of the price.
+TEST(ContactBounds, PayMoreForTheFirstPartOfAGap) {
+  const auto force_at = [](double room_m) {
+    ContactBounds bounds(Objective::kClosest, kBallRadius_m, kViewingDistance_m);
+    bounds.set_price_of_room(kPrice);
+    StackedPoint along = StackedPoint::Zero();
+    along[1] = 1.0;
+    std::vector<Contact> near = {contact(along, room_m, 0, 0)};
+    // So stiff that the force moves nothing.
+    constexpr double kResponse = 1e-6;
+    bounds.add(0, StackedPoint::Zero(), kResponse, near);
+    solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, kResponse),
+             kSettled_m);
+    bounds.remember();
+    return near[0].soft_multiplier / (bounds.wanted_m() - room_m);
+  };
+  EXPECT_GT(force_at(0.0001), 5.0 * kPrice);
+  EXPECT_GT(force_at(0.005), 2.0 * kPrice);
+  EXPECT_NEAR(force_at(0.03), kPrice, 0.01 * kPrice);
 }
 
 TEST(ContactBounds, WantAShareOfTheRadiusWhereThatShiftsThePictureLittle) {

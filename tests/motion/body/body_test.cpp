@@ -20,6 +20,7 @@ using testing::Random;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Camera kCamera{1.5, 1.0, 0.2};
+constexpr double kScaling = 1e-12;  // rounding of a few products and sums, with room
 
 Body made(const BodyShape& shape) {
   const base::Result<Body> body = Body::make(shape);
@@ -196,6 +197,42 @@ TEST(Body, LengthsNeitherOverflowNorVanish) {
   EXPECT_GE(made(ConvexShape{{{{1e9, 1e9, 1e9}, {0, 0, 0}}}}).radius_m(),
             1e9 * std::numbers::sqrt3);
   EXPECT_GT(made(SphereShape{{5e-324, 0, 0}, 1.0}).radius_m(), 0.0);
+}
+
+TEST(Body, ScalesAboutAPoint) {
+  constexpr double kFactor = 0.25;
+  const Vec3 about(0.5, -1.0, 2.0);
+  const auto moved = [&](const Vec3& point) { return Vec3(about + kFactor * (point - about)); };
+  const BoxShape box{Vec3(1, 2, 3), Vec3(0.5, 1, 2)};
+  const Body scaled = made(box).scaled(about, kFactor);
+  const Body small = made(BoxShape{moved(box.center_C), kFactor * box.size_m});
+  ASSERT_EQ(scaled.triangles_C().size(), small.triangles_C().size());
+  for (std::size_t i = 0; i < small.triangles_C().size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(scaled.triangles_C()[i][k].isApprox(small.triangles_C()[i][k])) << i;
+    }
+  }
+  EXPECT_TRUE(scaled.center_C().isApprox(small.center_C()));
+  EXPECT_NEAR(scaled.radius_m(), small.radius_m(), kScaling * small.radius_m());
+  EXPECT_TRUE(scaled.is_near(moved(box.center_C), 0.0)) << "its solid is scaled, too";
+  EXPECT_FALSE(scaled.is_near(box.center_C, 0.0));
+  EXPECT_EQ(made(SphereShape{about, 2.0}).scaled(about, kFactor).ball_radius_m(), 0.5);
+}
+
+TEST(Body, IsNearWhatIsInsideOrBeside) {
+  const Body box = made(BoxShape{Vec3::Zero(), Vec3(2, 2, 2)});
+  EXPECT_TRUE(box.is_near(Vec3::Zero(), 0.0));
+  EXPECT_TRUE(box.is_near(Vec3(1.25, 0, 0), 0.25));
+  EXPECT_FALSE(box.is_near(Vec3(1.25, 0, 0), 0.125));
+  const Body ball = made(SphereShape{Vec3::Zero(), 1.0});
+  EXPECT_TRUE(ball.is_near(Vec3(0, 1.25, 0), 0.25));
+  EXPECT_FALSE(ball.is_near(Vec3(0, 1.25, 0), 0.125));
+  // A surface is only near itself, a solid mesh also to its inside.
+  MeshShape tetrahedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}},
+                        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  EXPECT_FALSE(made(tetrahedron).is_near(Vec3(0.5, 0.5, 0.5), 0.25));
+  tetrahedron.solid = true;
+  EXPECT_TRUE(made(tetrahedron).is_near(Vec3(0.5, 0.5, 0.5), 0.25));
 }
 
 TEST(Body, NamesItsFeatures) {

@@ -232,7 +232,7 @@ TEST(TreeSearch, VisitsAllPairsWithinADistance) {
   EXPECT_GT(visited, 500U);
 }
 
-// What a clear motion promises, for each pair: the middle is beyond the reach, or a slab that is
+// A clear motion promises for each pair: the middle is beyond the reach, or a slab that is
 // wider than bend and margin separates both ends, so that all straight lines in between are at
 // least that far away.
 class ClearMotion {

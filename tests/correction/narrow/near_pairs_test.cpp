@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/near_pairs.h"
+#include "daemon/correction/narrow/near_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,10 @@
 namespace camway::correction {
 namespace {
 
-using namespace testing_search;  // NOLINT: the fixture of this file
+using geometry::Quat;
+using geometry::Vec3;
+using testing_search::SearchScene;
+using testing_search::sphere;
 
 constexpr double kPairRounding_m = 1e-12;
 
@@ -77,6 +80,36 @@ TEST(NearPairs, PointToWhereTheGapGrows) {
     ++checked;
   }
   EXPECT_GT(checked, 30);
+}
+
+// All of a plate of 28,800 triangles is within the horizon: a smaller one shows enough.
+TEST(NearPairs, OfALargeBodyAreTheNearestOnes) {
+  constexpr std::uint32_t kSteps = 120;
+  constexpr double kGap_m = 0.1;
+  motion::MeshShape plate;
+  for (std::uint32_t i = 0; i <= kSteps; ++i) {
+    for (std::uint32_t k = 0; k <= kSteps; ++k) {
+      plate.vertices_C.emplace_back(i / double{kSteps}, k / double{kSteps}, 0.0);
+    }
+  }
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    for (std::uint32_t k = 0; k < kSteps; ++k) {
+      const std::uint32_t at = i * (kSteps + 1) + k;
+      plate.triangles.push_back({at, at + kSteps + 1, at + 1});
+      plate.triangles.push_back({at + 1, at + kSteps + 1, at + kSteps + 2});
+    }
+  }
+  scene::Mesh floor;
+  testing::add_cuboid(floor, {-2, -2, -1}, {2, 2, 0});
+  const SearchScene scene(floor, *motion::Body::make(plate));
+  FreeSpace space = scene.space();
+  // A slope puts one corner nearest.
+  const motion::Pose pose{Vec3(0, 0, kGap_m),
+                          Quat(Eigen::AngleAxisd(-0.05, Vec3(1, -1, 0).normalized()))};
+  const std::vector<NearPair> pairs = near_pairs(space, pose, 2.0);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_LE(pairs.size(), kMostPairs);
+  EXPECT_NEAR(pairs.front().gap_m, space.gap_m(pose, 2.0), kPairRounding_m);
 }
 
 TEST(NearPairs, KeepTheRequiredClearanceAndTheBall) {

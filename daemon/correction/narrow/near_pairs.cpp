@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/near_pairs.h"
+#include "daemon/correction/narrow/near_pairs.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
+#include <utility>
 
 namespace camway::correction {
 
@@ -12,12 +14,14 @@ using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
 
+/// Pairs of triangles whose features are looked at. Chosen by measurement.
+constexpr std::size_t kMostNear = 16'384;
+
 /// Collects the pairs of features of two triangles.
 class PairCollector {
  public:
   PairCollector(double keep_m, double horizon_m) : keep_m_(keep_m), reach_m_(keep_m + horizon_m) {}
 
-  [[nodiscard]] double reach_m() const { return reach_m_; }
   [[nodiscard]] std::vector<NearPair>& pairs() { return pairs_; }
 
   void add(const Triangle& part, const Triangle& obstacle) {
@@ -78,81 +82,58 @@ class PairCollector {
   std::vector<NearPair> pairs_;
 };
 
-/// The triangles of the body that may be near a box, in the camera frame.
-class PartFinder {
- public:
-  explicit PartFinder(const motion::Body& body) : body_(body) {}
+/// A triangle of the scene and one of the body, by their numbers.
+struct Triangles {
+  std::uint32_t obstacle;
+  std::uint32_t part;
 
-  /// Calls `use(number)` for each triangle whose box, or that of a leaf about it, meets `box_C`.
-  template <class Use>
-  void for_each_near(const Box& box_C, const Use& use) {
-    if (body_.tree() == nullptr) {
-      for (std::uint32_t i = 0; i < body_.triangles_C().size(); ++i) {
-        if (geometry::bounds(body_.triangles_C()[i]).intersects(box_C)) use(i);
-      }
-      return;
-    }
-    const geometry::TriangleTree& tree = *body_.tree();
-    waiting_ = {0};
-    while (!waiting_.empty()) {
-      const std::uint32_t number = waiting_.back();
-      waiting_.pop_back();
-      const geometry::TriangleTree::Node& node = tree.nodes()[number];
-      if (!Box(node.center - node.half, node.center + node.half).intersects(box_C)) continue;
-      if (node.is_leaf()) {
-        for (std::uint32_t i = node.begin; i < node.end; ++i) use(tree.order()[i]);
-      } else {
-        waiting_.push_back(node.second_child);
-        waiting_.push_back(number + 1);
-      }
-    }
-  }
-
- private:
-  const motion::Body& body_;
-  std::vector<std::uint32_t> waiting_;
+  auto operator<=>(const Triangles&) const = default;
 };
 
-Vec3 to_world(const motion::Pose& pose, const Vec3& point_C) {
-  return pose.position + pose.orientation * point_C;
+Triangle placed(const motion::Body& body, const motion::Pose& pose, std::uint32_t number) {
+  Triangle part = body.triangles_C()[number];
+  for (Vec3& vertex : part) vertex = pose.position + pose.orientation * vertex;
+  return part;
 }
 
-/// The triangles of the scene that may be within `reach_m` of the body, each once.
-std::vector<std::uint32_t> near_obstacles(const FreeSpace& space, const motion::Pose& pose,
-                                          double reach_m) {
-  const Box& box_C = space.body().box_C();
-  const Vec3 half = pose.orientation.toRotationMatrix().cwiseAbs() * (0.5 * box_C.sizes()) +
-                    Vec3::Constant(reach_m);
-  const Vec3 center_W = to_world(pose, box_C.center());
-  std::vector<std::uint32_t> obstacles;
-  space.obstacles().index.for_each_touching(Box(center_W - half, center_W + half),
-                                            [&](std::uint32_t index) {
-                                              obstacles.push_back(index);
-                                              return true;
-                                            });
-  std::ranges::sort(obstacles);
-  const auto repeated = std::ranges::unique(obstacles);
-  obstacles.erase(repeated.begin(), repeated.end());
-  return obstacles;
+struct NearTriangles {
+  std::vector<Triangles> pairs;  ///< each once
+  bool is_complete = true;       ///< false if the search ended at `kMostNear` of them
+};
+
+/// The triangles that may be within `reach_m` of one another.
+NearTriangles near_triangles(FreeSpace& space, const motion::Pose& pose, double reach_m) {
+  const Vec3 reach = Vec3::Constant(reach_m);
+  NearTriangles near;
+  space.placed(pose).for_each_pair(reach_m, [&](std::uint32_t number, const Triangle& part,
+                                                std::uint32_t index, const Triangle& obstacle) {
+    const Box box = geometry::bounds(part);
+    if (Box(box.min() - reach, box.max() + reach).intersects(geometry::bounds(obstacle))) {
+      near.pairs.push_back({index, number});
+    }
+    near.is_complete = near.pairs.size() < kMostNear;
+    return near.is_complete;
+  });
+  std::ranges::sort(near.pairs);
+  const auto repeated = std::ranges::unique(near.pairs);
+  near.pairs.erase(repeated.begin(), repeated.end());
+  return near;
 }
 
 }  // namespace
 
 std::vector<NearPair> near_pairs(FreeSpace& space, const motion::Pose& pose, double horizon_m) {
+  NearTriangles near = near_triangles(space, pose, space.keep_m() + horizon_m);
+  while (!near.is_complete) {
+    NearTriangles nearer = near_triangles(space, pose, space.keep_m() + 0.5 * horizon_m);
+    if (nearer.pairs.empty()) break;
+    near = std::move(nearer);
+    horizon_m *= 0.5;
+  }
   PairCollector collector(space.keep_m(), horizon_m);
-  PartFinder finder(space.body());
-  const Vec3 reach = Vec3::Constant(collector.reach_m());
-  for (const std::uint32_t index : near_obstacles(space, pose, collector.reach_m())) {
-    const Triangle obstacle = space.obstacles().index.triangle(index);
-    Box box_C;
-    for (const Vec3& vertex : obstacle) {
-      box_C.extend(Vec3(pose.orientation.conjugate() * (vertex - pose.position)));
-    }
-    finder.for_each_near(Box(box_C.min() - reach, box_C.max() + reach), [&](std::uint32_t number) {
-      Triangle part = space.body().triangles_C()[number];
-      for (Vec3& vertex : part) vertex = to_world(pose, vertex);
-      collector.add(part, obstacle);
-    });
+  for (const Triangles& triangles : near.pairs) {
+    collector.add(placed(space.body(), pose, triangles.part),
+                  space.obstacles().index.triangle(triangles.obstacle));
   }
   std::vector<NearPair>& pairs = collector.pairs();
   std::ranges::stable_sort(pairs, {}, &NearPair::gap_m);

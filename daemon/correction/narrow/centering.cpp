@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/centering.h"
+#include "daemon/correction/narrow/centering.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "daemon/correction/search/near_pairs.h"
+#include "daemon/correction/narrow/near_pairs.h"
 
 namespace camway::correction {
 
@@ -76,12 +76,14 @@ Pose twisted(const FreeSpace& space, const Pose& pose, const Twist& twist) {
 
 }  // namespace
 
-Centered centered(FreeSpace& space, const Pose& pose, double enough_m, const Vec3& along_W) {
+Centered centered(FreeSpace& space, const Pose& pose, double enough_m, const Vec3& along_W,
+                  const base::Deadline& deadline) {
   const double radius_m = space.ball_radius_m();
   const auto gap_m = [&](const Pose& at) { return space.gap_m(at, enough_m); };
   Centered now{pose, gap_m(pose)};
   double gain = kFirstGain;
   for (int i = 0; i < kMostCenterings && now.gap_m < enough_m && gain > kLeastGain; ++i) {
+    if (deadline.passed()) break;
     const double horizon_m = std::max(kPairHorizon * now.gap_m, kLeastPairHorizon * radius_m);
     const std::vector<NearPair> pairs = near_pairs(space, now.pose, horizon_m);
     if (pairs.empty()) break;
@@ -140,7 +142,7 @@ std::optional<Centered> Fitter::fitted(const Pose& place) {
     const bool is_whole = scale == 1.0;
     std::optional<Thin> thin;
     if (!is_whole) thin.emplace(space_, scale);
-    now = centered(is_whole ? space_ : thin->space, now.pose, radius_m, Vec3::Zero());
+    now = centered(is_whole ? space_ : thin->space, now.pose, radius_m, Vec3::Zero(), deadline_);
     if (is_whole) return now.gap_m > 0.0 ? std::optional(now) : std::nullopt;
     const double growth = kGrowthOfGap * now.gap_m / radius_m;
     if (growth < kLeastGrowth && scale + growth < 1.0) return std::nullopt;

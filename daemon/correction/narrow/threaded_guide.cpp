@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/threaded_guide.h"
+#include "daemon/correction/narrow/threaded_guide.h"
 
 #include <vector>
 
-#include "daemon/correction/search/narrow_passage.h"
+#include "daemon/correction/narrow/narrow_passage.h"
 
 namespace camway::correction {
 

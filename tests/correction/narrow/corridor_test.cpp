@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/corridor.h"
+#include "daemon/correction/narrow/corridor.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,12 @@
 namespace camway::correction {
 namespace {
 
-using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::SignedPose;
+using testing_search::is_proved_free;
+using testing_search::SearchScene;
 
 constexpr double kPoleTop_m = 2.0;
 constexpr int kRingParts = 12;

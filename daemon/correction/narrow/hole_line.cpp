@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/hole_line.h"
+#include "daemon/correction/narrow/hole_line.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/narrow_passage.h"
+#include "daemon/correction/narrow/narrow_passage.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/correction/narrow/centering.h"
+#include "daemon/correction/narrow/corridor.h"
+#include "daemon/correction/narrow/hole_line.h"
 #include "daemon/correction/path/orientation_rule.h"
-#include "daemon/correction/search/centering.h"
-#include "daemon/correction/search/corridor.h"
-#include "daemon/correction/search/hole_line.h"
 
 namespace camway::correction {
 

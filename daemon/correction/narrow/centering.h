@@ -22,8 +22,9 @@ struct Centered {
 /// Each step asks for a larger gap: the shortest change of the pose with which all near pairs
 /// (`near_pairs.h`) have it to first order. It is taken if the gap grew indeed, and halved
 /// otherwise.
+/// The deadline ends it early.
 Centered centered(FreeSpace& space, const motion::Pose& pose, double enough_m,
-                  const geometry::Vec3& along_W);
+                  const geometry::Vec3& along_W, const base::Deadline& deadline);
 
 /// Fits the body into narrow places: finds free poses near places at which it collides.
 ///
@@ -53,7 +54,7 @@ class Fitter {
 
   FreeSpace& space_;
   const base::Deadline& deadline_;
-  /// Of the first scales, the largest first; null until one is needed.
+  /// The scaled-down bodies that growth begins with, the largest first; null until one is needed.
   std::vector<std::unique_ptr<Thin>> thin_;
 };
 

@@ -10,7 +10,7 @@
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/motion/path/path.h"
 #include "daemon/scene/mesh/mesh.h"
-#include "tests/bench/fcl_peer.h"
+#include "tests/bench/peers/fcl_peer.h"
 
 namespace camway::bench {
 

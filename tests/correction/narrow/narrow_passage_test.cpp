@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/narrow_passage.h"
+#include "daemon/correction/narrow/narrow_passage.h"
 
 #include <gtest/gtest.h>
 

@@ -17,8 +17,9 @@ struct NearPair {
 };
 
 /// Returns the pairs of the body at `pose` with a gap below `horizon_m`, the least gaps first, at
-/// most `kMostPairs` of them. The least is the gap of the body, as computed. Only triangles of the
-/// scene count, not the bounds. Requires the body to be free at `pose`.
+/// most `kMostPairs` of them. Where thousands of triangles of a large body are near, the horizon is
+/// halved until they are fewer. The least gap is that of the body, as computed. Only triangles of
+/// the scene count, not the bounds. Requires the body to be free at `pose`.
 std::vector<NearPair> near_pairs(FreeSpace& space, const motion::Pose& pose, double horizon_m);
 
 inline constexpr std::size_t kMostPairs = 256;

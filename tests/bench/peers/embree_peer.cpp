@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/bench/embree_peer.h"
+#include "tests/bench/peers/embree_peer.h"
 
 #include <embree3/rtcore.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/corridor.h"
+#include "daemon/correction/narrow/corridor.h"
 
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
 
-#include "daemon/correction/search/centering.h"
-#include "daemon/correction/search/near_pairs.h"
+#include "daemon/correction/narrow/centering.h"
+#include "daemon/correction/narrow/near_pairs.h"
 
 namespace camway::correction {
 
@@ -92,8 +92,8 @@ class Walker {
   [[nodiscard]] std::optional<SignedPose> stepped(const SignedPose& from, const Vec3& by_W) {
     const SignedPose next{from.position + by_W, from.orientation};
     if (!is_free(from, next)) return std::nullopt;
-    const Centered there =
-        centered(space_, motion::unsigned_pose(next), kOpenGap * radius_m_, by_W.normalized());
+    const Centered there = centered(space_, motion::unsigned_pose(next), kOpenGap * radius_m_,
+                                    by_W.normalized(), deadline_);
     const SignedPose central = signed_like(there.pose, from);
     return is_free(from, central) ? central : next;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/search/centering.h"
+#include "daemon/correction/narrow/centering.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,13 @@
 namespace camway::correction {
 namespace {
 
-using namespace testing_search;  // NOLINT: the fixture of this file
+using base::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using testing_search::SearchScene;
 
 const Vec3 kBox_m(0.5, 0.3, 1.2);
+constexpr double kGapRounding_m = 1e-9;  // of poses that many small turns have led to
 
 motion::Body box() { return *motion::Body::make(motion::BoxShape{Vec3::Zero(), kBox_m}); }
 
@@ -40,13 +44,13 @@ TEST(Centered, FindsTheMiddleOfAHole) {
     const motion::Pose start{Vec3(0.3 * spare_m, -0.4 * spare_m, random.uniform(-0.1, 0.1)),
                              Quat(Eigen::AngleAxisd(0.1 * spare_m, Vec3::UnitY()))};
     const double before_m = scene.distance_m(start);
-    const Centered found = centered(space, start, 1.0, Vec3::UnitZ());
+    const Centered found = centered(space, start, 1.0, Vec3::UnitZ(), Deadline::never());
     EXPECT_GT(found.gap_m, before_m);
     EXPECT_GT(found.gap_m, 0.95 * 0.5 * spare_m);
-    EXPECT_LE(found.gap_m, 0.5 * spare_m * (1.0 + 1e-9));
-    EXPECT_NEAR(found.gap_m, scene.distance_m(found.pose), 1e-9);
+    EXPECT_LE(found.gap_m, 0.5 * spare_m + kGapRounding_m);
+    EXPECT_NEAR(found.gap_m, scene.distance_m(found.pose), kGapRounding_m);
     // It moved across the axis only.
-    EXPECT_NEAR(found.pose.position.z(), start.position.z(), 1e-9);
+    EXPECT_NEAR(found.pose.position.z(), start.position.z(), kGapRounding_m);
   }
 }
 
@@ -60,9 +64,9 @@ TEST(Centered, NeverLosesRoom) {
     const double before_m = scene.distance_m(start);
     if (!(before_m > 1e-3)) continue;
     FreeSpace space = scene.space();
-    const Centered found = centered(space, start, kEnough_m, Vec3::Zero());
-    EXPECT_GE(found.gap_m, std::min(before_m, kEnough_m) * (1.0 - 1e-9));
-    EXPECT_NEAR(found.gap_m, std::min(scene.distance_m(found.pose), kEnough_m), 1e-9);
+    const Centered found = centered(space, start, kEnough_m, Vec3::Zero(), Deadline::never());
+    EXPECT_GE(found.gap_m, std::min(before_m, kEnough_m) - kGapRounding_m);
+    EXPECT_NEAR(found.gap_m, std::min(scene.distance_m(found.pose), kEnough_m), kGapRounding_m);
   }
 }
 
@@ -77,13 +81,13 @@ TEST(Fitter, FitsABodyIntoAHoleThatIsLittleLarger) {
       FreeSpace space = scene.space();
       const motion::Pose place{0.03 * random.in_cube(1.0),
                                Quat(Eigen::AngleAxisd(random.uniform(-0.07, 0.07), Vec3::UnitZ()))};
-      const base::Deadline never = base::Deadline::never();
+      const Deadline never = Deadline::never();
       Fitter fitter(space, never);
       const std::optional<Centered> found = fitter.fitted(place);
       ASSERT_TRUE(found);
       EXPECT_GT(found->gap_m, 0.0);
       EXPECT_GT(found->gap_m, 0.8 * 0.5 * spare * kBox_m.y());
-      EXPECT_NEAR(found->gap_m, scene.distance_m(found->pose), 1e-9);
+      EXPECT_NEAR(found->gap_m, scene.distance_m(found->pose), kGapRounding_m);
       EXPECT_LT(std::abs(found->pose.position.z()), 0.6) << "it is still in the hole";
     }
   }
@@ -92,7 +96,7 @@ TEST(Fitter, FitsABodyIntoAHoleThatIsLittleLarger) {
 TEST(Fitter, EndsAtTheDeadline) {
   const SearchScene scene(wall_with_hole(1.01 * kBox_m.x(), 1.01 * kBox_m.y(), 0.2), box());
   FreeSpace space = scene.space();
-  const base::Deadline passed = base::Deadline::after_s(0.0);
+  const Deadline passed = Deadline::after_s(0.0);
   Fitter fitter(space, passed);
   const motion::Pose place{Vec3(0.01, 0.01, 0.0), Quat::Identity()};
   EXPECT_EQ(fitter.free_scale(place), 0.0);
@@ -103,7 +107,7 @@ TEST(Fitter, FitsNothingIntoAHoleThatIsTooSmall) {
   testing::Random random(5204);
   const SearchScene scene(wall_with_hole(0.99 * kBox_m.x(), 0.99 * kBox_m.y(), 0.2), box());
   FreeSpace space = scene.space();
-  const base::Deadline never = base::Deadline::never();
+  const Deadline never = Deadline::never();
   Fitter fitter(space, never);
   for (int run = 0; run < 6; ++run) {
     const motion::Pose place{0.02 * random.in_cube(1.0), Quat::Identity()};
