@@ -302,7 +302,7 @@ class CageSearch {
 
 }  // namespace
 
-std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::optional<Cage> find_cage(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                               std::span<const Vec3> centers_W, double shortest_chord_m,
                               double within_m) {
   if (centers_W.size() < 2) return std::nullopt;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "daemon/correction/infeasibility/cage_box.h"
-#include "daemon/correction/infeasibility/closed_surfaces.h"
 #include "daemon/geometry/types.h"
+#include "daemon/scene/mesh/closed_surfaces.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::correction {
@@ -60,7 +60,7 @@ struct Cage {
 ///   the plane of a face, as where a mesh divides a floor in two ways.
 ///
 /// Bounded in time. Thread-safe.
-std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::optional<Cage> find_cage(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                               std::span<const geometry::Vec3> centers_W, double shortest_chord_m,
                               double within_m);
 

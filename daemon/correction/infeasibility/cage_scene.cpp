@@ -95,14 +95,14 @@ std::vector<Turn> common_turns(const CageScene& scene) {
 
 }  // namespace
 
-CageScene::CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+CageScene::CageScene(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                      double shortest_chord_m)
     : original_(&mesh) {
   add_barriers(surfaces, shortest_chord_m);
   for (int axis = 0; axis < 3; ++axis) add_flats(axis);
 }
 
-CageScene::CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+CageScene::CageScene(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                      double shortest_chord_m, int axis, double angle_rad)
     : original_(&mesh),
       axis_(axis),
@@ -121,9 +121,9 @@ CageScene::CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
   add_flats(axis);
 }
 
-void CageScene::add_barriers(const ClosedSurfaces& surfaces, double shortest_chord_m) {
-  barrier_of_.assign(mesh().triangles.size(), kNoIndex);
-  for (const IndexSet& surface : surfaces.surfaces) {
+void CageScene::add_barriers(const scene::ClosedSurfaces& surfaces, double shortest_chord_m) {
+  barrier_of_.assign(mesh().triangles.size(), scene::kNoIndex);
+  for (const scene::IndexSet& surface : surfaces.surfaces) {
     Barrier barrier;
     barrier.is_stepped = !is_turned();
     for (const std::uint32_t patch : surface) {
@@ -174,7 +174,7 @@ std::size_t CageScene::bars() const {
       barriers_.begin(), barriers_.end(), [](const Barrier& barrier) { return barrier.is_bar; }));
 }
 
-std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                                    double shortest_chord_m) {
   std::vector<CageScene> result;
   result.emplace_back(mesh, surfaces, shortest_chord_m);
@@ -240,7 +240,7 @@ CageBoxes::Sides CageBoxes::nearest_flats(const Vec3& center) const {
     const auto is_hit = [&](const FlatTriangle& flat) {
       const Triangle t = scene_.mesh().triangle(flat.triangle);
       const std::uint32_t barrier = scene_.barrier_of(flat.triangle);
-      return (barrier == kNoIndex || !scene_.barriers()[barrier].is_bar) &&
+      return (barrier == scene::kNoIndex || !scene_.barriers()[barrier].is_bar) &&
              geometry::passes_through(geometry::ray_hit(
                  turned(center, 0.0), {turned(t[0], 1.0), turned(t[1], 1.0), turned(t[2], 1.0)}));
     };

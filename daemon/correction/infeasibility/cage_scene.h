@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "daemon/correction/infeasibility/closed_surfaces.h"
 #include "daemon/geometry/types.h"
+#include "daemon/scene/mesh/closed_surfaces.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::correction {
@@ -38,10 +38,11 @@ struct FlatTriangle {
 class CageScene {
  public:
   /// Prepares the scene in the frame of the world. Refers to `mesh`, which must outlive it.
-  CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, double shortest_chord_m);
+  CageScene(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
+            double shortest_chord_m);
   /// Prepares the scene in a frame that is turned about an axis of the world by `angle_rad`, which
   /// is not 0. Refers to `mesh`, which must outlive it.
-  CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, double shortest_chord_m,
+  CageScene(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces, double shortest_chord_m,
             int axis, double angle_rad);
 
   /// The mesh in the frame, with rounded vertices.
@@ -70,7 +71,7 @@ class CageScene {
   }
 
  private:
-  void add_barriers(const ClosedSurfaces& surfaces, double shortest_chord_m);
+  void add_barriers(const scene::ClosedSurfaces& surfaces, double shortest_chord_m);
   void add_flats(int axis);
   [[nodiscard]] bool is_turned() const { return angle_rad_ != 0.0; }
 
@@ -91,7 +92,7 @@ class CageScene {
 /// `kMostTrianglesOfBar` triangles count that have a triangle perpendicular to one of the two
 /// turned axes; the turns with the most such surfaces are chosen. A turn with fewer of them than a
 /// face needs (`kLeastBars`) is left out. The result refers to `mesh`, which must outlive it.
-std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                                    double shortest_chord_m);
 
 /// Candidate boxes for cages around a point, likely ones first.

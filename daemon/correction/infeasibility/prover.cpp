@@ -42,11 +42,6 @@ Prover::Prover(const scene::WholeMesh& mesh, const motion::Body& body,
   }
 }
 
-const ClosedSurfaces& Prover::surfaces() {
-  if (!surfaces_) surfaces_ = find_closed_surfaces(*mesh_);
-  return *surfaces_;
-}
-
 bool Prover::is_separated() {
   if (!looked_for_separation_) {
     looked_for_separation_ = true;
@@ -60,8 +55,8 @@ std::optional<Separation> Prover::separation_of_body() {
   // The proof needs a point of the body; the eye is none.
   const geometry::Triangle& part = body_.triangles_C().front();
   const Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
-  std::optional<Separation> found =
-      find_separation(*mesh_, surfaces(), points_W(poses_as_asked_, point_C), kPointRounding_m);
+  std::optional<Separation> found = find_separation(
+      *mesh_, mesh_.closed_surfaces(), points_W(poses_as_asked_, point_C), kPointRounding_m);
   if (!found || smallest_ == 1.0) return found;
   const auto way_W = [&](std::size_t keyframe) {
     const motion::Pose& pose = poses_as_asked_[keyframe];
@@ -94,7 +89,7 @@ std::optional<Cage> Prover::cage_of_camera(double smallest,
   const geometry::Box& rectangle_C = body_.box_C();
   const Vec3 center_C = rectangle_C.center();
   const double side_m = rectangle_C.sizes().head<2>().minCoeff();
-  return find_cage(*mesh_, surfaces(), points_W(poses, center_C), smallest * side_m,
+  return find_cage(*mesh_, mesh_.closed_surfaces(), points_W(poses, center_C), smallest * side_m,
                    kPointRounding_m + (1.0 - smallest) * center_C.norm());
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "daemon/correction/infeasibility/cage.h"
-#include "daemon/correction/infeasibility/closed_surfaces.h"
 #include "daemon/correction/infeasibility/separation.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/keyframe.h"
@@ -49,7 +48,6 @@ class Prover {
   std::optional<Separation> separation_of_body();
   void look_for_cage();
   std::optional<Cage> cage_of_camera(double smallest, const std::vector<motion::Pose>& poses);
-  const ClosedSurfaces& surfaces();
 
   const scene::WholeMesh& mesh_;
   const motion::Body& body_;
@@ -57,7 +55,6 @@ class Prover {
   std::vector<std::size_t> as_asked_;         ///< indices of the keyframes that are not repaired
   std::vector<motion::Pose> poses_as_asked_;  ///< poses of these keyframes
   std::vector<motion::Pose> poses_;           ///< poses of all keyframes
-  std::optional<ClosedSurfaces> surfaces_;    ///< closed surfaces of the scene, once computed
   bool looked_for_separation_ = false;
   bool looked_for_cage_ = false;
   std::optional<Separation> separation_;

@@ -31,8 +31,8 @@ bool is_clear(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangl
 
 class Search {
  public:
-  Search(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, std::span<const Vec3> points_W,
-         double within_m)
+  Search(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
+         std::span<const Vec3> points_W, double within_m)
       : mesh_(mesh), surfaces_(surfaces), points_(points_W), within_m_(within_m) {
     count_hits();
   }
@@ -42,30 +42,32 @@ class Search {
     if (surfaces_.complete) return std::nullopt;
     const std::size_t last = std::min(points_.size(), kMaxPointsToLookAround);
     for (std::size_t i = 0; i < last; ++i) {
-      const ReducedPatches near =
+      const scene::ReducedPatches near =
           reduce_patches(surfaces_.complex, surfaces_.seams_of, nearest_first(points_[i]),
-                         kMaxEliminationStepsNear);
+                         scene::kMaxEliminationStepsNear);
       if (std::optional<Separation> found = among(near.surfaces)) return found;
     }
     return std::nullopt;
   }
 
  private:
-  [[nodiscard]] std::optional<Separation> among(const std::vector<IndexSet>& surfaces) const {
-    std::vector<const IndexSet*> separating;
-    for (const IndexSet& surface : surfaces) {
+  [[nodiscard]] std::optional<Separation> among(
+      const std::vector<scene::IndexSet>& surfaces) const {
+    std::vector<const scene::IndexSet*> separating;
+    for (const scene::IndexSet& surface : surfaces) {
       if (separates(surface)) separating.push_back(&surface);
     }
-    std::stable_sort(separating.begin(), separating.end(),
-                     [&](const IndexSet* a, const IndexSet* b) { return size(*a) < size(*b); });
-    for (const IndexSet* surface : separating) {
+    std::stable_sort(
+        separating.begin(), separating.end(),
+        [&](const scene::IndexSet* a, const scene::IndexSet* b) { return size(*a) < size(*b); });
+    for (const scene::IndexSet* surface : separating) {
       if (std::optional<Separation> found = proof(*surface)) return found;
     }
     return std::nullopt;
   }
 
   [[nodiscard]] std::vector<std::uint32_t> nearest_first(const Vec3& point) const {
-    const Lists& patches = surfaces_.complex.patches;
+    const scene::Lists& patches = surfaces_.complex.patches;
     std::vector<double> distance2(patches.size(), std::numeric_limits<double>::infinity());
     for (std::size_t patch = 0; patch < patches.size(); ++patch) {
       for (const std::uint32_t t : patches[patch]) {
@@ -92,14 +94,14 @@ class Search {
       for (const std::uint32_t t : surfaces_.complex.patches[patch]) {
         count_hits(by_y, mesh_.triangle(t), odd_points_[patch]);
       }
-      IndexSet& hits = odd_points_[patch];
+      scene::IndexSet& hits = odd_points_[patch];
       std::sort(hits.begin(), hits.end());
       cancel_pairs(hits);
     }
   }
 
   void count_hits(const std::vector<std::uint32_t>& by_y, const Triangle& triangle,
-                  IndexSet& hits) const {
+                  scene::IndexSet& hits) const {
     const auto [low, high] = std::minmax({triangle[0].y(), triangle[1].y(), triangle[2].y()});
     auto point = std::lower_bound(by_y.begin(), by_y.end(), low,
                                   [&](std::uint32_t i, double y) { return points_[i].y() < y; });
@@ -110,7 +112,7 @@ class Search {
     }
   }
 
-  static void cancel_pairs(IndexSet& sorted) {
+  static void cancel_pairs(scene::IndexSet& sorted) {
     std::size_t kept = 0;
     for (const std::uint32_t i : sorted) {
       if (kept > 0 && sorted[kept - 1] == i) {
@@ -122,8 +124,8 @@ class Search {
     sorted.resize(kept);
   }
 
-  [[nodiscard]] IndexSet odd_points(const IndexSet& surface) const {
-    IndexSet odd;
+  [[nodiscard]] scene::IndexSet odd_points(const scene::IndexSet& surface) const {
+    scene::IndexSet odd;
     for (const std::uint32_t patch : surface) {
       odd.insert(odd.end(), odd_points_[patch].begin(), odd_points_[patch].end());
     }
@@ -132,12 +134,12 @@ class Search {
     return odd;
   }
 
-  [[nodiscard]] bool separates(const IndexSet& surface) const {
+  [[nodiscard]] bool separates(const scene::IndexSet& surface) const {
     const std::size_t odd = odd_points(surface).size();
     return odd > 0 && odd < points_.size();
   }
 
-  [[nodiscard]] std::size_t size(const IndexSet& surface) const {
+  [[nodiscard]] std::size_t size(const scene::IndexSet& surface) const {
     std::size_t triangles = 0;
     for (const std::uint32_t patch : surface) triangles += surfaces_.complex.patches[patch].size();
     return triangles;
@@ -145,7 +147,7 @@ class Search {
 
   /// Returns the surface and the first point on either side that is clear of it, checked from
   /// scratch.
-  [[nodiscard]] std::optional<Separation> proof(const IndexSet& surface) const {
+  [[nodiscard]] std::optional<Separation> proof(const scene::IndexSet& surface) const {
     Separation result;
     for (const std::uint32_t patch : surface) {
       const std::span<const std::uint32_t> triangles = surfaces_.complex.patches[patch];
@@ -168,15 +170,16 @@ class Search {
   }
 
   const scene::Mesh& mesh_;
-  const ClosedSurfaces& surfaces_;
+  const scene::ClosedSurfaces& surfaces_;
   std::span<const Vec3> points_;
   double within_m_;
-  std::vector<IndexSet> odd_points_;  ///< by patch
+  std::vector<scene::IndexSet> odd_points_;  ///< by patch
 };
 
 }  // namespace
 
-std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::optional<Separation> find_separation(const scene::Mesh& mesh,
+                                          const scene::ClosedSurfaces& surfaces,
                                           std::span<const Vec3> points_W, double within_m) {
   if (points_W.size() < 2) return std::nullopt;
   return Search(mesh, surfaces, points_W, within_m).run();

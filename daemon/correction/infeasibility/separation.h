@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "daemon/correction/infeasibility/closed_surfaces.h"
 #include "daemon/geometry/types.h"
+#include "daemon/scene/mesh/closed_surfaces.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::correction {
@@ -41,7 +41,8 @@ struct Separation {
 /// edge that ends in the middle of another, leave a slit, and a proof must not close slits. Of
 /// several surfaces a small one is returned, not necessarily the smallest; the choice is
 /// deterministic. Linear in triangles times points. Thread-safe.
-std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
+std::optional<Separation> find_separation(const scene::Mesh& mesh,
+                                          const scene::ClosedSurfaces& surfaces,
                                           std::span<const geometry::Vec3> points_W,
                                           double within_m);
 

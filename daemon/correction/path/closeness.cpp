@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "daemon/motion/path/bezier.h"
 #include "daemon/motion/path/quaternion.h"
 
 namespace camway::correction {
@@ -19,7 +20,6 @@ using motion::CubicPath;
 using motion::CubicPiece;
 
 constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's rule
-constexpr double kInside = 1e-6;         // share of a piece: beside its ends
 constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
 constexpr double kPercentile = 0.99;     // of the acceleration
 constexpr int kAccelerationSamples = 8;  // in a piece
@@ -32,19 +32,31 @@ Point second_derivative(const std::array<Point, 4>& points, double duration_s, d
   return 6.0 / (duration_s * duration_s) * ((1.0 - u) * first + u * last);
 }
 
-/// Calls `use(piece, other)` for each piece of `path` and the piece of `original` in which it lies.
+bool is_same(const CubicPiece& a, const CubicPiece& b) {
+  return a.t0_s == b.t0_s && a.t1_s == b.t1_s && a.position == b.position && a.image == b.image;
+}
+
+/// The part of a piece over the time of `of`, which lies in it.
+CubicPiece part_of(const CubicPiece& piece, const CubicPiece& of) {
+  if (piece.t0_s == of.t0_s && piece.t1_s == of.t1_s) return piece;
+  const double duration_s = piece.t1_s - piece.t0_s;
+  const double u0 = std::clamp((of.t0_s - piece.t0_s) / duration_s, 0.0, 1.0);
+  const double u1 = std::clamp((of.t1_s - piece.t0_s) / duration_s, 0.0, 1.0);
+  return {of.t0_s, of.t1_s, motion::bezier::sub_curve(piece.position, u0, u1),
+          motion::bezier::sub_curve(piece.image, u0, u1)};
+}
+
+/// Calls `use(piece, before)` for each piece of `path` that differs from `before`, the part of
+/// `original` at the same time.
 template <class Use>
 void for_each_pair(const CubicPath& path, const CubicPath& original, const Use& use) {
   std::size_t k = 0;
   for (const CubicPiece& piece : path.pieces) {
     const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
     while (k + 1 < original.pieces.size() && original.pieces[k].t1_s <= middle_s) ++k;
-    use(piece, original.pieces[k]);
+    const CubicPiece before = part_of(original.pieces[k], piece);
+    if (!is_same(piece, before)) use(piece, before);
   }
-}
-
-bool is_same(const CubicPiece& a, const CubicPiece& b) {
-  return a.t0_s == b.t0_s && a.t1_s == b.t1_s && a.position == b.position && a.image == b.image;
 }
 
 double turn_rad(const Vec4& image, const Vec4& other) {
@@ -55,43 +67,49 @@ double turn_rad(const Vec4& image, const Vec4& other) {
   return 4.0 * std::asin(std::min(1.0, 0.5 * apart));
 }
 
-double shift_rad(const motion::CubicPoint& now, const motion::CubicPoint& before,
-                 const Closeness& closeness) {
-  const double moved_m = (now.position - before.position).norm();
-  const double turned_rad = now.image == before.image ? 0.0 : turn_rad(now.image, before.image);
-  return (moved_m + closeness.turn_lever_m * turned_rad) / closeness.viewing_distance_m;
-}
+/// The change of a piece from the one that it replaces: Bézier curves, too.
+struct Change {
+  std::array<Vec3, 4> moved_m;
+  std::array<Vec4, 4> of_image;
+  double duration_s;
 
-/// Squared second derivative of the offset of `now` from `before` at u, with images by their lever.
-double squared_acceleration(const CubicPiece& now, const CubicPath& original, double u,
-                            const Closeness& closeness) {
-  const double duration_s = now.t1_s - now.t0_s;
-  // Inside the piece, where the original has one second derivative.
-  const double time_s = std::lerp(now.t0_s, now.t1_s, std::clamp(u, kInside, 1.0 - kInside));
-  const motion::CubicPoint before = original.second_derivative(time_s);
-  const Vec3 moved = second_derivative(now.position, duration_s, u) - before.position;
-  const Vec4 turned = second_derivative(now.image, duration_s, u) - before.image;
-  const double lever_m = 4.0 * closeness.turn_lever_m;
-  return moved.squaredNorm() + lever_m * lever_m * turned.squaredNorm();
-}
+  Change(const CubicPiece& now, const CubicPiece& before) : duration_s(now.t1_s - now.t0_s) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      moved_m[i] = now.position[i] - before.position[i];
+      of_image[i] = now.image[i] - before.image[i];
+    }
+  }
+
+  /// Squared second derivative at u, with images by their lever.
+  [[nodiscard]] double squared_acceleration(double u, const Closeness& closeness) const {
+    const double lever_m = 4.0 * closeness.turn_lever_m;
+    return second_derivative(moved_m, duration_s, u).squaredNorm() +
+           lever_m * lever_m * second_derivative(of_image, duration_s, u).squaredNorm();
+  }
+};
 
 double simpson_weight(int i, int steps) {
   return i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
 }
 
-/// ∫ shift dt over a piece, which lies in the piece `before` of the original path.
-double integral_of_shift(const CubicPiece& piece, const CubicPiece& before,
+/// ∫ shift dt over a piece, which takes the place of the piece `before` of the original path.
+double integral_of_shift(const CubicPiece& now, const CubicPiece& before,
                          const Closeness& closeness, double& largest_rad) {
+  using motion::bezier::value_at;
+  const Change change(now, before);
+  const bool turns = now.image != before.image;
   double sum = 0.0;
   for (int i = 0; i <= kSamplesAPiece; ++i) {
-    const double time_s =
-        std::lerp(piece.t0_s, piece.t1_s, static_cast<double>(i) / kSamplesAPiece);
-    const double shift =
-        shift_rad(motion::point_at(piece, time_s), motion::point_at(before, time_s), closeness);
-    largest_rad = std::max(largest_rad, shift);
-    sum += simpson_weight(i, kSamplesAPiece) * shift;
+    const double u = static_cast<double>(i) / kSamplesAPiece;
+    const double moved_m = value_at(change.moved_m, u).norm();
+    const double turned_rad =
+        turns ? turn_rad(value_at(now.image, u), value_at(before.image, u)) : 0.0;
+    const double shift_rad =
+        (moved_m + closeness.turn_lever_m * turned_rad) / closeness.viewing_distance_m;
+    largest_rad = std::max(largest_rad, shift_rad);
+    sum += simpson_weight(i, kSamplesAPiece) * shift_rad;
   }
-  return sum * (piece.t1_s - piece.t0_s) / (3.0 * kSamplesAPiece);
+  return sum * change.duration_s / (3.0 * kSamplesAPiece);
 }
 
 }  // namespace
@@ -104,7 +122,6 @@ double Closeness::best_spacing_s(double height_m) const {
 Shift shift_of(const CubicPath& path, const CubicPath& original, const Closeness& closeness) {
   Shift shift;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    if (is_same(now, before)) return;
     shift.mean_rad += integral_of_shift(now, before, closeness, shift.largest_rad);
   });
   shift.mean_rad /= path.end_s() - path.begin_s();
@@ -117,12 +134,12 @@ double closeness_cost(const CubicPath& path, const CubicPath& original,
   double largest_rad = 0.0;
   const double a = closeness.acceleration_m_per_s2;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    if (is_same(now, before)) return;
     cost += integral_of_shift(now, before, closeness, largest_rad);
     // The offset's second derivative is linear: Simpson's rule is exact for its square.
-    const double squares = squared_acceleration(now, original, 0.0, closeness) +
-                           4.0 * squared_acceleration(now, original, 0.5, closeness) +
-                           squared_acceleration(now, original, 1.0, closeness);
+    const Change change(now, before);
+    const double squares = change.squared_acceleration(0.0, closeness) +
+                           4.0 * change.squared_acceleration(0.5, closeness) +
+                           change.squared_acceleration(1.0, closeness);
     cost += kAccelerationWeight_rad * squares * (now.t1_s - now.t0_s) / 6.0 / (a * a);
   });
   return cost;

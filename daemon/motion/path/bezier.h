@@ -31,9 +31,14 @@ void step(std::array<Value, N>& c, std::size_t count, double u) {
 
 /// The curve's value at `u`.
 template <class Value, std::size_t N>
-Value value_at(std::array<Value, N> c, double u) {
-  for (std::size_t count = N; count > 1; --count) step(c, count, u);
-  return c[0];
+Value value_at(const std::array<Value, N>& c, double u) {
+  if constexpr (N == 1) {
+    return c[0];
+  } else {
+    std::array<Value, N - 1> shorter;
+    for (std::size_t i = 0; i + 1 < N; ++i) shorter[i] = lerp(c[i], c[i + 1], u);
+    return value_at(shorter, u);
+  }
 }
 
 /// Value and first two derivatives with respect to the parameter.

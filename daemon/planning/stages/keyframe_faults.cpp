@@ -14,10 +14,10 @@ namespace {
 
 using base::Deadline;
 using correction::FreePose;
-using correction::IndexSet;
 using geometry::Vec3;
 using motion::Keyframe;
 using motion::Pose;
+using scene::IndexSet;
 
 // Distance that a free pose keeps, in tolerances, so that a path can leave it.
 constexpr double kMargin = 10.0;
@@ -52,7 +52,7 @@ class Search {
 
  private:
   void find_free_poses() {
-    sides_.emplace(*snapshot_.mesh, space_.obstacles().index);
+    sides_.emplace(snapshot_.mesh, space_.obstacles().index);
     const bool any_free = faults_.size() < checked_;
     const Side usual = any_free ? Side{} : side_of_most();
     for (KeyframeFault& fault : faults_) {
@@ -117,7 +117,7 @@ class Search {
       }
     }
     if (insides.empty()) return {};
-    return {insides.front(), correction::sum_mod_2(insides.front(), insides.back())};
+    return {insides.front(), scene::sum_mod_2(insides.front(), insides.back())};
   }
 
   [[nodiscard]] Side side_of_most() {
@@ -143,8 +143,7 @@ class Search {
                                 const std::vector<std::size_t>& neighbours) {
     const auto is_on_side = [&](const Pose& pose) {
       const std::optional<IndexSet> inside = around(pose);
-      return inside &&
-             std::ranges::includes(side.either, correction::sum_mod_2(*inside, side.inside));
+      return inside && std::ranges::includes(side.either, scene::sum_mod_2(*inside, side.inside));
     };
     const auto is_seen = [&](const Pose& pose) {
       return std::ranges::any_of(neighbours, [&](std::size_t i) {

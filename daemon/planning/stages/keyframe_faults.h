@@ -31,7 +31,7 @@ struct KeyframeFaults {
 /// disagree, there is no path wherever the keyframe is moved. If no keyframe is free, the
 /// majority of the nearest free poses decides, and a tie counts as outside. So a request does not
 /// become infeasible because a keyframe is moved to its free pose. Closed surfaces are those that
-/// `correction/infeasibility/closed_surfaces` finds. A surface that is not closed has no sides;
+/// `scene/mesh/closed_surfaces` finds. A surface that is not closed has no sides;
 /// there, a free pose that is visible from one of these two keyframes is preferred, if it is not
 /// much further away than the nearest free pose.
 KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const collision::Query& query,

@@ -59,6 +59,8 @@ struct WholeMesh::State {
   std::vector<Part> parts;
   std::once_flag once;
   std::shared_ptr<const Mesh> whole;  ///< set once
+  std::once_flag surfaces_once;
+  ClosedSurfaces surfaces;  ///< set once
 };
 
 WholeMesh::WholeMesh() : WholeMesh(std::make_shared<const Mesh>()) {}
@@ -96,6 +98,12 @@ const std::shared_ptr<const Mesh>& WholeMesh::share() const {
     state_->whole = std::make_shared<const Mesh>(std::move(whole));
   });
   return state_->whole;
+}
+
+const ClosedSurfaces& WholeMesh::closed_surfaces() const {
+  std::call_once(state_->surfaces_once,
+                 [this] { state_->surfaces = find_closed_surfaces(*share()); });
+  return state_->surfaces;
 }
 
 std::string WholeMesh::object_name(std::uint32_t triangle) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/scene/mesh/closed_surfaces.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::scene {
@@ -31,6 +32,10 @@ class WholeMesh {
   const Mesh& operator*() const { return *share(); }
   const Mesh* operator->() const { return share().get(); }
   [[nodiscard]] const std::shared_ptr<const Mesh>& share() const;
+
+  /// The closed surfaces of the mesh. They are found at the first use and kept, because only few
+  /// requests need them, and those would find the same ones again.
+  [[nodiscard]] const ClosedSurfaces& closed_surfaces() const;
 
   /// The name of the object that contains `triangle`, without joining the meshes; empty if there is
   /// none. With several parts it is the name of the part, followed by the name of the mesh's object

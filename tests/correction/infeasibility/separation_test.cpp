@@ -96,7 +96,7 @@ TEST(Separation, PointsOnASurfaceOrTooNearAreNotSeparatedByIt) {
   EXPECT_FALSE(separation(cuboid(), {Vec3(1, 0.5, 0.25), Vec3(3, 0, 0)}));
   EXPECT_FALSE(separation(cuboid(), {Vec3(1, 1, 0.25), Vec3(0, 0, 0)}));
   EXPECT_FALSE(separation(cuboid(), {Vec3(-1, -1, -1), Vec3(0, 0, 0)}));
-  const ClosedSurfaces surfaces = find_closed_surfaces(cuboid());
+  const scene::ClosedSurfaces surfaces = find_closed_surfaces(cuboid());
   const std::vector<Vec3> points = {Vec3(0.5, 0, 0), Vec3(3, 0, 0)};
   EXPECT_TRUE(find_separation(cuboid(), surfaces, points, 0.49));
   EXPECT_FALSE(find_separation(cuboid(), surfaces, points, 0.5));

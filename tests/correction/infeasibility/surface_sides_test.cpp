@@ -16,9 +16,11 @@ using geometry::Vec3;
 
 struct Sides {
   explicit Sides(scene::Mesh mesh_W)
-      : mesh(std::move(mesh_W)), index(scene::SceneIndex::build(mesh)), sides(mesh, index) {}
+      : mesh(std::make_shared<const scene::Mesh>(std::move(mesh_W))),
+        index(scene::SceneIndex::build(*mesh)),
+        sides(mesh, index) {}
 
-  scene::Mesh mesh;
+  scene::WholeMesh mesh;
   scene::SceneIndex index;
   SurfaceSides sides;
 };
@@ -45,12 +47,12 @@ TEST(SurfaceSides, AreTheSameExactlyInTheSameCuboids) {
     }
     const Sides sides(std::move(mesh));
     using Holders = std::array<bool, 5>;
-    std::vector<std::pair<IndexSet, Holders>> seen;
+    std::vector<std::pair<scene::IndexSet, Holders>> seen;
     for (int i = 0; i < 40; ++i) {
       const Vec3 point = Vec3(corner(random), corner(random), corner(random)) + Vec3::Constant(0.5);
       Holders holders{};
       for (std::size_t k = 0; k < boxes.size(); ++k) holders[k] = boxes[k].contains(point);
-      const std::optional<IndexSet> around = sides.sides.around(point);
+      const std::optional<scene::IndexSet> around = sides.sides.around(point);
       ASSERT_TRUE(around);
       for (const auto& [other_around, other_holders] : seen) {
         ASSERT_EQ(*around == other_around, holders == other_holders) << point.transpose();

@@ -191,30 +191,6 @@ TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
   EXPECT_EQ(c.bounds[0].multiplier, 0.0) << "it holds already";
 }
 
-// The matrix of responses must not grow with bodies of thousands of triangles, so the number of
-// multipliers is limited.
-TEST(ContactForces, AreOfLimitedNumber) {
-  Draw draw(4407);
-  ProgramCase c = random_program(draw, 40, 100, 0.0);
-  solve_qp(c.bounds, c.unforced, c.response, 0.0);
-  const auto felt = std::ranges::count_if(
-      c.bounds, [](const BoundConstraint& bound) { return bound.multiplier > 0.0; });
-  EXPECT_GT(felt, 100);
-  EXPECT_LE(felt, 1024);
-  // The most violated bounds come first, so the worst of all has a multiplier or holds.
-  const Eigen::VectorXd missing_m = missing_in(c);
-  Eigen::Index worst = 0;
-  missing_m.maxCoeff(&worst);
-  StackedPoint moved = StackedPoint::Zero();
-  for (const BoundConstraint& bound : c.bounds) {
-    moved += bound.multiplier *
-             c.response(static_cast<Eigen::Index>(bound.sample),
-                        static_cast<Eigen::Index>(c.bound(worst).sample)) *
-             bound.direction;
-  }
-  EXPECT_LT(missing_m[worst] - moved.dot(c.bound(worst).direction), missing_m[worst]);
-}
-
 // No multiplier helps a sample that no variable moves, and it must not affect the others.
 TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   Draw draw(4205);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/infeasibility/closed_surfaces.h"
+#include "daemon/scene/mesh/closed_surfaces.h"
 
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <utility>
 
-namespace camway::correction {
+namespace camway::scene {
 namespace {
 
 struct Column {
@@ -118,7 +118,7 @@ ReducedPatches reduce_patches(const PatchComplex& complex, const std::vector<Ind
   return Reduction(seams_of, complex.seams.size(), max_steps).run(order);
 }
 
-ClosedSurfaces find_closed_surfaces(const scene::Mesh& mesh) {
+ClosedSurfaces find_closed_surfaces(const Mesh& mesh) {
   ClosedSurfaces result{.complex = make_patch_complex(mesh), .seams_of = {}, .surfaces = {}};
   result.seams_of = seams_of_patches(result.complex);
   std::vector<std::uint32_t> order(result.complex.patches.size());
@@ -133,4 +133,4 @@ ClosedSurfaces find_closed_surfaces(const scene::Mesh& mesh) {
   return result;
 }
 
-}  // namespace camway::correction
+}  // namespace camway::scene

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/infeasibility/patch_complex.h"
+#include "daemon/scene/mesh/patch_complex.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <tuple>
 
-namespace camway::correction {
+namespace camway::scene {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;  // of a triangle, increasing numbers of points
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> equal_vertices(const std::vector<geometry::Vec3>& ver
 
 class Builder {
  public:
-  explicit Builder(const scene::Mesh& mesh)
+  explicit Builder(const Mesh& mesh)
       : vertices_(mesh.vertices.size()), alive_(mesh.triangles.size(), 1) {
     const std::vector<std::uint32_t> point_of = equal_vertices(mesh.vertices);
     corners_.reserve(mesh.triangles.size());
@@ -200,6 +200,6 @@ class Builder {
 
 }  // namespace
 
-PatchComplex make_patch_complex(const scene::Mesh& mesh) { return Builder(mesh).build(); }
+PatchComplex make_patch_complex(const Mesh& mesh) { return Builder(mesh).build(); }
 
-}  // namespace camway::correction
+}  // namespace camway::scene

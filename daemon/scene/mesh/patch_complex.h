@@ -9,7 +9,7 @@
 
 #include "daemon/scene/mesh/mesh.h"
 
-namespace camway::correction {
+namespace camway::scene {
 
 inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
@@ -65,6 +65,6 @@ struct PatchComplex {
 };
 
 /// O(n log n). [Limit: fewer than 2^32 / 3 triangles]
-PatchComplex make_patch_complex(const scene::Mesh& mesh);
+PatchComplex make_patch_complex(const Mesh& mesh);
 
-}  // namespace camway::correction
+}  // namespace camway::scene

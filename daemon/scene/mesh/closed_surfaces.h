@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "daemon/correction/infeasibility/patch_complex.h"
+#include "daemon/scene/mesh/patch_complex.h"
 
-namespace camway::correction {
+namespace camway::scene {
 
 /// A set of indices, sorted, without repetition; a vector over the integers modulo 2.
 using IndexSet = std::vector<std::uint32_t>;
@@ -15,7 +15,7 @@ using IndexSet = std::vector<std::uint32_t>;
 IndexSet sum_mod_2(const IndexSet& a, const IndexSet& b);
 
 /// Closed surfaces of a mesh. Their sums modulo 2 are all closed surfaces of the mesh, if
-/// `complete`. The value depends on the mesh alone, so it can be kept with the scene.
+/// `complete`. The value depends on the mesh alone; `WholeMesh` keeps that of a scene.
 struct ClosedSurfaces {
   PatchComplex complex;
   std::vector<IndexSet> seams_of;  ///< seams of each patch
@@ -38,7 +38,7 @@ inline constexpr std::uint64_t kMaxEliminationStepsNear = 5'000'000;
 /// smallest patches first, as in the computation of persistent homology (Edelsbrunner, Letscher &
 /// Zomorodian 2002, section 4). Deviation: columns are whole patches instead of triangles, and rows
 /// are seams instead of edges. So in a scene of separate solids nothing is left to reduce.
-ClosedSurfaces find_closed_surfaces(const scene::Mesh& mesh);
+ClosedSurfaces find_closed_surfaces(const Mesh& mesh);
 
 /// Result of `reduce_patches`: the closed surfaces that consist of the patches that it reached.
 struct ReducedPatches {
@@ -59,4 +59,4 @@ std::vector<IndexSet> seams_of_patches(const PatchComplex& complex);
 std::vector<IndexSet> connected_parts(const IndexSet& patches,
                                       const std::vector<IndexSet>& seams_of);
 
-}  // namespace camway::correction
+}  // namespace camway::scene
