@@ -86,8 +86,11 @@ LC_ALL=C exec awk '
       fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")
     } else if (file ~ /^(fcl|embree[0-9]*|CGAL)\// && here != "tests") {
       fault("FCL, Embree and CGAL are for tests and benchmarks")
-    } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/wire/auth/message_keys.cpp" && here != "tests") {
-      fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp")
+    } else if (file ~ /^sodium/ && here != "tests" &&
+               FILENAME !~ /^(lcmtypes\/wire\/auth\/message_keys|daemon\/scene\/log\/blob_id)\.cpp$/) {
+      fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp and daemon/scene/log/blob_id.cpp")
+    } else if (file == "sqlite3.h" && here !~ /^(daemon\/scene\/log|tests)$/) {
+      fault("SQLite is for daemon/scene/log")
     } else if (file == "microhttpd.h" && FILENAME != "daemon/process/metrics/http_page.cpp") {
       fault("libmicrohttpd is for daemon/process/metrics/http_page.cpp")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {

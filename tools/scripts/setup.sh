@@ -19,8 +19,10 @@ readonly kPackages=(
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
-  # signed messages
+  # signed messages, digests of what is kept
   libsodium-dev
+  # scenes that outlive the daemon
+  libsqlite3-dev
   # the page for Prometheus
   libmicrohttpd-dev
   # tests

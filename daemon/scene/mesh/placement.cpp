@@ -20,14 +20,18 @@ Placement Placement::make(const Vec3& position_W, const Quat& orientation_WO, st
   } else if (length < kShortest || length > kLongest) {
     fault = "pose: the orientation has no direction";
   } else {
-    Placement placement;
-    placement.position_W_ = position_W;
-    placement.orientation_WO_ = orientation_WO.normalized();
-    placement.R_WO_ = placement.orientation_WO_.toRotationMatrix();
-    placement.is_identity_ = position_W.isZero(0.0) && placement.orientation_WO_.vec().isZero(0.0);
-    return placement;
+    return of_unit(position_W, orientation_WO.normalized());
   }
   return {};
+}
+
+Placement Placement::of_unit(const Vec3& position_W, const Quat& orientation_WO) {
+  Placement placement;
+  placement.position_W_ = position_W;
+  placement.orientation_WO_ = orientation_WO;
+  placement.R_WO_ = orientation_WO.toRotationMatrix();
+  placement.is_identity_ = position_W.isZero(0.0) && orientation_WO.vec().isZero(0.0);
+  return placement;
 }
 
 Mesh placed_mesh(const Mesh& mesh_O, const Placement& placement) {

@@ -28,6 +28,10 @@ class Placement {
   static Placement make(const geometry::Vec3& position_W, const geometry::Quat& orientation_WO,
                         std::string& fault);
 
+  /// Returns the placement that has exactly these numbers. Requires numbers that another placement
+  /// returned: a second normalisation could change their last digits.
+  static Placement of_unit(const geometry::Vec3& position_W, const geometry::Quat& orientation_WO);
+
   [[nodiscard]] const geometry::Vec3& position_W() const { return position_W_; }
   /// Returns the rotation, of unit length up to rounding.
   [[nodiscard]] const geometry::Quat& orientation_WO() const { return orientation_WO_; }

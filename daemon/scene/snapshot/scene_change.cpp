@@ -54,15 +54,33 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
   return changed(before, SceneChanges{change}, revision, stop);
 }
 
+std::vector<PlacedSource> placed_sources_of(const Snapshot& snapshot) {
+  std::vector<PlacedSource> objects;
+  for (const auto& object : snapshot.objects) {
+    objects.push_back({object->name, object->source, object->placement});
+  }
+  return objects;
+}
+
 SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note)
-    : name_(first.name),
-      options_(first.options),
-      limits_(limits),
-      oldest_{first.revision, std::move(note)} {
-  for (const auto& object : first.objects) {
-    before_.put(object->name, {object->source, object->placement});
+    : SceneHistory(first.name, first.options, placed_sources_of(first),
+                   {first.revision, std::move(note)}, limits) {}
+
+SceneHistory::SceneHistory(std::string name, const ObjectOptions& options,
+                           const std::vector<PlacedSource>& objects, KeptRevision oldest,
+                           const Limits& limits)
+    : name_(std::move(name)), options_(options), limits_(limits), oldest_(std::move(oldest)) {
+  for (const PlacedSource& object : objects) {
+    before_.put(object.name, {object.source, object.placement});
   }
   newest_ = before_;
+}
+
+bool SceneHistory::has_request(const std::string& request) const {
+  if (request.empty()) return false;
+  return oldest_.note.request == request || std::ranges::any_of(entries_, [&](const Entry& entry) {
+           return entry.made.note.request == request;
+         });
 }
 
 void SceneHistory::State::put(std::string_view name, const Placed& placed) {

@@ -46,11 +46,14 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
 
 /// A record of a change for people who look for a revision.
 struct ChangeNote {
-  std::string operation = {};           ///< word for the operation: "load", "move" and so on
-  std::string object = {};              ///< changed object; empty: all
-  std::string client = {};              ///< client that asked for it; empty: none
+  std::string operation = {};  ///< word for the operation: "load", "move" and so on
+  std::string object = {};     ///< changed object; empty: all
+  std::string client = {};     ///< client that asked for it; empty: none
   std::uint64_t restored_revision = 0;  ///< revision whose objects were restored; 0: none
   std::chrono::system_clock::time_point when = {};  ///< set by the store
+  /// Names the request, if it may be repeated: equal for repetitions of one request only. Empty:
+  /// none.
+  std::string request = {};
 };
 
 /// A revision that can be rebuilt, and the change that led to it.
@@ -58,6 +61,16 @@ struct KeptRevision {
   std::uint64_t revision = 0;
   ChangeNote note = {};
 };
+
+/// An object as a history keeps it.
+struct PlacedSource {
+  std::string name;
+  std::shared_ptr<const ObjectSource> source;
+  Placement placement;
+};
+
+/// The objects of a snapshot, in their order.
+std::vector<PlacedSource> placed_sources_of(const Snapshot& snapshot);
 
 /// The latest changes of a scene, as many as the limits allow, and its objects before them, from
 /// which these revisions can be rebuilt. A value type.
@@ -77,6 +90,11 @@ class SceneHistory {
   /// A history that begins with `first`.
   SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note = {});
 
+  /// A history that begins with these objects at revision `oldest`. Requires objects in the order
+  /// of their names, each once, with sources that were built with `options`.
+  SceneHistory(std::string name, const ObjectOptions& options,
+               const std::vector<PlacedSource>& objects, KeptRevision oldest, const Limits& limits);
+
   /// Requires that `changed`, with `changes`, made `made.revision` from the newest revision.
   void add(SceneChanges changes, KeptRevision made);
 
@@ -86,6 +104,13 @@ class SceneHistory {
   [[nodiscard]] std::uint64_t bytes() const;
   /// Requires that there is a change.
   void forget_oldest();
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::uint64_t newest_revision() const {
+    return entries_.empty() ? oldest_.revision : entries_.back().made.revision;
+  }
+  /// Returns whether a kept change was made by the request that `ChangeNote::request` names.
+  [[nodiscard]] bool has_request(const std::string& request) const;
 
   /// The revision before the oldest change that is kept.
   [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_.revision; }

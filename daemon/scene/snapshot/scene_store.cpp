@@ -13,7 +13,8 @@ namespace {
 
 StoreResult cancelled() { return {nullptr, StoreFault::kCancelled, "it was cancelled"}; }
 
-StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
+StoreResult not_in_history(std::string_view scene, std::uint64_t revision,
+                           const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();
   return {nullptr, StoreFault::kInvalid,
           "revision: " + std::to_string(revision) + " of scene '" + std::string(scene) +
@@ -38,7 +39,7 @@ SceneStore::ChangeLock::~ChangeLock() {
 }
 
 SceneStore::Usage SceneStore::usage_of(const Snapshot& snapshot) {
-  return {snapshot.index.size(),
+  return {1, snapshot.index.size(),
           snapshot.occupancy ? snapshot.occupancy->statistics().memory_bytes : 0};
 }
 
@@ -48,17 +49,20 @@ std::uint64_t SceneStore::next_revision(std::string_view scene) const {
   return 1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
 }
 
+SceneStore::Usage SceneStore::usage_before(std::string_view scene) const {
+  const auto found = scenes_.find(scene);
+  return found == scenes_.end() ? Usage{} : found->second.usage;
+}
+
 std::optional<StoreResult> SceneStore::over_limit(const Snapshot& next, const Usage& usage) const {
-  const auto found = scenes_.find(next.name);
-  const bool is_new = found == scenes_.end();
-  const Usage before = is_new ? Usage{} : found->second.usage;
+  const Usage before = usage_before(next.name);
   const auto over = [&](Limit limit, const std::string& what) {
     return StoreResult{nullptr, StoreFault::kLimit, "scene '" + next.name + "': " + what, limit};
   };
   if (next.objects.size() > limits_.objects) {
     return over(Limit::kObjects, "more than " + std::to_string(limits_.objects) + " objects");
   }
-  if (is_new && scenes_.size() >= limits_.scenes) {
+  if (total_.scenes - before.scenes + usage.scenes > limits_.scenes) {
     return over(Limit::kScenes, "there are " + std::to_string(limits_.scenes) + " scenes already");
   }
   if (total_.triangles - before.triangles + usage.triangles > limits_.triangles) {
@@ -76,36 +80,72 @@ std::optional<StoreResult> SceneStore::over_limit(const Snapshot& next, const Us
 }
 
 void SceneStore::count(const Usage& before, const Usage& after) {
+  total_.scenes += after.scenes - before.scenes;
   total_.triangles += after.triangles - before.triangles;
   total_.occupancy_bytes += after.occupancy_bytes - before.occupancy_bytes;
+}
+
+std::optional<StoreResult> SceneStore::reserve(const Snapshot& next, const Usage& usage,
+                                               const ChangeTicket& ticket) {
+  const std::lock_guard lock(mutex_);
+  if (std::optional<StoreResult> over = over_limit(next, usage)) return over;
+  if (!ticket.try_commit()) return cancelled();
+  count(usage_before(next.name), usage);
+  return std::nullopt;
+}
+
+StoreResult SceneStore::not_kept(const Snapshot& next, const Usage& usage, std::string reason) {
+  const std::lock_guard lock(mutex_);
+  count(usage, usage_before(next.name));
+  return {nullptr, StoreFault::kNotKept, std::move(reason)};
+}
+
+StoreResult SceneStore::publish(Entry entry) {
+  const std::shared_ptr<const Snapshot> newest = entry.newest;
+  std::optional<Entry> old;  // destroyed after the lock is released, since that takes time
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [place, is_new] = scenes_.try_emplace(newest->name, entry);
+    if (!is_new) old = std::exchange(place->second, std::move(entry));
+    forget_history();
+  }
+  notify();
+  return {newest, StoreFault::kNone, ""};
 }
 
 StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
                             const ChangeTicket& ticket) {
   assert(snapshot);
   note.when = std::chrono::system_clock::now();
-  std::optional<Entry> old;  // destroyed after the lock is released, since that takes time
   const ChangeLock turn(*this, snapshot->name);
+  const std::shared_ptr<const Snapshot> before = find(snapshot->name);
+  if (before && was_made(snapshot->name, note)) return {before, StoreFault::kNone, ""};
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
     auto numbered = std::make_shared<Snapshot>(*snapshot);
     numbered->revision = next;
     snapshot = std::move(numbered);
   }
-  Entry entry{snapshot, usage_of(*snapshot),
-              SceneHistory(*snapshot, limits_.history, std::move(note))};
-  {
-    const std::lock_guard lock(mutex_);
-    if (std::optional<StoreResult> over = over_limit(*snapshot, entry.usage))
-      return *std::move(over);
-    if (!ticket.try_commit()) return cancelled();
-    if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
-      old = std::move(found->second);
-    }
-    count(old ? old->usage : Usage{}, entry.usage);
-    scenes_.insert_or_assign(snapshot->name, std::move(entry));
+  const Usage usage = usage_of(*snapshot);
+  if (std::optional<StoreResult> fault = reserve(*snapshot, usage, ticket)) return *fault;
+  if (journal_ != nullptr) {
+    std::string reason = journal_->keep_scene(*snapshot, before ? before->revision : 0, note);
+    if (!reason.empty()) return not_kept(*snapshot, usage, std::move(reason));
   }
-  notify();
-  return {std::move(snapshot), StoreFault::kNone, ""};
+  SceneHistory history(*snapshot, limits_.history, std::move(note));
+  return publish({std::move(snapshot), usage, std::move(history)});
+}
+
+StoreResult SceneStore::adopt(SceneHistory history) {
+  const ChangeLock turn(*this, history.name());
+  std::shared_ptr<const Snapshot> newest = history.rebuild(history.newest_revision());
+  const Usage usage = usage_of(*newest);
+  if (std::optional<StoreResult> fault = reserve(*newest, usage, {})) return *fault;
+  return publish({std::move(newest), usage, std::move(history)});
+}
+
+void SceneStore::begin_above(std::uint64_t revision) {
+  const std::lock_guard lock(mutex_);
+  highest_removed_ = std::max(highest_removed_, revision);
 }
 
 StoreResult SceneStore::unknown(std::string_view scene) const {
@@ -118,6 +158,7 @@ StoreResult SceneStore::change(std::string_view scene, SceneChange change, Chang
   const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
+  if (was_made(scene, note)) return {before, StoreFault::kNone, ""};
   return make_next(*before, {std::move(change)}, std::move(note), ticket);
 }
 
@@ -126,10 +167,11 @@ StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, 
   const ChangeLock turn(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
-  std::optional<SceneChanges> changes = known->changes_back_to(revision);
-  if (!changes) return not_kept(scene, revision, *known);
-  note.restored_revision = revision;
   const std::shared_ptr<const Snapshot> before = find(scene);
+  if (was_made(scene, note)) return {before, StoreFault::kNone, ""};
+  std::optional<SceneChanges> changes = known->changes_back_to(revision);
+  if (!changes) return not_in_history(scene, revision, *known);
+  note.restored_revision = revision;
   return make_next(*before, *std::move(changes), std::move(note), ticket);
 }
 
@@ -139,7 +181,7 @@ StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revisio
   if (!known) return unknown(scene);
   const std::shared_ptr<const Snapshot> then = known->rebuild(revision, ticket.stop());
   if (ticket.is_cancelled()) return cancelled();
-  if (!then) return not_kept(scene, revision, *known);
+  if (!then) return not_in_history(scene, revision, *known);
   note.restored_revision = revision;
   auto renamed = std::make_shared<Snapshot>(*then);
   renamed->name = std::move(other);
@@ -156,22 +198,34 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
             result.limit};
   }
-  const Usage usage = usage_of(*result.snapshot);
+  const Snapshot& next = *result.snapshot;
+  const Usage usage = usage_of(next);
   note.when = std::chrono::system_clock::now();
+  if (std::optional<StoreResult> fault = reserve(next, usage, ticket)) return *fault;
+  if (journal_ != nullptr) {
+    std::string reason = journal_->keep_changes(before, next, changes, note, oldest_kept(before));
+    if (!reason.empty()) return not_kept(next, usage, std::move(reason));
+  }
   {
     const std::lock_guard lock(mutex_);
-    if (std::optional<StoreResult> over = over_limit(*result.snapshot, usage)) {
-      return *std::move(over);
-    }
-    if (!ticket.try_commit()) return cancelled();
     Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
-    count(std::exchange(entry.usage, usage), usage);
-    entry.history.add(std::move(changes), {result.snapshot->revision, std::move(note)});
+    entry.usage = usage;
+    entry.history.add(std::move(changes), {next.revision, std::move(note)});
     forget_history();
   }
   notify();
   return {std::move(result.snapshot), StoreFault::kNone, ""};
+}
+
+bool SceneStore::was_made(std::string_view scene, const ChangeNote& note) const {
+  const std::lock_guard lock(mutex_);
+  return scenes_.find(scene)->second.history.has_request(note.request);
+}
+
+std::uint64_t SceneStore::oldest_kept(const Snapshot& newest) const {
+  const std::lock_guard lock(mutex_);
+  return scenes_.find(newest.name)->second.history.oldest_revision();
 }
 
 void SceneStore::forget_history() {
@@ -187,20 +241,26 @@ void SceneStore::forget_history() {
   }
 }
 
-bool SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
+StoreResult SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
   std::optional<Entry> old;
   const ChangeLock turn(*this, scene);
+  const std::shared_ptr<const Snapshot> last = find(scene);
+  if (!last) return unknown(scene);
+  if (!ticket.try_commit()) return cancelled();
+  if (journal_ != nullptr) {
+    std::string reason = journal_->keep_removal(*last);
+    if (!reason.empty()) return {nullptr, StoreFault::kNotKept, std::move(reason)};
+  }
   {
     const std::lock_guard lock(mutex_);
     const auto found = scenes_.find(scene);
-    if (found == scenes_.end() || !ticket.try_commit()) return false;
-    highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
+    highest_removed_ = std::max(highest_removed_, last->revision);
     old = std::move(found->second);
     count(old->usage, {});
     scenes_.erase(found);
   }
   notify();
-  return true;
+  return {last, StoreFault::kNone, ""};
 }
 
 void SceneStore::on_change(std::function<void()> listener) {

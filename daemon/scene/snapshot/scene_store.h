@@ -17,6 +17,7 @@
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/snapshot/change_ticket.h"
 #include "daemon/scene/snapshot/scene_change.h"
+#include "daemon/scene/snapshot/scene_journal.h"
 #include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::scene {
@@ -33,7 +34,14 @@ struct SceneStoreLimits {
 };
 
 /// The reason why the store refused a change.
-enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit, kCancelled };
+enum class StoreFault : std::uint8_t {
+  kNone,
+  kUnknownScene,
+  kInvalid,
+  kLimit,
+  kCancelled,
+  kNotKept,  ///< the journal could not keep the change
+};
 
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< newest snapshot; null on error
@@ -51,9 +59,20 @@ struct StoreResult {
 /// Limits across scenes are checked on publication, so no limit is ever exceeded, but unfinished
 /// changes do not count. A change that is cancelled before it is committed (`ChangeTicket`) changes
 /// nothing.
+///
+/// With a journal, a change takes effect only once it is durable. A change that repeats a request
+/// which the history names (`ChangeNote::request`) changes nothing more.
 class SceneStore {
  public:
-  explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
+  /// Refers to `journal`, which must outlive it; null keeps nothing.
+  explicit SceneStore(const SceneStoreLimits& limits = {}, SceneJournal* journal = nullptr)
+      : limits_(limits), journal_(journal) {}
+
+  /// Adds a scene that the journal has, with its history. Fails if it exceeds a limit. Requires
+  /// that there is no scene of that name.
+  StoreResult adopt(SceneHistory history);
+  /// Makes scenes that are new begin above this revision.
+  void begin_above(std::uint64_t revision);
 
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is the
   /// larger of `snapshot->revision` and the next revision of that name. Requires that `snapshot` is
@@ -74,8 +93,8 @@ class SceneStore {
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
                          ChangeNote note = {}, const ChangeTicket& ticket = {});
 
-  /// Returns whether the scene was removed: false if it does not exist or the change was cancelled.
-  bool remove(std::string_view scene, const ChangeTicket& ticket = {});
+  /// Removes a scene. Returns its last snapshot.
+  StoreResult remove(std::string_view scene, const ChangeTicket& ticket = {});
 
   /// Replaces the listener, which is called after each change, on the thread that made the change
   /// and never on two threads at a time. It must not change scenes. When this returns, the old
@@ -107,6 +126,7 @@ class SceneStore {
  private:
   /// The amounts that count towards the limits: of one scene, or of all together.
   struct Usage {
+    std::uint64_t scenes = 0;
     std::uint64_t triangles = 0;
     std::uint64_t occupancy_bytes = 0;
   };
@@ -141,7 +161,26 @@ class SceneStore {
   /// `ChangeLock` is held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  // The next three functions require that mutex_ is held.
+  // The next two functions require that the caller holds the `ChangeLock` of a scene that exists.
+
+  /// Returns whether the history has a change by the request of `note`.
+  [[nodiscard]] bool was_made(std::string_view scene, const ChangeNote& note) const;
+  /// The oldest revision of the scene that can be restored.
+  [[nodiscard]] std::uint64_t oldest_kept(const Snapshot& newest) const;
+
+  /// Checks the limits, commits the ticket, and counts `next` in place of the scene of its name.
+  /// Returns the reason if that is not possible.
+  std::optional<StoreResult> reserve(const Snapshot& next, const Usage& usage,
+                                     const ChangeTicket& ticket);
+  /// Takes back what `reserve` counted, because the journal could not keep the change.
+  StoreResult not_kept(const Snapshot& next, const Usage& usage, std::string reason);
+  /// Puts an entry whose usage is counted, and calls the listener.
+  StoreResult publish(Entry entry);
+
+  // The next four functions require that mutex_ is held.
+
+  /// The usage of the scene of that name; empty if it does not exist.
+  [[nodiscard]] Usage usage_before(std::string_view scene) const;
 
   /// Checks the limits as if `next` replaced the scene of its name. Returns `StoreFault::kLimit`
   /// and an error if a limit would be exceeded, and nothing otherwise.
@@ -158,13 +197,14 @@ class SceneStore {
   void notify();
 
   const SceneStoreLimits limits_;
+  SceneJournal* const journal_;
   std::mutex notify_mutex_;         ///< held while the listener is called; locked before mutex_
   std::function<void()> listener_;  ///< guarded by notify_mutex_
   mutable std::mutex mutex_;        ///< guards all below; held for short times only
   std::condition_variable turn_ended_;
   std::set<std::string, std::less<>> changing_;  ///< scenes whose `ChangeLock` is held
   Scenes scenes_;
-  Usage total_;                        ///< sum over `scenes_`
+  Usage total_;                        ///< sum over `scenes_`, and what is reserved
   std::uint64_t highest_removed_ = 0;  ///< highest revision of removed scenes
 };
 

@@ -41,6 +41,8 @@ std::int32_t status_of(scene::StoreFault fault) {
       return Answer::STATUS_LIMIT;
     case scene::StoreFault::kCancelled:
       return Answer::STATUS_CANCELLED;
+    case scene::StoreFault::kNotKept:
+      return Answer::STATUS_INTERNAL_ERROR;
   }
   return Answer::STATUS_INTERNAL_ERROR;
 }
@@ -162,9 +164,11 @@ class SceneOperation {
   }
 
   Answer unload() {
-    if (!scenes_.remove(request_.scene, context_.ticket))
+    const scene::StoreResult removed = scenes_.remove(request_.scene, context_.ticket);
+    if (removed.fault == scene::StoreFault::kUnknownScene) {
       return unknown_scene_answer(request_, scenes_);
-    return plain_scene_answer(request_, Answer::STATUS_OK, "");
+    }
+    return plain_scene_answer(request_, status_of(removed.fault), removed.error);
   }
 
   Answer restore() {

@@ -93,7 +93,7 @@ TEST(SceneStore, WhatIsCalledOffChangesNothing) {
     EXPECT_EQ(result.fault, StoreFault::kCancelled);
     EXPECT_THAT(result.error, HasSubstr("cancelled"));
   }
-  EXPECT_FALSE(store.remove("room", off));
+  EXPECT_EQ(store.remove("room", off).fault, StoreFault::kCancelled);
   EXPECT_EQ(store.find("room"), before);
   EXPECT_EQ(store.kept("room").revisions.size(), 2U);
   EXPECT_EQ(store.find("hall"), nullptr);
@@ -175,8 +175,8 @@ TEST(SceneStore, NeverTakesARevisionTwice) {
   store.put(revision_of("room", 1));
   ASSERT_TRUE(store.change("room", put_box("a")).snapshot);
   EXPECT_EQ(store.put(revision_of("room", 1)).snapshot->revision, 3U);
-  EXPECT_TRUE(store.remove("room"));
-  EXPECT_FALSE(store.remove("room"));
+  EXPECT_TRUE(store.remove("room").snapshot);
+  EXPECT_EQ(store.remove("room").fault, StoreFault::kUnknownScene);
   EXPECT_EQ(store.find("room"), nullptr);
   EXPECT_EQ(store.put(revision_of("room", 1)).snapshot->revision, 4U);
 }
