@@ -214,6 +214,7 @@ SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
   const scene_response_t& response = *asked.response;
   SceneAnswer answer;
   answer.status = static_cast<Status>(response.status);
+  convert(response.daemon_start, answer.daemon_start);
   if (!answer.ok()) {
     answer.error = explain(response.status, response.message);
     return answer;

@@ -330,7 +330,7 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   const Clock::time_point now = Clock::now();
   for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
   is_unheard_ = status->signed_only && !connection_.signs();
-  watches_.take_heartbeat(status->uptime_s, now);
+  watches_.take_heartbeat(*status, now);
   std::vector<PendingStatus> pending;
   pending.swap(pending_statuses_);
   for (PendingStatus& call : pending) call.promise.set_value(status);

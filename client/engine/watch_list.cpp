@@ -9,6 +9,7 @@
 #include "client/engine/handler.h"
 #include "client/engine/heartbeat_limits.h"
 #include "client/engine/plan_call.h"
+#include "client/messages/convert.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/utime.h"
 
@@ -38,6 +39,19 @@ bool has_proof(const PlanResponse& response) { return response.certified; }
 bool is_answer(const PlanResponse& response) {
   return static_cast<int>(response.status) < static_cast<int>(Status::kNoDaemon) &&
          response.status != Status::kOverloaded;
+}
+
+/// Returns whether the daemon holds an older revision of the scene than `held_revision`. Revisions
+/// only increase, so it was started anew and has forgotten changes.
+bool has_forgotten(const PlanResponse& response, std::int64_t held_revision) {
+  return response.scene_revision > 0 && response.scene_revision < held_revision;
+}
+
+std::string forgotten_text(const PlanResponse& response, std::int64_t held_revision) {
+  return "the daemon was started anew and has forgotten changes of scene '" + response.scene +
+         "': it holds revision " + std::to_string(response.scene_revision) +
+         ", and the path is for revision " + std::to_string(held_revision) +
+         "; make the changes again, or start the daemon with a folder for its state";
 }
 
 /// Returns the event that an answer came.
@@ -115,6 +129,12 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   if (!is_answer(response)) {
     ask_later(watched, Clock::now());
     tell_lost(watched, {response.status, response.error});
+    return;
+  }
+  note_start(response.daemon_start);
+  if (has_forgotten(response, watched.held_revision)) {
+    ask_later(watched, Clock::now());
+    tell_lost(watched, {Status::kUnknownScene, forgotten_text(response, watched.held_revision)});
     return;
   }
   const bool is_first = watched.held_revision < 0;
@@ -222,6 +242,9 @@ void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_poi
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   const watch_report_t& report = *decoded.message;
   note_life(now);
+  DaemonStart start;
+  convert(report.daemon_start, start);
+  note_start(start);
   endings_.erase(report.request_id);
   const bool is_renewed = unanswered_.erase(report.request_id) > 0 && unanswered_.empty();
   if (is_renewed) {
@@ -346,12 +369,38 @@ void WatchList::note_life(Clock::time_point now) {
   if (std::exchange(is_silent_, false)) renew_at_ = now;
 }
 
-void WatchList::take_heartbeat(double uptime_s, Clock::time_point now) {
+void WatchList::take_heartbeat(const DaemonStatus& status, Clock::time_point now) {
   note_life(now);
+  note_start(status.daemon_start);
   // A daemon that started after the last renewal does not know the watched paths.
-  if (!watched_.empty() && std::chrono::duration<double>(now - renewed_at_).count() > uptime_s) {
+  if (!watched_.empty() &&
+      std::chrono::duration<double>(now - renewed_at_).count() > status.uptime_s) {
     renewed_at_ = now;
     renew_at_ = now;
+  }
+}
+
+void WatchList::note_start(const DaemonStart& start) {
+  if (start.id == 0) return;
+  const std::int64_t before = std::exchange(start_id_, start.id);
+  if (before == 0 || before == start.id) return;
+  renew_at_ = Clock::now();
+  // A handler may remove paths.
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, watched] : watched_) ids.push_back(id);
+  for (const std::int64_t id : ids) {
+    const auto position = watched_.find(id);
+    if (position == watched_.end() || position->second.held_revision < 0) continue;
+    Watched& watched = position->second;
+    const bool was_lost = watched.is_lost;
+    WatchEvent event;
+    event.kind = WatchEvent::Kind::kRestarted;
+    event.scene_revision = watched.scene_revision;
+    tell(watched, std::move(event));
+    // The handler of a path may have removed it.
+    if (const auto still = watched_.find(id); still != watched_.end()) {
+      still->second.is_lost = was_lost;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <camway/daemon_status.h>
 #include <camway/watch.h>
 
 #include <cstdint>
@@ -50,7 +51,7 @@ class WatchList {
   void take_better(std::int64_t request_id);
   /// Takes an encoded `watch_report_t`.
   void take_report(std::span<const std::uint8_t> bytes, Clock::time_point now);
-  void take_heartbeat(double uptime_s, Clock::time_point now);
+  void take_heartbeat(const DaemonStatus& status, Clock::time_point now);
   /// Notes a sign of life of the daemon.
   void note_life(Clock::time_point now);
 
@@ -116,6 +117,8 @@ class WatchList {
   void acknowledge();
   void end_unwanted(Clock::time_point now);
   void send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s);
+  /// Takes note of the start of the daemon that sent something. Tells of a new one.
+  void note_start(const DaemonStart& start);
   void look_for_life(Clock::time_point now);
   void lose_all(const Failure& why);
   void tell(Watched& watched, WatchEvent event);
@@ -143,6 +146,7 @@ class WatchList {
   Clock::time_point ping_at_{};  ///< earliest time to ask the daemon for a sign of life
   bool was_heard_ = false;       ///< whether a daemon was heard since the first path was added
   bool is_silent_ = false;       ///< whether the handlers were told of the daemon's silence
+  std::int64_t start_id_ = 0;    ///< `DaemonStart::id` of the daemon that was heard last; 0: none
   bool is_closed_ = false;
 };
 

@@ -2,7 +2,6 @@
 #include "daemon/process/configured_scenes.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <utility>
@@ -80,8 +79,8 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   std::vector<std::shared_ptr<const scene::Snapshot>> loaded;
   for (const SceneArgument& scene : wanted) {
     // Taken before reading, so that a change during the reading is noticed the next time.
-    next.push_back({scene, stamp_of(scene.file)});
-    if (holds(next.back())) continue;
+    next.push_back({scene, FileStamp::of(scene.file)});
+    if (holds(next.back()) || holds_from_log(next.back(), stop)) continue;
     if (stop.stop_requested()) return false;
     loaded.push_back(load(scene, stop));
     if (!loaded.back()) return false;
@@ -92,7 +91,12 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
-    if (put.snapshot) continue;
+    if (put.snapshot) {
+      const auto held =
+          std::ranges::find(held_, name, [](const Held& each) { return each.scene.name; });
+      origins_.set(held->scene, held->stamp);
+      continue;
+    }
     const std::string reason = service::with_setting(put.error, put.limit);
     log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
     note_fault(name, reason);
@@ -116,16 +120,16 @@ void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) 
     });
     if (stays) continue;
     store_.remove(held.scene.name);
+    origins_.erase(held.scene.name);
     log_->info("scene unloaded", {{"scene", held.scene.name}});
   }
-}
-
-ConfiguredScenes::FileStamp ConfiguredScenes::stamp_of(const std::filesystem::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return {};  // loading says what is wrong
-  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  return {status.st_mtim.tv_sec * kNanosecondsPerSecond + status.st_mtim.tv_nsec, status.st_size,
-          status.st_ino};
+  for (const std::string& name : origins_.names()) {
+    if (std::ranges::any_of(wanted, [&](const SceneArgument& scene) { return scene.name == name; }))
+      continue;
+    store_.remove(name);
+    origins_.erase(name);
+    log_->info("scene unloaded, which is not configured any more", {{"scene", name}});
+  }
 }
 
 bool ConfiguredScenes::watches_files() const {
@@ -140,7 +144,7 @@ void ConfiguredScenes::look_at_files(const std::stop_token& stop) {
 }
 
 void ConfiguredScenes::look_at(Held& held, const std::stop_token& stop) {
-  const FileStamp now = stamp_of(held.scene.file);
+  const FileStamp now = FileStamp::of(held.scene.file);
   const bool is_stable = std::exchange(held.seen, now) == now;
   if (now == held.tried || !is_stable) return;
   const FileStamp tried = std::exchange(held.tried, now);
@@ -151,6 +155,7 @@ void ConfiguredScenes::look_at(Held& held, const std::stop_token& stop) {
   }
   if (read_again(held.scene, stop)) {
     held.stamp = now;
+    origins_.set(held.scene, now);
   } else if (stop.stop_requested()) {
     held.tried = tried;
   }
@@ -194,6 +199,26 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
   return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
     return same(held.scene, wanted.scene) && held.stamp == wanted.stamp;
   });
+}
+
+bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token& stop) {
+  const SceneArgument& scene = wanted.scene;
+  const bool is_held =
+      std::ranges::any_of(held_, [&](const Held& held) { return held.scene.name == scene.name; });
+  const std::optional<SceneOrigins::Origin> origin = origins_.find(scene.name);
+  if (is_held || !origin || origin->arguments != SceneOrigins::arguments_of(scene)) return false;
+  const auto kept = store_.find(scene.name);
+  if (!kept) return false;
+  log_->info("scene kept",
+             {{"scene", scene.name}, {"revision", kept->revision}, {"digest", kept->digest}});
+  if (origin->stamp == wanted.stamp) return true;
+  if (wanted.stamp == FileStamp{}) {
+    log_->warn("scene file is gone, what was kept of it stays",
+               {{"scene", scene.name}, {"file", scene.file.string()}});
+  } else if (read_again(scene, stop)) {
+    origins_.set(scene, wanted.stamp);
+  }
+  return true;
 }
 
 std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,

@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "daemon/process/scene_origins.h"
 #include "daemon/process/settings/scene_argument.h"
 #include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -20,15 +21,20 @@ namespace camway::process {
 class ConfiguredScenes {
  public:
   /// `store` must outlive this. `cache` has the prepared forms of scenes that are loaded.
+  /// `scene_log` is the one that keeps the store, null for none, and must outlive this.
   ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<service::Log> log,
-                   std::optional<scene::SceneCache> cache = std::nullopt)
-      : store_(store), log_(std::move(log)), cache_(std::move(cache)) {}
+                   std::optional<scene::SceneCache> cache = std::nullopt,
+                   scene::SceneLog* scene_log = nullptr)
+      : store_(store), log_(std::move(log)), cache_(std::move(cache)), origins_(scene_log) {}
 
-  /// Makes the store hold `wanted`, and removes the scenes of earlier calls that are no longer
-  /// wanted. Loads scenes that are new, that are to be read with other options or whose file
-  /// changed, and logs what was read and assumed. If a scene cannot be loaded, or a stop is
-  /// requested, changes nothing and returns false; a fault is logged with the file and the reason.
-  /// Also returns false if the store has no room for a scene; then only that one is left out.
+  /// Makes the store hold `wanted`, and removes the scenes of earlier calls, and of earlier
+  /// processes with the same log, that are no longer wanted. A scene that the log has is taken from
+  /// there. Where its file has changed since, the new content replaces that of the file, and what
+  /// clients added stays; where it cannot be read, the scene stays as it was, with a warning. Loads
+  /// scenes that are new, that are to be read with other options or whose file changed, and logs
+  /// what was read and assumed. If a scene cannot be loaded, or a stop is requested, changes
+  /// nothing and returns false; a fault is logged with the file and the reason. Also returns false
+  /// if the store has no room for a scene; then only that one is left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
   /// Returns the first scene that the last `update` could not load or hold, with the reason. Empty
@@ -46,13 +52,6 @@ class ConfiguredScenes {
   void look_at_files(const std::stop_token& stop = {});
 
  private:
-  /// Identifies a state of a file; all 0 if there is no file.
-  struct FileStamp {
-    std::int64_t written_ns = 0;
-    std::int64_t size = 0;
-    std::uint64_t inode = 0;  ///< changes when the file is replaced
-    bool operator==(const FileStamp&) const = default;
-  };
   struct Held {
     SceneArgument scene;
     FileStamp stamp;          ///< state that the store has
@@ -60,11 +59,12 @@ class ConfiguredScenes {
     FileStamp tried = stamp;  ///< state that was last read, or could not be read
   };
 
-  static FileStamp stamp_of(const std::filesystem::path& file);
   void look_at(Held& held, const std::stop_token& stop);
   /// Returns whether the scene holds the present content of the file.
   bool read_again(const SceneArgument& scene, const std::stop_token& stop);
   [[nodiscard]] bool holds(const Held& wanted) const;
+  /// Returns whether the log has the scene, with the present content of its file if that is there.
+  bool holds_from_log(const Held& wanted, const std::stop_token& stop);
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
                                                             const std::stop_token& stop);
   void note_fault(const std::string& scene, const std::string& reason);
@@ -73,6 +73,7 @@ class ConfiguredScenes {
   scene::SceneStore& store_;
   std::shared_ptr<service::Log> log_;
   std::optional<scene::SceneCache> cache_;
+  SceneOrigins origins_;
   std::vector<Held> held_;
   std::string fault_;
 };

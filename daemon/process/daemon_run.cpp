@@ -131,6 +131,7 @@ class ServingDaemon {
         [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
            const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); };
     service::ServiceConfig config = options_.service;
+    config.is_durable = !options_.state.folder.empty();
     config.claim_window = options_.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
     service::Service service(transport(), scenes, std::move(config), planner, log_, hooks());
     Reloader reloader(options_, std::move(read_again), configured, reloads_, manager_, log_, auth_);

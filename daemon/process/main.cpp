@@ -9,6 +9,7 @@
 #include "daemon/base/standard_streams.h"
 #include "daemon/process/configured_scenes.h"
 #include "daemon/process/daemon_run.h"
+#include "daemon/process/kept_state.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -19,6 +20,13 @@ namespace {
 
 constexpr int kExitFault = 1;
 constexpr int kExitBadInput = 2;
+
+int state_fault(const camway::process::DaemonOptions& options, const std::string& reason,
+                camway::service::Log& log) {
+  log.error("the folder of the state cannot be used",
+            {{"setting", options.where("state.folder")}, {"reason", reason}});
+  return kExitFault;
+}
 
 int run(int argc, char** argv) {
   using namespace camway;
@@ -36,14 +44,23 @@ int run(int argc, char** argv) {
   log->info("starting", {{"version", service::version_text()}});
 
   process::block_reload_signal();  // a reload that is asked for now comes after the scenes
-  scene::SceneStore scenes(parsed.options->store);
+  std::unique_ptr<process::KeptState> state;
+  if (!parsed.options->state.folder.empty()) {
+    auto opened = process::KeptState::open(parsed.options->state);
+    if (!opened) return state_fault(*parsed.options, opened.error, *log);
+    state = *std::move(opened);
+  }
+  scene::SceneStore scenes(parsed.options->store, state ? &state->journal() : nullptr);
+  const std::string fault = state ? state->load_into(scenes, *log) : "";
+  if (!fault.empty()) return state_fault(*parsed.options, fault, *log);
   std::optional<scene::SceneCache> cache = process::scene_cache(*parsed.options);
   if (const std::string fault = cache ? cache->fault() : ""; !fault.empty()) {
     log->warn("the cache of scenes is not used",
               {{"folder", cache->folder().string()}, {"reason", fault}});
     cache.reset();
   }
-  process::ConfiguredScenes configured(scenes, log, std::move(cache));
+  process::ConfiguredScenes configured(scenes, log, std::move(cache),
+                                       state ? &state->log() : nullptr);
   // A stop signal while scenes are being read ends the process at once: no client depends on it
   // yet.
   if (!configured.update(parsed.options->scenes)) return kExitBadInput;

@@ -63,6 +63,7 @@ void add_scenes(const scene::SceneStore& store, status_t& status) {
 status_t make_status(const Core& core, std::chrono::duration<double> uptime) {
   status_t status{};
   status.utime = utime_now();
+  status.daemon_start = core.start;
   status.version = kVersion;
   status.uptime_s = uptime.count();
   status.num_workers = core.workers.workers();

@@ -20,7 +20,7 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 12> kCommands{{
+constexpr std::array<Command, 13> kCommands{{
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
@@ -30,6 +30,7 @@ constexpr std::array<Command, 12> kCommands{{
     {"scene", camway::tools::add_scene_command},
     {"draw", camway::tools::add_draw_command},
     {"cache", camway::tools::add_cache_command},
+    {"state", camway::tools::add_state_command},
     {"status", camway::tools::add_status_command},
     {"doctor", camway::tools::add_doctor_command},
     {"watch", camway::tools::add_watch_command},

@@ -126,8 +126,11 @@ OrderedJson all_answers_json(const DaemonStatus& status) {
 }
 
 OrderedJson status_json(const DaemonStatus& status) {
-  OrderedJson json{
-      {"version", status.version}, {"uptime_s", status.uptime_s}, {"workers", status.num_workers}};
+  OrderedJson json{{"version", status.version},
+                   {"uptime_s", status.uptime_s},
+                   {"start_id", status.daemon_start.id},
+                   {"durable", status.daemon_start.durable},
+                   {"workers", status.num_workers}};
   json.update(request_counts_json(status));
   json.update(message_counts_json(status));
   json.update(all_answers_json(status));
@@ -221,7 +224,8 @@ void print_text(const DaemonStatus& status) {
   print_reloads(status);
   fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
              status.broken_paths);
-  fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);
+  fmt::print("scenes       {}, changed {} times, {}\n", status.total_scenes, status.scene_changes,
+             status.daemon_start.durable ? "durable" : "volatile: they end with the daemon");
   for (const SceneInfo& scene : status.scenes) {
     fmt::print("  {}: revision {}, {} triangles, {}{}, digest {}\n", scene.name, scene.revision,
                scene.num_triangles,

@@ -63,6 +63,8 @@ const char* name_of(WatchEvent::Kind kind) {
       return "better";
     case WatchEvent::Kind::kWithdrawn:
       return "withdrawn";
+    case WatchEvent::Kind::kRestarted:
+      return "restarted";
     case WatchEvent::Kind::kEnded:
       return "ended";
   }
@@ -108,6 +110,8 @@ std::string text_of(const WatchEvent& event) {
       return fmt::format(
           "revision {}: a change broke the better path, which is not on offer any more",
           event.scene_revision);
+    case WatchEvent::Kind::kRestarted:
+      return "the daemon was started anew, the path is asked for again";
     case WatchEvent::Kind::kLost:
     case WatchEvent::Kind::kEnded:
       return event.error;

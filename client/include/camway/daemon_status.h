@@ -35,6 +35,7 @@ struct DaemonStatus {
 
   bool ok() const { return status == Status::kOk; }
 
+  DaemonStart daemon_start;
   std::string version;
   double uptime_s = 0.0;
   std::int32_t num_workers = 0;          ///< requests that can be planned at the same time

@@ -62,6 +62,7 @@ struct OccupancyAnswer {
 
   bool ok() const { return status == Status::kOk; }
 
+  DaemonStart daemon_start;  ///< of the daemon that answered
   std::vector<bool> points_occupied;
   std::vector<bool> boxes_occupied;
   std::vector<bool> spheres_occupied;

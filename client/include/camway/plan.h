@@ -182,6 +182,7 @@ struct PlanResponse {
 
   bool ok() const { return status == Status::kOk; }
 
+  DaemonStart daemon_start;  ///< of the daemon that answered
   /// Index of the given keyframe that is at fault, or from which no way out was found; -1 if none.
   std::int32_t keyframe = -1;
   Path path;                            ///< empty unless ok, partial or timeout

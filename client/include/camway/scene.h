@@ -106,6 +106,7 @@ struct SceneAnswer {
 
   bool ok() const { return status == Status::kOk; }
 
+  DaemonStart daemon_start;       ///< of the daemon that answered
   std::string message;            ///< warnings of the import of a file; empty if there are none
   SceneInfo scene;                ///< the scene after the change; empty for `list_scenes`
   std::vector<SceneInfo> scenes;  ///< `list_scenes`: all scenes, in order of name

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace camway {
+
+/// A start of the daemon. An answer with another id than those before comes from a daemon that was
+/// started anew.
+struct DaemonStart {
+  std::int64_t id = 0;  ///< 0 without an answer of a daemon
+  bool durable =
+      false;  ///< whether the scenes outlive the daemon; if not, it has forgotten changes
+};
 
 /// The outcome of a call. The daemon sets the values below 100, which are those of the wire; the
 /// client sets the others.

@@ -174,6 +174,8 @@ std::string metrics_text(const status_t& status) {
   page.head("build_info", "gauge", "1, with the version of the daemon.");
   page.sample("build_info", fmt::format("version=\"{}\"", escaped(status.version)), 1);
   page.gauge("uptime_seconds", status.uptime_s, "Time since the start.");
+  page.gauge("durable", status.daemon_start.durable ? 1 : 0,
+             "Whether the scenes outlive the daemon.");
   page.gauge("workers", status.num_workers, "Requests that can be planned at the same time.");
   page.gauge("queued_requests", status.queued_requests, "Requests that wait for a worker.");
   page.gauge("running_requests", status.running_requests, "Requests that are being planned.");

@@ -25,8 +25,9 @@ namespace {
 
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
-    "signal ends it at once), 1 LCM or the port for metrics cannot be used, LCM failed, or another "
-    "daemon serves with this prefix, 2 wrong "
+    "signal ends it at once), 1 LCM, the port for metrics or the folder of the state cannot be "
+    "used, LCM "
+    "failed, or another daemon serves with this prefix, 2 wrong "
     "command line, configuration or scene file, or standard output cannot be written.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is logged and needs a restart.\n"
@@ -99,6 +100,11 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                   "without them they can upload only; relative to the folder that this is started "
                   "in",
                   options, "none");
+  declare_setting(
+      app, "--state", "state.folder",
+      "Folder in which scenes are kept, so that the next daemon with it has them again; "
+      "without it they end with the daemon",
+      options, "none");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",
                  "Serve though another daemon serves with this prefix; else this one says so and "

@@ -34,6 +34,12 @@ struct AuthOptions {
   std::size_t senders = 16'384;  ///< senders that are remembered at a time
 };
 
+/// Where scenes are kept beyond the life of the daemon.
+struct StateOptions {
+  std::string folder;  ///< empty: nowhere
+  std::size_t most_bytes = std::size_t{16} << 30;
+};
+
 /// The options of `camwayd`: built-in defaults, overridden by the configuration file, overridden by
 /// the command line.
 struct DaemonOptions {
@@ -50,6 +56,7 @@ struct DaemonOptions {
   std::string cache_folder;  ///< of prepared scenes; empty: the one that the environment names
   std::size_t cache_bytes = std::size_t{2} << 30;  ///< limit of the cache; 0: no cache
   scene::SceneStoreLimits store;
+  StateOptions state;
   service::ServiceConfig service;
   /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",
   /// "LCM_DEFAULT_URL". Settings with their defaults are not here.

@@ -193,6 +193,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.all_exports_bytes", &service.exports.bytes, 1, 1e12},
       {"scenes.upload_idle_s", &service.uploads.idle, 1, kDayS},
       {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
+      {"state.folder", &options.state.folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"state.most_bytes", &options.state.most_bytes, 1 << 20, kManyBytes},
       {"watch.paths", &service.watches.paths, 0, 1e6},
       {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
       {"watch.bytes", &service.watches.bytes, 0, kManyBytes},

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <random>
 #include <utility>
 
 #include <camway/error_t.hpp>
@@ -12,9 +13,25 @@
 
 namespace camway::service {
 
+namespace {
+
+daemon_start_t new_start(bool is_durable) {
+  std::random_device random;
+  daemon_start_t start{};
+  start.durable = is_durable;
+  // Halves of 31 bits, so that languages without unsigned numbers show it alike.
+  constexpr std::uint32_t kHalf = 0x7fffffff;
+  start.id = static_cast<std::int64_t>(random() & kHalf) << 31 |
+             static_cast<std::int64_t>(random() & kHalf) | 1;
+  return start;
+}
+
+}  // namespace
+
 Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
            std::shared_ptr<Log> service_log)
     : config(std::move(core_config)),
+      start(new_start(config.is_durable)),
       channels{config.prefix},
       scenes(scene_store),
       log(std::move(service_log)),

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <camway/daemon_start_t.hpp>
+
 #include "daemon/base/deadline.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
@@ -79,6 +81,7 @@ struct Core {
   bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
 
   const CoreConfig config;
+  const daemon_start_t start;  ///< of this process, for every answer
   const wire::Channels channels;
   const scene::SceneStore& scenes;
   const std::shared_ptr<Log> log;

@@ -20,6 +20,7 @@ inline constexpr int kMaxWorkers = 256;
 struct CoreConfig {
   /// Prefix of all channels; `--prefix` [Limit: wire::is_prefix(value)]
   std::string prefix = "CAMWAY";
+  bool is_durable = false;  ///< whether the scenes outlive the daemon
   int workers = 1;  ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
   /// Requests that wait for a worker; `--queue`, `--client-queue`
   /// [Limit: 1 <= value <= kMaxQueueCapacity]

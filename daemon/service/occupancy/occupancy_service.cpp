@@ -148,6 +148,7 @@ void OccupancyService::finish(const Request& request, Response answer) {
 
 void OccupancyService::send(occupancy_response_t answer) {
   answer.utime = utime_now();
+  answer.daemon_start = core_.start;
   core_.counters.occupancy_answers.add(answer.status);
   core_.limited_log.occupancy.write("answered occupancy request",
                                     {{"client", answer.client_id},

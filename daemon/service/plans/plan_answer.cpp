@@ -77,7 +77,7 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                                  header_of(wire, &snapshot))};
 }
 
-Pages encode_answer(plan_response_t& answer, int most_pages) {
+Pages encode_answer(plan_response_t& answer, const daemon_start_t& start, int most_pages) {
   const std::size_t pages = wire::count_pages(answer);
   if (pages > static_cast<std::size_t>(most_pages)) {
     const messages::AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
@@ -91,6 +91,7 @@ Pages encode_answer(plan_response_t& answer, int most_pages) {
                                            pages, most_pages),
                                header);
   }
+  answer.daemon_start = start;
   return std::make_shared<const std::vector<Bytes>>(wire::encode_pages(answer));
 }
 

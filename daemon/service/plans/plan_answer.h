@@ -37,6 +37,6 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                    const base::Deadline& deadline);
 
 /// Encodes `answer`. If it has more than `most_pages`, replaces it by an answer that says so.
-Pages encode_answer(plan_response_t& answer, int most_pages);
+Pages encode_answer(plan_response_t& answer, const daemon_start_t& start, int most_pages);
 
 }  // namespace camway::service

@@ -273,7 +273,7 @@ void PlanService::run(const Pending& pending) {
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
   auto answered = std::make_shared<Answered>(
       answer_of(planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
-  Pages pages = encode_answer(answered->wire, config_.answer_pages);
+  Pages pages = encode_answer(answered->wire, core_.start, config_.answer_pages);
   core_.mailbox.post(
       [this, pending, waited_s, answered = std::move(answered), pages = std::move(pages)] {
         core_.counters.waiting.add(waited_s);
@@ -353,7 +353,7 @@ void PlanService::run_again(const Replan& replan) {
   done->answered =
       answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
   done->answered.interpolated.reset();  // watched since the first answer
-  done->pages = encode_answer(done->answered.wire, config_.answer_pages);
+  done->pages = encode_answer(done->answered.wire, core_.start, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
 
@@ -410,7 +410,7 @@ void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
                                  std::string_view message) {
   plan_response_t answer =
       messages::plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
-  Pages pages = encode_answer(answer, config_.answer_pages);
+  Pages pages = encode_answer(answer, core_.start, config_.answer_pages);
   finish(pending, answer, std::move(pages));
 }
 
@@ -444,7 +444,7 @@ void PlanService::answer_uncached(const plan_request_t& request, std::int32_t st
                                   std::string_view message) {
   plan_response_t answer = messages::plain_answer(status, message, header_of(request, nullptr));
   core_.counters.plan_answers.add(status);
-  send({request.client_id, request.request_id}, encode_answer(answer, config_.answer_pages),
+  send({request.client_id, request.request_id}, encode_answer(answer, core_.start, config_.answer_pages),
        Outbox::Kind::kRefusal);
 }
 

@@ -15,6 +15,7 @@
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/voxels/map_scan.h"
+#include "daemon/service/scenes/request_digest.h"
 #include "daemon/service/scenes/scene_answers.h"
 #include "daemon/service/scenes/scene_content.h"
 #include "lcmtypes/wire/channels.h"
@@ -112,7 +113,10 @@ class SceneOperation {
 
   /// Returns the entry about this change in the history of the scene.
   [[nodiscard]] scene::ChangeNote note(std::string object) const {
-    return {operation_name(request_), std::move(object), request_.client_id, 0, {}};
+    return {.operation = operation_name(request_),
+            .object = std::move(object),
+            .client = request_.client_id,
+            .request = request_name(request_)};
   }
 
   /// Returns the answer for the result of a change in the store.

@@ -2,7 +2,6 @@
 #include "daemon/service/scenes/scene_service.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <exception>
@@ -15,19 +14,12 @@
 
 #include "daemon/messages/text.h"
 #include "daemon/service/scenes/ineffective_members.h"
+#include "daemon/service/scenes/request_digest.h"
 #include "daemon/service/scenes/scene_answers.h"
 #include "lcmtypes/wire/check.h"
 
 namespace camway::service {
 namespace {
-
-/// Returns the digest of the request with `utime` zeroed.
-RequestDigest digest_of(scene_request_t request) {
-  request.utime = 0;
-  const Bytes bytes = wire::encode(request);
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return {hash.high64, hash.low64};
-}
 
 RequestKey key_of(const scene_request_t& request) {
   return {request.client_id, request.request_id};
@@ -229,6 +221,7 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
 
 Pages SceneService::send(scene_response_t answer) {
   answer.utime = utime_now();
+  answer.daemon_start = core_.start;
   core_.counters.scene_answers.add(answer.status);
   const std::string channel = core_.channels.scene_response(answer.client_id);
   auto pages = std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer));

@@ -40,12 +40,20 @@ class WatchListTest : public ::testing::Test {
     list_.add(request, [this](const WatchEvent& event) { events_.push_back(event); });
   }
 
+  /// The status of a daemon that has run for so long.
+  static DaemonStatus up_for(double uptime_s, std::int64_t start_id = 1) {
+    DaemonStatus status;
+    status.uptime_s = uptime_s;
+    status.daemon_start.id = start_id;
+    return status;
+  }
+
   /// Steps like the engine for some time, with a heartbeat each second if `beats`.
   void live(Clock::duration how_long, bool beats) {
     for (Clock::duration passed{}; passed < how_long; passed += std::chrono::milliseconds(50)) {
       step_at(std::chrono::milliseconds(50));
       if (beats && passed % std::chrono::seconds(1) == Clock::duration::zero()) {
-        list_.take_heartbeat(1000.0, now_);
+        list_.take_heartbeat(up_for(1000.0), now_);
       }
     }
   }

@@ -112,10 +112,10 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   begin();
   step_at(seconds(5));
   EXPECT_TRUE(sent().empty());
-  list_.take_heartbeat(1.0, now_);
+  list_.take_heartbeat(up_for(1.0), now_);
   step_at({});
   EXPECT_EQ(sent().size(), 1u);
-  list_.take_heartbeat(2.0, now_ + seconds(1));
+  list_.take_heartbeat(up_for(2.0), now_ + seconds(1));
   step_at(milliseconds(100));
   EXPECT_TRUE(sent().empty()) << "once";
 }
@@ -140,7 +140,7 @@ TEST_F(WatchListTest, ADaemonThatComesBackIsAskedAtOnceAndToldOnce) {
   live(seconds(20), /*beats=*/false);
   ASSERT_EQ(told(EventKind::kLost), 1);
   sent();
-  list_.take_heartbeat(1000.0, now_);
+  list_.take_heartbeat(up_for(1000.0), now_);
   step_at(milliseconds(50));
   const std::vector<watch_t> renewals = sent();
   ASSERT_EQ(renewals.size(), 1u);
@@ -175,7 +175,7 @@ TEST_F(WatchListTest, TimeInWhichNobodyListenedIsNoSilence) {
   live(seconds(5), /*beats=*/true);
   step_at(seconds(9));  // suspended, say, or in a slow handler
   EXPECT_EQ(told(EventKind::kLost), 0);
-  list_.take_heartbeat(1000.0, now_);
+  list_.take_heartbeat(up_for(1000.0), now_);
   live(seconds(5), /*beats=*/true);
   EXPECT_EQ(told(EventKind::kLost), 0);
 }

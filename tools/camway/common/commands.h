@@ -32,6 +32,7 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code);
 void add_scene_command(CLI::App& app, ExitCode& exit_code);
 void add_draw_command(CLI::App& app, ExitCode& exit_code);
 void add_cache_command(CLI::App& app, ExitCode& exit_code);
+void add_state_command(CLI::App& app, ExitCode& exit_code);
 void add_status_command(CLI::App& app, ExitCode& exit_code);
 void add_doctor_command(CLI::App& app, ExitCode& exit_code);
 void add_watch_command(CLI::App& app, ExitCode& exit_code);

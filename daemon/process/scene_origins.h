@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/process/settings/scene_argument.h"
+#include "daemon/scene/log/scene_log.h"
+
+namespace camway::process {
+
+/// Identifies a state of a file; all 0 if there is no file.
+struct FileStamp {
+  std::int64_t written_ns = 0;
+  std::int64_t size = 0;
+  std::uint64_t inode = 0;  ///< changes when the file is replaced
+  bool operator==(const FileStamp&) const = default;
+
+  static FileStamp of(const std::filesystem::path& file);
+};
+
+/// What the configured scenes in a log were made of, so that a start reads only files that have
+/// changed. Without a log it knows nothing and keeps nothing.
+/// Not thread-safe.
+class SceneOrigins {
+ public:
+  /// Refers to `log`, which must outlive it; null for none.
+  explicit SceneOrigins(scene::SceneLog* log);
+
+  struct Origin {
+    std::string arguments;  ///< `arguments_of` the scene
+    FileStamp stamp;
+  };
+  /// Returns the origin of a scene; nothing if it is not known.
+  [[nodiscard]] std::optional<Origin> find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+
+  void set(const SceneArgument& scene, const FileStamp& stamp);
+  void erase(const std::string& name);
+
+  /// Returns a text that is equal for scenes that are read alike from the same file.
+  static std::string arguments_of(const SceneArgument& scene);
+
+ private:
+  void save();
+
+  scene::SceneLog* log_;
+  std::map<std::string, Origin, std::less<>> origins_;
+};
+
+}  // namespace camway::process

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/log/source_blobs.h"
+
+#include <ranges>
+#include <utility>
+#include <vector>
+
+#include "daemon/scene/log/source_record.h"
+
+namespace camway::scene {
+namespace {
+
+/// Differences in a row: a start reads all of them.
+constexpr int kMostDifferences = 64;
+
+}  // namespace
+
+std::optional<SourceBlobs::Known> SourceBlobs::find(
+    const std::shared_ptr<const ObjectSource>& source) {
+  const std::lock_guard lock(mutex_);
+  const auto found = known_.find(source.get());
+  // Another content may have been made in the same place after the known one was dropped.
+  if (found == known_.end() || found->second.source.lock() != source) return std::nullopt;
+  return found->second;
+}
+
+void SourceBlobs::remember(const std::shared_ptr<const ObjectSource>& source, const BlobId& id,
+                           int differences) {
+  const std::lock_guard lock(mutex_);
+  known_.insert_or_assign(source.get(), Known{source, id, differences});
+}
+
+base::Result<BlobId> SourceBlobs::keep(const std::shared_ptr<const ObjectSource>& source,
+                                       const std::shared_ptr<const ObjectSource>& before) {
+  if (const std::optional<Known> known = find(source); known && log_.has_blob(known->id)) {
+    return known->id;
+  }
+  if (before != nullptr && source->map_O != nullptr && before->map_O != nullptr) {
+    if (const auto kept = keep_difference(source, before)) return *kept;
+  }
+  const Blob blob{record_of(*source), {}};
+  const BlobId id = blob_id_of(blob.bytes);
+  if (AppendResult put = log_.put_blob(id, blob); !put.error.empty()) {
+    return base::Failure{std::move(put.error)};
+  }
+  remember(source, id, 0);
+  return id;
+}
+
+std::optional<base::Result<BlobId>> SourceBlobs::keep_difference(
+    const std::shared_ptr<const ObjectSource>& source,
+    const std::shared_ptr<const ObjectSource>& before) {
+  const std::optional<Known> base = find(before);
+  if (!base || base->differences >= kMostDifferences || !log_.has_blob(base->id)) return {};
+  std::optional<Bytes> difference = record_of_difference(*source, *before, base->id);
+  if (!difference) return {};
+  const Blob blob{*std::move(difference), {base->id}};
+  const BlobId id = blob_id_of(blob.bytes);
+  if (AppendResult put = log_.put_blob(id, blob); !put.error.empty()) {
+    return base::Failure{std::move(put.error)};
+  }
+  remember(source, id, base->differences + 1);
+  return id;
+}
+
+base::Result<std::shared_ptr<const ObjectSource>> SourceBlobs::read(const BlobId& id,
+                                                                    const ObjectOptions& options,
+                                                                    Read& read) {
+  // From the wanted record back to a whole one, or to one that was read before.
+  std::vector<std::pair<BlobId, Bytes>> chain;
+  std::optional<BlobId> next = id;
+  while (next && !read.contains(*next)) {
+    base::Result<Bytes> bytes = log_.blob(*next);
+    if (!bytes) return base::Failure{std::move(bytes.error)};
+    const base::Result<std::optional<BlobId>> base = base_of_record(*bytes);
+    if (!base) return base::Failure{base.error};
+    chain.emplace_back(*next, *std::move(bytes));
+    if (chain.size() > kMostDifferences + 1) {
+      return base::Failure{"the content of an object is damaged: it has too many parts"};
+    }
+    next = *base;
+  }
+  std::shared_ptr<const ObjectSource> source = next ? read.at(*next) : nullptr;
+  const std::optional<Known> known = source ? find(source) : std::nullopt;
+  int differences = known ? known->differences : -1;
+  for (const auto& [part, bytes] : std::views::reverse(chain)) {
+    base::Result<std::shared_ptr<const ObjectSource>> made = source_from(bytes, source, options);
+    if (!made) return base::Failure{std::move(made.error)};
+    source = *std::move(made);
+    remember(source, part, ++differences);
+    read.emplace(part, source);
+  }
+  return source;
+}
+
+void SourceBlobs::forget_unused() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(known_, [](const auto& each) { return each.second.source.expired(); });
+}
+
+}  // namespace camway::scene

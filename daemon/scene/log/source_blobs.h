@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "daemon/base/result.h"
+#include "daemon/scene/log/scene_log.h"
+#include "daemon/scene/snapshot/scene_object.h"
+
+namespace camway::scene {
+
+/// The contents of objects as blobs of a log. An occupancy map after a scan is kept as the
+/// difference from the map before, so that a scan costs what it changes.
+/// Thread-safe.
+class SourceBlobs {
+ public:
+  /// Refers to `log`, which must outlive it.
+  explicit SourceBlobs(SceneLog& log) : log_(log) {}
+
+  /// Returns the blob of a content, which it puts into the log if it is not there. `before`: the
+  /// content that this one takes the place of; may be null.
+  base::Result<BlobId> keep(const std::shared_ptr<const ObjectSource>& source,
+                            const std::shared_ptr<const ObjectSource>& before);
+
+  /// Contents that were read, so that objects with the same content share it.
+  using Read = std::map<BlobId, std::shared_ptr<const ObjectSource>>;
+  /// Returns the content of a blob, built with `options`, with which all in `read` were built.
+  base::Result<std::shared_ptr<const ObjectSource>> read(const BlobId& id,
+                                                         const ObjectOptions& options, Read& read);
+
+  /// Forgets the contents that no scene holds any more.
+  void forget_unused();
+
+ private:
+  struct Known {
+    std::weak_ptr<const ObjectSource> source;
+    BlobId id{};
+    int differences = 0;  ///< between this and a whole record
+  };
+
+  [[nodiscard]] std::optional<Known> find(const std::shared_ptr<const ObjectSource>& source);
+  void remember(const std::shared_ptr<const ObjectSource>& source, const BlobId& id,
+                int differences);
+  std::optional<base::Result<BlobId>> keep_difference(
+      const std::shared_ptr<const ObjectSource>& source,
+      const std::shared_ptr<const ObjectSource>& before);
+
+  SceneLog& log_;
+  std::mutex mutex_;  ///< guards known_
+  std::map<const ObjectSource*, Known> known_;
+};
+
+}  // namespace camway::scene

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scenes/request_digest.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "lcmtypes/wire/check.h"
+
+namespace camway::service {
+
+RequestDigest digest_of(scene_request_t request) {
+  request.utime = 0;
+  const std::vector<std::uint8_t> bytes = wire::encode(request);
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return {hash.high64, hash.low64};
+}
+
+std::string request_name(const scene_request_t& request) {
+  const auto [high, low] = digest_of(request);
+  return fmt::format("{}/{}/{:016x}{:016x}", request.client_id, request.request_id, high, low);
+}
+
+}  // namespace camway::service
