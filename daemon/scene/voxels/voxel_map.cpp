@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "daemon/geometry/rounding.h"
@@ -49,6 +50,11 @@ double volume(const VoxelSet::Range& range) {
   double voxels = 1.0;
   for (const VoxelRange& along : range) voxels *= double{1} + along.last - along.first;
   return voxels;
+}
+
+/// Compares bits: 0 and -0 differ.
+bool are_same(const std::shared_ptr<const Beliefs>& a, const std::shared_ptr<const Beliefs>& b) {
+  return a == b || (a && b && std::memcmp(a->data(), b->data(), sizeof *a) == 0);
 }
 
 std::string too_many(const VoxelMapLimits& limits, const char* what) {
@@ -104,7 +110,9 @@ VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
   for (const ScannedBlock& block : blocks) {
     next->occupied_.set_block(block.key, block.occupied);
     next->free_.set_block(block.key, block.free);
-    next->beliefs_.at(block.key) = block.beliefs;
+    if (block.beliefs || beliefs(block.key) != nullptr) {
+      next->beliefs_.at(block.key) = block.beliefs;
+    }
     if (unknown_ == UnknownSpace::kFree) continue;
     VoxelSet::extend(next->known_, block.key, block.occupied);
     VoxelSet::extend(next->known_, block.key, block.free);
@@ -119,6 +127,33 @@ VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
   next->faces_ = faces_ ? faces_->updated(solid(), next->solid(), resolution_m_, limits_.triangles)
                         : VoxelFaces::of(next->solid(), resolution_m_, limits_.triangles);
   return {std::move(next), ""};
+}
+
+std::vector<ScannedBlock> VoxelMap::blocks_changed_since(const VoxelMap& before) const {
+  std::vector<std::uint64_t> keys;
+  const auto note = [&](std::uint64_t key, const VoxelSet::Bits&, const VoxelSet::Bits&) {
+    keys.push_back(key);
+  };
+  occupied_.for_each_difference(before.occupied_, note);
+  free_.for_each_difference(before.free_, note);
+  beliefs_.for_each_unshared(
+      before.beliefs_, [&](std::uint64_t key, const auto* theirs, const auto* ours) {
+        const std::shared_ptr<const Beliefs> none;
+        const bool is_same =
+            are_same(theirs != nullptr ? *theirs : none, ours != nullptr ? *ours : none);
+        if (!is_same) keys.push_back(key);
+      });
+  std::ranges::sort(keys);
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<ScannedBlock> blocks;
+  blocks.reserve(keys.size());
+  for (const std::uint64_t key : keys) {
+    const std::shared_ptr<const Beliefs>* const found = beliefs_.find(key);
+    blocks.push_back({key, occupied_.block(key), free_.block(key),
+                      found != nullptr ? *found : std::shared_ptr<const Beliefs>()});
+  }
+  return blocks;
 }
 
 /// Why such a map is refused, or an empty text.

@@ -36,6 +36,8 @@ struct SensorModel {
   double most_probability = 0.971;    ///< clamping limit of occupied ones [Limit: 0.5 < value < 1]
   /// Points farther away only show that the ray is free up to this range. [Limit: 0 < value]
   double max_range_m = std::numeric_limits<double>::infinity();
+
+  bool operator==(const SensorModel&) const = default;
 };
 
 /// Names the first invalid number and says why; empty if all are valid.
@@ -47,6 +49,8 @@ struct VoxelMapLimits {
   /// all voxels in the box of both and its layer. [Limit: 1 <= value]
   std::uint64_t voxels = std::uint64_t{1} << 27;
   std::size_t triangles = 8'000'000;  ///< limit of its faces [Limit: 12 <= value]
+
+  bool operator==(const VoxelMapLimits&) const = default;
 };
 
 struct VoxelMapResult;
@@ -60,7 +64,7 @@ struct ScannedBlock {
   std::uint64_t key = 0;  ///< `BlockKey` of the block
   VoxelSet::Bits occupied{};
   VoxelSet::Bits free{};
-  std::shared_ptr<const Beliefs> beliefs;
+  std::shared_ptr<const Beliefs> beliefs;  ///< null if the block was never scanned
 };
 
 /// An occupancy map: a solid of voxels, and what is known of the space around it. Its faces are
@@ -80,6 +84,12 @@ class VoxelMap {
   /// Fails as `build` does. Requires that `blocks` leave no voxel unknown that is known here.
   [[nodiscard]] VoxelMapResult with(std::span<const ScannedBlock> blocks) const;
 
+  /// Returns the blocks that differ from those of `before`, in order of their keys. `before.with`
+  /// of them is equal to this map if the resolution, the limits, the sensor and the state of
+  /// unknown space are equal, and if no voxel is unknown here that is known there. The cost depends
+  /// on the changes since one of the two maps was made from the other.
+  [[nodiscard]] std::vector<ScannedBlock> blocks_changed_since(const VoxelMap& before) const;
+
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
   [[nodiscard]] const VoxelMapLimits& limits() const { return limits_; }
@@ -89,6 +99,8 @@ class VoxelMap {
     const std::shared_ptr<const Beliefs>* const found = beliefs_.find(key);
     return found != nullptr ? found->get() : nullptr;
   }
+  /// Number of blocks with log-odds.
+  [[nodiscard]] std::size_t scanned_blocks() const { return beliefs_.size(); }
   [[nodiscard]] const VoxelSet& occupied() const { return occupied_; }
   [[nodiscard]] const VoxelSet& free() const { return free_; }
   /// The voxels that no body may enter.

@@ -38,6 +38,8 @@ class VoxelSet {
   [[nodiscard]] bool contains(const Voxel& voxel) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// Number of blocks, of which some may have no voxels.
+  [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
   [[nodiscard]] std::uint64_t memory_bytes() const { return blocks_.memory_bytes(); }
   /// The part of `memory_bytes` that is not shared with `other`.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelSet& other) const {

@@ -176,6 +176,36 @@ TEST(Scanned, RefusesWhatOctoMapCannotHoldOrTakesTooLong) {
       scanned(*empty_map(near), {Vec3::Zero(), std::vector<Vec3>(5000, Vec3(3000, 0, 0))}).map);
 }
 
+TEST(Scanned, TheChangedBlocksMakeTheNextMapOfTheOneBefore) {
+  testing::Random random(kScanSeed + 2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::shared_ptr<const VoxelMap> map = empty_map({});
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (int scan = 0; scan < 6; ++scan) {
+    const Vec3 origin(unit(random), unit(random), unit(random));
+    std::vector<Vec3> points = sight(random, origin);
+    if (scan > 2) points.resize(2);
+    const std::shared_ptr<const VoxelMap> next = scanned(*map, {origin, points}).map;
+    EXPECT_TRUE(next->blocks_changed_since(*next).empty());
+    const std::vector<ScannedBlock> blocks = next->blocks_changed_since(*map);
+    const std::shared_ptr<const VoxelMap> again = map->with(blocks).map;
+    EXPECT_TRUE(again->blocks_changed_since(*next).empty());
+    EXPECT_EQ(again->scanned_blocks(), next->scanned_blocks());
+    for (std::size_t i = 1; i < blocks.size(); ++i) ASSERT_LT(blocks[i - 1].key, blocks[i].key);
+    for (const ScannedBlock& block : blocks) {
+      ASSERT_TRUE(block.beliefs);
+      ASSERT_TRUE(block.occupied != map->occupied().block(block.key) ||
+                  block.free != map->free().block(block.key) ||
+                  map->beliefs(block.key) == nullptr || *map->beliefs(block.key) != *block.beliefs)
+          << "it did not change";
+      ASSERT_EQ(again->beliefs(block.key), next->beliefs(block.key)) << "it is shared";
+    }
+    fewest = std::min(fewest, blocks.size());
+    map = next;
+  }
+  EXPECT_LT(10 * fewest, map->scanned_blocks());
+}
+
 TEST(SensorModel, NamesWhatCannotBe) {
   EXPECT_EQ(fault_in(SensorModel{}), "");
   const auto fault = [](auto change) {
