@@ -51,8 +51,9 @@ int run(int argc, char** argv) {
     state = *std::move(opened);
   }
   scene::SceneStore scenes(parsed.options->store, state ? &state->journal() : nullptr);
-  const std::string fault = state ? state->load_into(scenes, *log) : "";
-  if (!fault.empty()) return state_fault(*parsed.options, fault, *log);
+  if (const std::string fault = state ? state->load_into(scenes, *log) : ""; !fault.empty()) {
+    return state_fault(*parsed.options, fault, *log);
+  }
   std::optional<scene::SceneCache> cache = process::scene_cache(*parsed.options);
   if (const std::string fault = cache ? cache->fault() : ""; !fault.empty()) {
     log->warn("the cache of scenes is not used",

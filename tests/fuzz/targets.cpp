@@ -10,7 +10,8 @@ std::span<const FuzzTarget> fuzz_targets() {
   static const std::array all{kWireTarget,        kEnvelopeTarget,     kMeshTarget,
                               kRequestJsonTarget, kResponseJsonTarget, kPathJsonTarget,
                               kSessionTarget,     kImportRecordTarget, kMapFileTarget,
-                              kCacheFileTarget,   kConfigTarget,       kKeyFileTarget};
+                              kCacheFileTarget,   kChangeRecordTarget, kSourceRecordTarget,
+                              kConfigTarget,      kKeyFileTarget};
   return all;
 }
 

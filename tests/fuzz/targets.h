@@ -61,6 +61,8 @@ extern const FuzzTarget kSessionTarget;
 extern const FuzzTarget kImportRecordTarget;
 extern const FuzzTarget kMapFileTarget;
 extern const FuzzTarget kCacheFileTarget;
+extern const FuzzTarget kChangeRecordTarget;
+extern const FuzzTarget kSourceRecordTarget;
 extern const FuzzTarget kConfigTarget;
 extern const FuzzTarget kKeyFileTarget;
 

@@ -58,10 +58,9 @@ std::optional<std::vector<KeptScene>> read_scenes(const std::string& folder) {
 }
 
 void print_json(const std::vector<KeptScene>& scenes) {
-  using OrderedJson = nlohmann::ordered_json;
-  OrderedJson json = OrderedJson::array();
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const KeptScene& kept : scenes) {
-    OrderedJson objects = OrderedJson::array();
+    nlohmann::ordered_json objects = nlohmann::ordered_json::array();
     for (const scene::RecordedObject& object : kept.scene.objects) objects.push_back(object.name);
     json.push_back({{"scene", kept.name},
                     {"revision", kept.scene.oldest.revision},
@@ -87,15 +86,15 @@ void print_text(const std::vector<KeptScene>& scenes) {
   }
 }
 
-ExitCode show(const std::string& folder, bool as_json) {
+ExitCode show_state(const std::string& folder, bool as_json) {
   const std::optional<std::vector<KeptScene>> scenes = read_scenes(folder);
   if (!scenes) return ExitCode::kInvalidInput;
   as_json ? print_json(*scenes) : print_text(*scenes);
   return ExitCode::kSuccess;
 }
 
-ExitCode check(const std::string& folder) {
-  const auto content = SqliteLog::check(scene::log_file_of(folder));
+ExitCode check_state(const std::string& folder) {
+  const auto content = SqliteLog::check(SqliteLog::file_of(folder));
   if (!content) {
     print_error(content.error);
     return ExitCode::kInvalidInput;
@@ -150,11 +149,11 @@ void add_state_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* list = command->add_subcommand("show", "List the scenes");
   add_word(list, "FOLDER", words->folder, "the daemon's state.folder");
   list->add_flag("--json", words->as_json, "Print JSON, for machines");
-  list->callback([words, &exit_code] { exit_code = show(words->folder, words->as_json); });
+  list->callback([words, &exit_code] { exit_code = show_state(words->folder, words->as_json); });
 
   CLI::App* verify = command->add_subcommand("check", "Verify every byte");
   add_word(verify, "FOLDER", words->folder, "the daemon's state.folder");
-  verify->callback([words, &exit_code] { exit_code = check(words->folder); });
+  verify->callback([words, &exit_code] { exit_code = check_state(words->folder); });
 
   CLI::App* copy = command->add_subcommand(
       "export", "Copy it into one file, also while a daemon uses it: a backup");
