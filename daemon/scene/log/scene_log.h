@@ -67,7 +67,8 @@ class SceneLog {
   virtual ~SceneLog() = default;
 
   /// Keeps a blob for entries that will name it. It is durable once an entry is that names it;
-  /// until then the next `drop_unused_blobs` drops it.
+  /// until then the next `drop_unused_blobs` drops it. Requires that the blobs that it needs are
+  /// there, and that `id` is that of its bytes.
   virtual AppendResult put_blob(const BlobId& id, const Blob& blob) = 0;
   [[nodiscard]] virtual bool has_blob(const BlobId& id) = 0;
   /// Fails if there is no such blob, or if its bytes are damaged.
@@ -77,7 +78,7 @@ class SceneLog {
   /// scene). Requires that all blobs that it needs are there.
   virtual AppendResult append(std::string_view scene, const LogEntry& entry) = 0;
   /// Replaces all entries of a scene up to `revision` by a summary of them, which needs these
-  /// blobs. Requires that the newest revision is at least `revision`.
+  /// blobs. Requires that a change made `revision`, and that no summary of a later one is there.
   virtual AppendResult summarize(std::string_view scene, std::uint64_t revision,
                                  const Bytes& summary, const std::vector<BlobId>& needs) = 0;
   /// Removes a scene if its newest revision is `revision`, and remembers the revision.

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+#include "daemon/scene/log/log_refusal.h"
+#include "daemon/scene/log/log_rows.h"
+#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite_schema.h"
+#include "daemon/scene/log/state_files.h"
+
+namespace camway::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+SqliteLogContent content_of(SqliteDatabase& database, const std::vector<LoggedScene>& scenes) {
+  SqliteLogContent content;
+  content.scenes = scenes.size();
+  for (const LoggedScene& scene : scenes) content.entries += scene.entries.size();
+  SqliteQuery blobs = database.query("SELECT count(*), ifnull(sum(size), 0) FROM blobs");
+  if (blobs.next()) {
+    content.blobs = blobs.number(0);
+    content.blob_bytes = blobs.number(1);
+  }
+  return content;
+}
+
+std::string fault_of_references(SqliteDatabase& database) {
+  SqliteQuery found = database.query("PRAGMA foreign_key_check");
+  return found.next() ? "the table " + found.text(0) + " lost the row that another row belongs to"
+                      : "";
+}
+
+base::Result<SqliteLogContent> check_content(SqliteDatabase& database) {
+  std::string fault = fault_of_structure(database, "integrity_check");
+  if (fault.empty()) fault = fault_of_references(database);
+  if (fault.empty()) fault = fault_of_notes(database);
+  if (fault.empty()) fault = fault_of_blobs(database);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  const auto scenes = read_logged_scenes(database);
+  if (!scenes) return base::Failure{scenes.error};
+  const SqliteLogContent content = content_of(database, *scenes);
+  if (database.failure()) return base::Failure{database.failure()->text};
+  return content;
+}
+
+/// Returns why a file could not be filled with a copy of another; empty otherwise.
+std::string copy_log(const fs::path& from, const fs::path& to) {
+  const auto source = SqliteDatabase::open(from, SqliteDatabase::Access::kRead);
+  if (!source) return source.error;
+  // An absolute path, since SQLite takes "file:" at the beginning of a relative one for a URI.
+  const std::string target = fs::absolute(to).string();
+  if (!(*source)->query("VACUUM INTO ?").with(std::string_view(target)).run()) {
+    return (*source)->failure()->text;
+  }
+  const auto checked = SqliteLog::check(to);
+  return checked ? "" : checked.error;
+}
+
+}  // namespace
+
+base::Result<SqliteLogContent> SqliteLog::check(const fs::path& file) {
+  const std::string place = file.string();
+  const auto opened = SqliteDatabase::open(file, SqliteDatabase::Access::kRead);
+  if (!opened) return base::Failure{opened.error};
+  SqliteDatabase& database = **opened;
+  const auto version = version_of_log(database);
+  if (!version) return base::Failure{refusal(place, database, version.error)};
+  std::string fault = version_fault(place, *version);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  base::Result<SqliteLogContent> content = base::Failure{"no state can be read"};
+  database.read_at_once([&] {
+    content = check_content(database);
+    return true;
+  });
+  if (!content) return base::Failure{refusal(place, database, content.error)};
+  return content;
+}
+
+std::string SqliteLog::export_to(const fs::path& file) const {
+  const std::string place = "the export " + file.string() + " cannot be made: ";
+  std::error_code failed;
+  if (fs::exists(fs::symlink_status(file, failed))) return place + "the file is there already";
+  const fs::path unfinished = file.string() + ".unfinished";
+  std::string fault = make_empty_file(unfinished);
+  if (fault.empty()) {
+    // By a connection of its own, so that changes need not wait.
+    fault = copy_log(folder_ / kLogFile, unfinished);
+    if (fault.empty()) {
+      fault = publish_file(unfinished, file);
+    } else {
+      unlink(unfinished.c_str());
+    }
+  }
+  return fault.empty() ? "" : place + fault;
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/log/sqlite_log.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "daemon/scene/log/log_refusal.h"
+#include "daemon/scene/log/log_rows.h"
+#include "daemon/scene/log/row_digest.h"
+#include "daemon/scene/log/sqlite_schema.h"
+#include "daemon/scene/log/state_files.h"
+
+namespace camway::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// SQLite's integers have a sign.
+constexpr auto kMostRevision = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+
+AppendResult broken(std::string error) { return {AppendFault::kBroken, std::move(error)}; }
+
+/// Makes the log if it is missing. Returns why not; empty otherwise.
+std::string make_missing_log(const fs::path& folder) {
+  const fs::path file = folder / kLogFile;
+  std::error_code failed;
+  if (fs::exists(fs::symlink_status(file, failed))) return "";
+  for (const char* const suffix : {"-wal", "-journal"}) {
+    // SQLite would add these changes to a new log, to which they do not belong.
+    if (fs::exists(file.string() + suffix, failed)) {
+      return damage_text(place_of_state(folder),
+                         std::string(kLogFile) + " is missing, but its recent changes are there");
+    }
+  }
+  const base::Result<bool> made = create_log_database(file);
+  return made ? "" : place_of_state(folder) + " cannot be made: " + made.error;
+}
+
+std::uint64_t read_highest_removed(SqliteDatabase& database) {
+  SqliteQuery row = database.query("SELECT value FROM meta WHERE key='highest_removed'");
+  return row.next() ? row.number(0) : 0;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<SqliteLog>> SqliteLog::open(const fs::path& state_dir,
+                                                         const SqliteLogLimits& limits) {
+  // Exports find the folder even if the process goes to another one.
+  const fs::path folder = fs::absolute(state_dir);
+  std::string fault = make_state_folder(folder);
+  if (!fault.empty()) return base::Failure{place_of_state(folder) + " cannot be made: " + fault};
+  auto lock = lock_state_folder(folder);
+  if (!lock) return base::Failure{std::move(lock.error)};
+  fault = make_missing_log(folder);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  std::unique_ptr<SqliteLog> log(new SqliteLog(folder, limits));
+  log->lock_.emplace(*std::move(lock));
+  fault = log->open_database(SqliteDatabase::Access::kWrite);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  return log;
+}
+
+base::Result<std::unique_ptr<SqliteLog>> SqliteLog::open_read_only(const fs::path& state_dir) {
+  std::unique_ptr<SqliteLog> log(new SqliteLog(fs::absolute(state_dir), {}));
+  std::string fault = log->open_database(SqliteDatabase::Access::kRead);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  return log;
+}
+
+std::string SqliteLog::open_database(SqliteDatabase::Access access) {
+  auto opened = SqliteDatabase::open(folder_ / kLogFile, access);
+  if (!opened) return place_of_state(folder_) + " cannot be opened: " + opened.error;
+  database_ = *std::move(opened);
+  const auto version = version_of_log(*database_);
+  if (!version) return refusal(place_of_state(folder_), *database_, version.error);
+  std::string fault = version_fault(place_of_state(folder_), *version);
+  if (!fault.empty()) return fault;
+  fault = fault_of_structure(*database_, "quick_check");
+  if (fault.empty()) fault = fault_of_notes(*database_);
+  if (!fault.empty()) return refusal(place_of_state(folder_), *database_, fault);
+  highest_removed_ = read_highest_removed(*database_);
+  if (access == SqliteDatabase::Access::kWrite) {
+    if (!prepare_for_changes(*database_, limits_.most_bytes)) return database_fault().error;
+  }
+  return database_->failure() ? database_fault().error : "";
+}
+
+AppendResult SqliteLog::append(std::string_view scene, const LogEntry& entry) {
+  const std::scoped_lock lock(mutex_);
+  if (entry.revision <= entry.before || entry.revision > kMostRevision) {
+    return broken("revision " + std::to_string(entry.revision) + " cannot follow revision " +
+                  std::to_string(entry.before));
+  }
+  AppendResult too_large = fault_of_size(entry.record.size());
+  if (too_large.fault != AppendFault::kNone) return too_large;
+  return write([&] { return insert_entry(scene, entry); });
+}
+
+AppendResult SqliteLog::insert_entry(std::string_view scene, const LogEntry& entry) {
+  AppendResult fault = fault_of_revision(scene, entry.before);
+  if (fault.fault == AppendFault::kNone) fault = missing_need(entry.needs);
+  if (fault.fault != AppendFault::kNone) return fault;
+  const base::Digest::Bytes digest = entry_digest(scene, entry);
+  SqliteQuery head = database_->query(
+      "INSERT INTO heads(scene, revision) VALUES(?, ?) "
+      "ON CONFLICT(scene) DO UPDATE SET revision=excluded.revision");
+  head.with(scene).with(entry.revision);
+  SqliteQuery row = database_->query(
+      "INSERT INTO entries(scene, revision, before, digest, record) VALUES(?, ?, ?, ?, ?)");
+  row.with(scene).with(entry.revision).with(entry.before).with(digest).with(entry.record);
+  if (!head.run() || !row.run()) return database_fault();
+  for (std::size_t i = 0; i < entry.needs.size(); ++i) {
+    SqliteQuery need = database_->query(
+        "INSERT INTO entry_needs(scene, revision, place, blob) VALUES(?, ?, ?, ?)");
+    need.with(scene).with(entry.revision).with(std::uint64_t{i}).with(entry.needs[i]);
+    if (!need.run()) return database_fault();
+  }
+  return {};
+}
+
+AppendResult SqliteLog::summarize(std::string_view scene, std::uint64_t revision,
+                                  const Bytes& summary, const std::vector<BlobId>& needs) {
+  const std::scoped_lock lock(mutex_);
+  AppendResult too_large = fault_of_size(summary.size());
+  if (too_large.fault != AppendFault::kNone) return too_large;
+  return write([&] { return replace_by_summary(scene, revision, summary, needs); });
+}
+
+AppendResult SqliteLog::replace_by_summary(std::string_view scene, std::uint64_t revision,
+                                           const Bytes& summary, const std::vector<BlobId>& needs) {
+  SqliteQuery known = database_->query(
+      "SELECT 1 FROM entries WHERE scene=? AND revision=? "
+      "UNION ALL SELECT 1 FROM summaries WHERE scene=? AND revision=?");
+  if (!known.with(scene).with(revision).with(scene).with(revision).next()) {
+    if (known.has_failed()) return database_fault();
+    return {AppendFault::kConflict, "scene '" + std::string(scene) +
+                                        "' has no change to revision " + std::to_string(revision)};
+  }
+  AppendResult missing = missing_need(needs);
+  if (missing.fault != AppendFault::kNone) return missing;
+  const base::Digest::Bytes digest = summary_digest(scene, revision, summary, needs);
+  SqliteQuery old_entries = database_->query("DELETE FROM entries WHERE scene=? AND revision<=?");
+  SqliteQuery old_summary = database_->query("DELETE FROM summaries WHERE scene=?");
+  SqliteQuery insert =
+      database_->query("INSERT INTO summaries(scene, revision, digest, record) VALUES(?, ?, ?, ?)");
+  insert.with(scene).with(revision).with(digest).with(summary);
+  if (!old_entries.with(scene).with(revision).run() || !old_summary.with(scene).run() ||
+      !insert.run()) {
+    return database_fault();
+  }
+  for (std::size_t i = 0; i < needs.size(); ++i) {
+    SqliteQuery need =
+        database_->query("INSERT INTO summary_needs(scene, place, blob) VALUES(?, ?, ?)");
+    if (!need.with(scene).with(std::uint64_t{i}).with(needs[i]).run()) return database_fault();
+  }
+  return {};
+}
+
+AppendResult SqliteLog::remove(std::string_view scene, std::uint64_t revision) {
+  const std::scoped_lock lock(mutex_);
+  AppendResult result = write([&] { return delete_scene(scene, revision); });
+  if (result.fault == AppendFault::kNone) highest_removed_ = std::max(highest_removed_, revision);
+  return result;
+}
+
+AppendResult SqliteLog::delete_scene(std::string_view scene, std::uint64_t revision) {
+  if (revision == 0) return {AppendFault::kConflict, "no scene has revision 0"};
+  AppendResult fault = fault_of_revision(scene, revision);
+  if (fault.fault != AppendFault::kNone) return fault;
+  const std::uint64_t highest = std::max(highest_removed_, revision);
+  const base::Digest::Bytes digest = meta_digest("highest_removed", highest);
+  const bool is_deleted =
+      // The foreign keys delete all that belongs to the scene.
+      database_->query("DELETE FROM heads WHERE scene=?").with(scene).run() &&
+      database_->query("UPDATE meta SET value=?, digest=? WHERE key='highest_removed'")
+          .with(highest)
+          .with(digest)
+          .run();
+  return is_deleted ? AppendResult{} : database_fault();
+}
+
+std::uint64_t SqliteLog::highest_removed() {
+  const std::scoped_lock lock(mutex_);
+  return highest_removed_;
+}
+
+base::Result<std::vector<LoggedScene>> SqliteLog::scenes() {
+  const std::scoped_lock lock(mutex_);
+  database_->forget_failure();
+  base::Result<std::vector<LoggedScene>> found = base::Failure{"no state can be read"};
+  database_->read_at_once([&] {
+    found = read_logged_scenes(*database_);
+    return true;
+  });
+  if (!found) return base::Failure{refusal(place_of_state(folder_), *database_, found.error)};
+  return found;
+}
+
+std::string SqliteLog::note(std::string_view key) {
+  const std::scoped_lock lock(mutex_);
+  SqliteQuery row = database_->query("SELECT text FROM notes WHERE key=?");
+  return row.with(key).next() ? row.text(0) : "";
+}
+
+AppendResult SqliteLog::set_note(std::string_view key, std::string_view text) {
+  const std::scoped_lock lock(mutex_);
+  AppendResult too_large = fault_of_size(text.size());
+  if (too_large.fault != AppendFault::kNone) return too_large;
+  const base::Digest::Bytes digest = note_digest(key, text);
+  return write([&] {
+    const bool is_set =
+        text.empty() ? database_->query("DELETE FROM notes WHERE key=?").with(key).run()
+                     : database_->query("REPLACE INTO notes(key, text, digest) VALUES(?, ?, ?)")
+                           .with(key)
+                           .with(text)
+                           .with(digest)
+                           .run();
+    return is_set ? AppendResult{} : database_fault();
+  });
+}
+
+AppendResult SqliteLog::write(const std::function<AppendResult()>& change) {
+  database_->forget_failure();
+  AppendResult result;
+  const bool is_written = database_->transact([&] {
+    result = change();
+    return result.fault == AppendFault::kNone;
+  });
+  if (is_written || result.fault != AppendFault::kNone) return result;
+  return database_fault();
+}
+
+AppendResult SqliteLog::database_fault() const {
+  const std::string place = place_of_state(folder_);
+  if (!database_->failure()) return broken(place + " cannot be written");
+  const SqliteFailure& failure = *database_->failure();
+  switch (failure.kind) {
+    case SqliteFailure::Kind::kFull:
+      return {AppendFault::kFull, place + " has no room left (" + failure.text +
+                                      "): make room on its disk, or raise state.most_bytes, now " +
+                                      std::to_string(limits_.most_bytes)};
+    case SqliteFailure::Kind::kDamaged:
+      return broken(damage_text(place, failure.text));
+    case SqliteFailure::Kind::kOther:
+      break;
+  }
+  return broken(place + " cannot be written: " + failure.text);
+}
+
+AppendResult SqliteLog::fault_of_size(std::size_t bytes) const {
+  if (bytes <= limits_.most_blob_bytes) return {};
+  return {AppendFault::kFull, place_of_state(folder_) + " holds nothing of " +
+                                  std::to_string(bytes) + " bytes: an object may have " +
+                                  std::to_string(limits_.most_blob_bytes)};
+}
+
+std::optional<std::uint64_t> SqliteLog::newest_revision(std::string_view scene) {
+  SqliteQuery row = database_->query("SELECT revision FROM heads WHERE scene=?");
+  return row.with(scene).next() ? std::optional(row.number(0)) : std::nullopt;
+}
+
+AppendResult SqliteLog::fault_of_revision(std::string_view scene, std::uint64_t expected) {
+  const std::uint64_t newest = newest_revision(scene).value_or(0);
+  if (database_->failure()) return database_fault();
+  if (newest == expected) return {};
+  if (newest == 0) {
+    return {AppendFault::kConflict, "there is no scene '" + std::string(scene) + "'"};
+  }
+  return {AppendFault::kConflict, "scene '" + std::string(scene) + "' is at revision " +
+                                      std::to_string(newest) + ", not at " +
+                                      std::to_string(expected)};
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "daemon/scene/log/sqlite_log.h"
+#include "tests/scene/log/log_samples.h"
+#include "tests/support/random.h"
+#include "tests/support/sanitizer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace camway::scene {
+namespace {
+
+constexpr std::uint64_t kLogModelSeed = 20240611;
+
+/// What a log has to keep, in memory.
+class LogModel final : public SceneLog {
+ public:
+  AppendResult put_blob(const BlobId& id, const Blob& blob) override {
+    if (blobs_.contains(id)) return {};
+    if (!are_there(blob.needs)) return {AppendFault::kBroken, "needs"};
+    blobs_.emplace(id, blob);
+    return {};
+  }
+  bool has_blob(const BlobId& id) override { return blobs_.contains(id); }
+  base::Result<Bytes> blob(const BlobId& id) override {
+    if (!blobs_.contains(id)) return base::Failure{"not there"};
+    return blobs_.at(id).bytes;
+  }
+  AppendResult append(std::string_view name, const LogEntry& entry) override {
+    if (head(name) != entry.before) return {AppendFault::kConflict, "revision"};
+    if (!are_there(entry.needs)) return {AppendFault::kBroken, "needs"};
+    Kept& kept = scenes_[std::string(name)];
+    kept.scene.name = name;
+    kept.scene.entries.push_back(entry);
+    return {};
+  }
+  AppendResult summarize(std::string_view name, std::uint64_t revision, const Bytes& summary,
+                         const std::vector<BlobId>& needs) override {
+    const auto found = scenes_.find(std::string(name));
+    if (found == scenes_.end()) return {AppendFault::kConflict, "no scene"};
+    LoggedScene& scene = found->second.scene;
+    const bool is_known =
+        revision == scene.summary_revision ||
+        std::ranges::any_of(scene.entries, [&](const auto& e) { return e.revision == revision; });
+    if (revision == 0 || !is_known) return {AppendFault::kConflict, "no revision"};
+    if (!are_there(needs)) return {AppendFault::kBroken, "needs"};
+    std::erase_if(scene.entries, [&](const LogEntry& e) { return e.revision <= revision; });
+    scene.summary_revision = revision;
+    scene.summary = summary;
+    found->second.summary_needs = needs;
+    return {};
+  }
+  AppendResult remove(std::string_view name, std::uint64_t revision) override {
+    if (revision == 0 || head(name) != revision) return {AppendFault::kConflict, "revision"};
+    scenes_.erase(std::string(name));
+    highest_removed_ = std::max(highest_removed_, revision);
+    return {};
+  }
+  std::uint64_t highest_removed() override { return highest_removed_; }
+  base::Result<std::vector<LoggedScene>> scenes() override {
+    std::vector<LoggedScene> list;
+    for (const auto& [name, kept] : scenes_) list.push_back(kept.scene);
+    return list;
+  }
+  std::string note(std::string_view key) override { return notes_[std::string(key)]; }
+  AppendResult set_note(std::string_view key, std::string_view text) override {
+    notes_[std::string(key)] = text;
+    return {};
+  }
+  AppendResult drop_unused_blobs() override {
+    std::set<BlobId> used;
+    for (const auto& [name, kept] : scenes_) {
+      for (const BlobId& id : kept.summary_needs) use(id, used);
+      for (const LogEntry& entry : kept.scene.entries) {
+        for (const BlobId& id : entry.needs) use(id, used);
+      }
+    }
+    std::erase_if(blobs_, [&](const auto& blob) { return !used.contains(blob.first); });
+    return {};
+  }
+
+  std::uint64_t head(std::string_view name) {
+    const auto found = scenes_.find(std::string(name));
+    if (found == scenes_.end()) return 0;
+    const LoggedScene& scene = found->second.scene;
+    return scene.entries.empty() ? scene.summary_revision : scene.entries.back().revision;
+  }
+
+ private:
+  struct Kept {
+    LoggedScene scene;
+    std::vector<BlobId> summary_needs;
+  };
+  bool are_there(const std::vector<BlobId>& needs) {
+    return std::ranges::all_of(needs, [&](const BlobId& id) { return has_blob(id); });
+  }
+  void use(const BlobId& id, std::set<BlobId>& used) {
+    if (!used.insert(id).second) return;
+    for (const BlobId& need : blobs_.at(id).needs) use(need, used);
+  }
+
+  std::map<std::string, Kept> scenes_;
+  std::map<BlobId, Blob> blobs_;
+  std::map<std::string, std::string> notes_;
+  std::uint64_t highest_removed_ = 0;
+};
+
+/// Makes the same random changes to a log and to its model.
+class LogComparison {
+ public:
+  LogComparison() {
+    for (int i = 0; i < 12; ++i) {
+      std::vector<BlobId> needs;
+      if (i > 2) needs.push_back(blobs_[static_cast<std::size_t>(random_.integer(0, i - 1))].id);
+      // Some are larger than a page.
+      blobs_.emplace_back(std::to_string(i) + std::string(i % 3 == 0 ? 9000 : 10, 'b'), needs);
+    }
+    reopen();
+  }
+
+  void reopen() {
+    log_.reset();
+    auto opened = SqliteLog::open(folder_.path(), {});
+    ASSERT_TRUE(opened) << opened.error;
+    log_ = *std::move(opened);
+  }
+
+  void step() {
+    const std::string scene(1, static_cast<char>('a' + random_.integer(0, 2)));
+    const std::string text(static_cast<std::size_t>(random_.log_uniform(1, 6000)), 't');
+    const int kind = random_.integer(0, 99);
+    if (kind < 55) {
+      const std::uint64_t before = revision_of(scene);
+      const LogEntry entry = sample_entry(
+          before, before + static_cast<std::uint64_t>(random_.integer(1, 3)), text, some_blobs());
+      same([&](SceneLog& log) { return log.append(scene, entry).fault; });
+    } else if (kind < 65) {
+      const std::uint64_t revision = revision_of(scene);
+      const auto needs = some_blobs();
+      same([&](SceneLog& log) {
+        return log.summarize(scene, revision, log_bytes(text), needs).fault;
+      });
+    } else if (kind < 68) {
+      const std::uint64_t revision = revision_of(scene);
+      same([&](SceneLog& log) { return log.remove(scene, revision).fault; });
+    } else if (kind < 85) {
+      const SampleBlob& sample = any_blob();
+      same([&](SceneLog& log) { return log.put_blob(sample.id, sample.blob).fault; });
+    } else if (kind < 90) {
+      same([&](SceneLog& log) { return log.set_note(scene, text).fault; });
+    } else if (kind < 95) {
+      same([&](SceneLog& log) { return log.drop_unused_blobs().fault; });
+    } else {
+      reopen();
+    }
+  }
+
+  void compare() {
+    const auto scenes = log_->scenes();
+    ASSERT_TRUE(scenes) << scenes.error;
+    ASSERT_EQ(text_of_scenes(*scenes), text_of_scenes(*model_.scenes()));
+    for (const SampleBlob& sample : blobs_) {
+      const auto bytes = log_->blob(sample.id);
+      ASSERT_EQ(bool(bytes), model_.has_blob(sample.id)) << bytes.error;
+      ASSERT_EQ(log_->has_blob(sample.id), model_.has_blob(sample.id));
+      ASSERT_TRUE(!bytes || *bytes == sample.blob.bytes);
+    }
+    for (const char* const key : {"a", "b", "c"}) ASSERT_EQ(log_->note(key), model_.note(key));
+    ASSERT_EQ(log_->highest_removed(), model_.highest_removed());
+  }
+
+  void check_file() const {
+    const auto checked = SqliteLog::check(folder_.path() / "scenes.sqlite");
+    EXPECT_TRUE(checked) << checked.error;
+  }
+
+ private:
+  template <typename Change>
+  void same(const Change& change) {
+    ASSERT_EQ(change(*log_), change(model_));
+  }
+  /// Returns the newest revision, or now and then a wrong one.
+  std::uint64_t revision_of(const std::string& scene) {
+    const std::uint64_t head = model_.head(scene);
+    return random_.chance(0.1)
+               ? head + 1 -
+                     static_cast<std::uint64_t>(random_.integer(0, 1)) * 2 * (head > 0 ? 1 : 0)
+               : head;
+  }
+  const SampleBlob& any_blob() { return blobs_[static_cast<std::size_t>(random_.integer(0, 11))]; }
+  std::vector<BlobId> some_blobs() {
+    std::vector<BlobId> ids;
+    while (random_.chance(0.3)) {
+      const BlobId& id = any_blob().id;
+      // Most are there, so that most changes succeed.
+      if (model_.has_blob(id) || random_.chance(0.1)) ids.push_back(id);
+    }
+    return ids;
+  }
+
+  testing::Random random_{kLogModelSeed};
+  testing::TemporaryFolder folder_;
+  std::vector<SampleBlob> blobs_;
+  std::unique_ptr<SqliteLog> log_;
+  LogModel model_;
+};
+
+TEST(SqliteLogModel, KeepsWhatAModelInMemoryKeeps) {
+  LogComparison comparison;
+  for (int i = 0; i < testing::runs(1200); ++i) {
+    SCOPED_TRACE("step " + std::to_string(i));
+    comparison.step();
+    if (i % 10 == 0) comparison.compare();
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  comparison.reopen();
+  comparison.compare();
+  comparison.check_file();
+}
+
+}  // namespace
+}  // namespace camway::scene
