@@ -97,27 +97,4 @@ std::string SqliteLog::export_to(const fs::path& file) const {
   return fault.empty() ? "" : place + fault;
 }
 
-std::string SqliteLog::restore(const fs::path& file, const fs::path& state_dir) {
-  const std::string place = "the folder " + state_dir.string() + " cannot be restored: ";
-  const auto exported = check(file);
-  if (!exported) return place + exported.error;
-  std::string fault = make_state_folder(state_dir);
-  if (!fault.empty()) return place + fault;
-  const auto lock = lock_state_folder(state_dir);
-  if (!lock) return place + lock.error;
-  const fs::path unfinished = file_of(state_dir).string() + ".unfinished";
-  fault = make_empty_file(unfinished);
-  if (fault.empty()) {
-    fault = copy_log(file, unfinished);
-    if (fault.empty()) {
-      fault = publish_file(unfinished, file_of(state_dir));
-    } else {
-      unlink(unfinished.c_str());
-    }
-  }
-  return fault.empty() ? "" : place + fault;
-}
-
-fs::path SqliteLog::file_of(const fs::path& state_dir) { return state_dir / kLogFile; }
-
 }  // namespace camway::scene

@@ -104,24 +104,14 @@ AppendResult SqliteLog::insert_entry(std::string_view scene, const LogEntry& ent
   if (fault.fault == AppendFault::kNone) fault = missing_need(entry.needs);
   if (fault.fault != AppendFault::kNone) return fault;
   const base::Digest::Bytes digest = entry_digest(scene, entry);
-  const bool is_inserted = database_
-                               ->query(
-                                   "INSERT INTO heads(scene, revision) VALUES(?, ?) "
-                                   "ON CONFLICT(scene) DO UPDATE SET revision=excluded.revision")
-                               .with(scene)
-                               .with(entry.revision)
-                               .run() &&
-                           database_
-                               ->query(
-                                   "INSERT INTO entries(scene, revision, before, digest, record) "
-                                   "VALUES(?, ?, ?, ?, ?)")
-                               .with(scene)
-                               .with(entry.revision)
-                               .with(entry.before)
-                               .with(digest)
-                               .with(entry.record)
-                               .run();
-  if (!is_inserted) return database_fault();
+  SqliteQuery head = database_->query(
+      "INSERT INTO heads(scene, revision) VALUES(?, ?) "
+      "ON CONFLICT(scene) DO UPDATE SET revision=excluded.revision");
+  head.with(scene).with(entry.revision);
+  SqliteQuery row = database_->query(
+      "INSERT INTO entries(scene, revision, before, digest, record) VALUES(?, ?, ?, ?, ?)");
+  row.with(scene).with(entry.revision).with(entry.before).with(digest).with(entry.record);
+  if (!head.run() || !row.run()) return database_fault();
   for (std::size_t i = 0; i < entry.needs.size(); ++i) {
     SqliteQuery need = database_->query(
         "INSERT INTO entry_needs(scene, revision, place, blob) VALUES(?, ?, ?, ?)");
