@@ -12,6 +12,7 @@
 #include <camway/cancel_t.hpp>
 
 #include "client/engine/occupancy_collector.h"
+#include "client/messages/convert.h"
 #include "client/messages/occupancy.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/utime.h"
@@ -139,6 +140,7 @@ std::optional<OccupancyAnswer> ask_parts(Context& context, Engine& engine,
     }
     if (i > 0 && response.scene_revision != answer.scene_revision) return std::nullopt;
     answer.scene_revision = response.scene_revision;
+    convert(response.daemon_start, answer.daemon_start);
     answer.resolution_m = response.resolution_m;
     if (const auto fault = append(parts[i], response, answer)) {
       return failed<OccupancyAnswer>(

@@ -410,6 +410,7 @@ SceneAnswer ask_scene_list(const SceneAsker& with, scene_request_t request) {
       if (!part.ok()) return part;
       if (request.first > 0 && part.scene.revision != all.scene.revision) break;
       all.status = part.status;
+      all.daemon_start = part.daemon_start;
       all.scene = part.scene;
       all.scenes.insert(all.scenes.end(), part.scenes.begin(), part.scenes.end());
       all.objects.insert(all.objects.end(), part.objects.begin(), part.objects.end());

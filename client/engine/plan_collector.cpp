@@ -15,7 +15,8 @@ namespace {
 /// Returns whether plan requests are answered with this status.
 bool is_known(std::int32_t status) {
   return (status >= 0 && status <= plan_response_t::STATUS_MALFORMED) ||
-         status == plan_response_t::STATUS_CANCELLED || status == plan_response_t::STATUS_LIMIT;
+         status == plan_response_t::STATUS_CANCELLED || status == plan_response_t::STATUS_LIMIT ||
+         status == plan_response_t::STATUS_OLD_SCENE;
 }
 
 /// Returns why the path and the report of an answer make no sense; nothing if they do. `whole`: all

@@ -38,20 +38,7 @@ bool has_proof(const PlanResponse& response) { return response.certified; }
 /// Returns whether the response is a final answer of the daemon.
 bool is_answer(const PlanResponse& response) {
   return static_cast<int>(response.status) < static_cast<int>(Status::kNoDaemon) &&
-         response.status != Status::kOverloaded;
-}
-
-/// Returns whether the daemon holds an older revision of the scene than `held_revision`. Revisions
-/// only increase, so it was started anew and has forgotten changes.
-bool has_forgotten(const PlanResponse& response, std::int64_t held_revision) {
-  return response.scene_revision > 0 && response.scene_revision < held_revision;
-}
-
-std::string forgotten_text(const PlanResponse& response, std::int64_t held_revision) {
-  return "the daemon was started anew and has forgotten changes of scene '" + response.scene +
-         "': it holds revision " + std::to_string(response.scene_revision) +
-         ", and the path is for revision " + std::to_string(held_revision) +
-         "; make the changes again, or start the daemon with a folder for its state";
+         response.status != Status::kOverloaded && response.status != Status::kOldScene;
 }
 
 /// Returns the event that an answer came.
@@ -112,12 +99,15 @@ void WatchList::ask(Watched& watched) {
   watched.is_asked = true;
   watched.ask_at = Clock::time_point::max();
   watched.collector.clear();
+  // A daemon that was started anew must not answer for a scene that it has forgotten changes of.
+  watched.request.least_revision = std::max(watched.request.least_revision, watched.held_revision);
   PlanHandlers handlers;
   handlers.on_answer = [this, id](const PlanResponse& response) { answered(id, response); };
   hooks_.start(std::make_shared<PlanCall>(context_, watched.request, id, std::move(handlers)));
 }
 
 void WatchList::answered(std::int64_t request_id, const PlanResponse& response) {
+  note_start(response.daemon_start);
   const auto position = watched_.find(request_id);
   if (position == watched_.end()) {
     // The path was removed while it was planned; the daemon watches it since its answer.
@@ -129,12 +119,6 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   if (!is_answer(response)) {
     ask_later(watched, Clock::now());
     tell_lost(watched, {response.status, response.error});
-    return;
-  }
-  note_start(response.daemon_start);
-  if (has_forgotten(response, watched.held_revision)) {
-    ask_later(watched, Clock::now());
-    tell_lost(watched, {Status::kUnknownScene, forgotten_text(response, watched.held_revision)});
     return;
   }
   const bool is_first = watched.held_revision < 0;

@@ -31,6 +31,8 @@ std::string to_string(Status status) {
       return "limit";
     case Status::kStopping:
       return "stopping";
+    case Status::kOldScene:
+      return "old_scene";
     case Status::kNoDaemon:
       return "no_daemon";
     case Status::kNoAnswer:

@@ -19,6 +19,7 @@ std::string_view status_name(std::int32_t wire_status) {
   if (wire_status == plan_response_t::STATUS_MALFORMED) return "malformed";
   if (wire_status == plan_response_t::STATUS_CANCELLED) return "cancelled";
   if (wire_status == plan_response_t::STATUS_LIMIT) return "limit";
+  if (wire_status == plan_response_t::STATUS_OLD_SCENE) return "old_scene";
   if (wire_status == occupancy_response_t::STATUS_NO_MAP) return "no_map";
   return "unknown status";
 }

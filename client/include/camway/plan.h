@@ -94,6 +94,9 @@ struct PlanRequest {
   double progress_period_s = 0.0;
   /// Time for which the daemon watches the path after its answer. `Client::watch` sets it.
   double watch_lease_s = 0.0;
+  /// The answer must be for this revision of the scene or a later one; else it is `kOldScene`. 0:
+  /// any. A client that waits for its change, `SceneAnswer::scene`, sets the revision of that.
+  std::int64_t least_revision = 0;
   double deadline_s = 0.0;  ///< time from the daemon's receipt to its answer, waiting included
   /// Largest error of the tessellated swept surface. Only the method "keyframe_insertion" uses it.
   double chord_error_m = 0.0;

@@ -33,6 +33,8 @@ enum class Status {
   kCancelled = 10,     ///< the caller cancelled the request
   kLimit = 11,         ///< the request would exceed a limit of the daemon, which `error` names
   kStopping = 12,      ///< the daemon stopped before it changed anything; no other daemon was heard
+  /// The daemon holds an older revision of the scene than `PlanRequest::least_revision`.
+  kOldScene = 13,
 
   kNoDaemon = 100,         ///< no answer came, and no daemon was heard
   kNoAnswer = 101,         ///< a daemon was heard, but its answer did not come completely

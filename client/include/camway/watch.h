@@ -34,11 +34,8 @@ struct WatchEvent {
     /// request's objective. The present path stays watched; `Client::take_better` changes over.
     kBetter,
     kWithdrawn,  ///< the better path is no longer offered: a change of the scene broke it
-    /// The daemon was started anew. The path is asked for again, and the next event has the result.
-    /// If the daemon kept its scenes, that is `kAnswer`. If it
-    /// holds an older revision of the scene than before, it has forgotten changes, and `kLost`
-    /// comes
-    /// until the scene has as many changes again.
+    /// The daemon was started anew. The path is asked for again, and the next event has the result:
+    /// kAnswer, or kLost with `kOldScene` if the daemon has forgotten changes of the scene.
     kRestarted,
   };
   Kind kind = Kind::kLost;

@@ -59,6 +59,19 @@ std::string copy_log(const fs::path& from, const fs::path& to) {
   return checked ? "" : checked.error;
 }
 
+/// Makes `file` a copy of the log `from`, by the name `unfinished` until it is complete. Returns
+/// why that failed; empty otherwise.
+std::string copy_and_publish(const fs::path& from, const fs::path& unfinished,
+                             const fs::path& file) {
+  std::string fault = make_empty_file(unfinished);
+  if (!fault.empty()) return fault;
+  // By a connection of its own, so that changes need not wait.
+  fault = copy_log(from, unfinished);
+  if (fault.empty()) return publish_file(unfinished, file);
+  unlink(unfinished.c_str());
+  return fault;
+}
+
 }  // namespace
 
 base::Result<SqliteLogContent> SqliteLog::check(const fs::path& file) {
@@ -84,17 +97,32 @@ std::string SqliteLog::export_to(const fs::path& file) const {
   std::error_code failed;
   if (fs::exists(fs::symlink_status(file, failed))) return place + "the file is there already";
   const fs::path unfinished = file.string() + ".unfinished";
-  std::string fault = make_empty_file(unfinished);
-  if (fault.empty()) {
-    // By a connection of its own, so that changes need not wait.
-    fault = copy_log(folder_ / kLogFile, unfinished);
-    if (fault.empty()) {
-      fault = publish_file(unfinished, file);
-    } else {
-      unlink(unfinished.c_str());
-    }
-  }
+  const std::string fault = copy_and_publish(folder_ / kLogFile, unfinished, file);
   return fault.empty() ? "" : place + fault;
 }
+
+std::string SqliteLog::restore(const fs::path& file, const fs::path& state_dir) {
+  const std::string place = "the folder " + state_dir.string() + " cannot be restored: ";
+  const auto exported = check(file);
+  if (!exported) return place + exported.error;
+  std::string fault = make_state_folder(state_dir);
+  if (!fault.empty()) return place + fault;
+  const auto lock = lock_state_folder(state_dir);
+  if (!lock) return place + lock.error;
+  const fs::path target = file_of(state_dir);
+  // What SQLite left beside an older log would be taken for a part of this one.
+  for (const char* const end : {"", "-wal", "-shm", "-journal"}) {
+    const fs::path left = target.string() + end;
+    std::error_code failed;
+    if (fs::exists(left, failed)) {
+      return place + left.string() + " is there already; move the folder away first";
+    }
+  }
+  const fs::path unfinished = target.string() + ".unfinished";
+  fault = copy_and_publish(file, unfinished, target);
+  return fault.empty() ? "" : place + fault;
+}
+
+fs::path SqliteLog::file_of(const fs::path& state_dir) { return state_dir / kLogFile; }
 
 }  // namespace camway::scene

@@ -62,6 +62,14 @@ class SqliteLog final : public SceneLog {
   /// that failed, also if the file is there already; empty otherwise.
   [[nodiscard]] std::string export_to(const std::filesystem::path& file) const;
 
+  /// Puts a copy of an export into a folder that has no log, and makes the folder if it is missing.
+  /// The log appears when it is complete and durable. Returns why that failed, also if another
+  /// process uses the folder or the export is damaged; empty otherwise.
+  [[nodiscard]] static std::string restore(const std::filesystem::path& file,
+                                           const std::filesystem::path& state_dir);
+  /// The file of the log of a folder.
+  [[nodiscard]] static std::filesystem::path file_of(const std::filesystem::path& state_dir);
+
   AppendResult put_blob(const BlobId& id, const Blob& blob) override;
   [[nodiscard]] bool has_blob(const BlobId& id) override;
   base::Result<Bytes> blob(const BlobId& id) override;

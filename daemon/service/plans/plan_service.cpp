@@ -27,6 +27,9 @@ std::string fault_of_handling(const plan_request_t& request) {
                                     std::pair{"watch_lease_s", request.watch_lease_s}}) {
     if (!(value >= 0.0)) return fmt::format("{}: is {}; it must be at least 0", name, value);
   }
+  if (request.least_revision < 0) {
+    return fmt::format("least_revision: is {}; it must be at least 0", request.least_revision);
+  }
   if (request.priority < plan_request_t::LOW || request.priority > plan_request_t::HIGH) {
     return fmt::format("priority: is {}; it must be -1 (low), 0 or 1 (high)",
                        static_cast<int>(request.priority));
@@ -198,6 +201,7 @@ void PlanService::take(plan_request_t request) {
     answer_uncached(request, plan_response_t::STATUS_INVALID, fault);
     return;
   }
+  if (is_of_old_scene(request)) return;
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
   switch (found.known) {
     case AnswerCache::Known::kRunning:
@@ -221,6 +225,20 @@ void PlanService::take(plan_request_t request) {
       begin(std::make_shared<const plan_request_t>(std::move(request)), key);
       return;
   }
+}
+
+bool PlanService::is_of_old_scene(const plan_request_t& request) {
+  const auto snapshot = core_.scenes.find(request.scene);
+  if (!snapshot || static_cast<std::int64_t>(snapshot->revision) >= request.least_revision) {
+    return false;
+  }
+  answer_uncached(request, plan_response_t::STATUS_OLD_SCENE,
+                  fmt::format("least_revision: is {}, but scene '{}' is at revision {}: the daemon "
+                              "was started anew and has forgotten changes; make them again, or "
+                              "start it with a folder for its state",
+                              request.least_revision, request.scene, snapshot->revision),
+                  snapshot.get());
+  return true;
 }
 
 void PlanService::repeat_answer(const RequestKey& key, const Pages& pages) {
@@ -441,11 +459,11 @@ void PlanService::refuse(const plan_request_t& request, const std::string& messa
 }
 
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,
-                                  std::string_view message) {
-  plan_response_t answer = messages::plain_answer(status, message, header_of(request, nullptr));
+                                  std::string_view message, const scene::Snapshot* snapshot) {
+  plan_response_t answer = messages::plain_answer(status, message, header_of(request, snapshot));
   core_.counters.plan_answers.add(status);
-  send({request.client_id, request.request_id}, encode_answer(answer, core_.start, config_.answer_pages),
-       Outbox::Kind::kRefusal);
+  send({request.client_id, request.request_id},
+       encode_answer(answer, core_.start, config_.answer_pages), Outbox::Kind::kRefusal);
 }
 
 void PlanService::send(const RequestKey& key, Pages pages, Outbox::Kind kind) {

@@ -64,6 +64,8 @@ class PlanService {
   }
   void take(plan_request_t request);
   /// Sends an answer from the cache.
+  /// Answers a request whose scene is older than its `least_revision`; returns whether it is.
+  bool is_of_old_scene(const plan_request_t& request);
   void repeat_answer(const RequestKey& key, const Pages& pages);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);
@@ -72,8 +74,8 @@ class PlanService {
   void abandon(const Pending& pending, Refusal why);
   /// Answers that there is no room, and forgets the request, so that it can be sent again.
   void refuse(const plan_request_t& request, const std::string& message);
-  void answer_uncached(const plan_request_t& request, std::int32_t status,
-                       std::string_view message);
+  void answer_uncached(const plan_request_t& request, std::int32_t status, std::string_view message,
+                       const scene::Snapshot* snapshot = nullptr);
   void send(const RequestKey& key, Pages pages, Outbox::Kind kind = Outbox::Kind::kAnswer);
 
   void watch(const Pending& pending, const Answered& answered);

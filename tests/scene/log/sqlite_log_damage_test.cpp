@@ -17,7 +17,7 @@
 namespace camway::scene {
 namespace {
 
-constexpr std::uint64_t kDamageSeed = 4711;
+constexpr std::uint64_t kStoreDamageSeed = 4711;
 constexpr std::size_t kLogPage = 4096;
 
 /// A log of all kinds of rows, some larger than a page, whose file is damaged again and again.
@@ -116,7 +116,7 @@ TEST_F(SqliteLogDamage, IsNoticedWhereAPageIsLost) {
 
 TEST_F(SqliteLogDamage, IsNoticedWhereAPageIsAnother) {
   read_file();
-  testing::Random random(kDamageSeed);
+  testing::Random random(kStoreDamageSeed);
   const int pages = static_cast<int>(intact_.size() / kLogPage);
   for (int i = 0; i < testing::runs(100); ++i) {
     const auto to = static_cast<std::size_t>(random.integer(0, pages - 1)) * kLogPage;
@@ -129,7 +129,7 @@ TEST_F(SqliteLogDamage, IsNoticedWhereAPageIsAnother) {
 
 TEST_F(SqliteLogDamage, OfABitNeverChangesWhatIsRead) {
   read_file();
-  testing::Random random(kDamageSeed + 1);
+  testing::Random random(kStoreDamageSeed + 1);
   int refused = 0;
   for (int i = 0; i < testing::runs(200); ++i) {
     std::string bytes = intact_;

@@ -24,6 +24,7 @@ ExitCode exit_code_of(Status status) {
     case Status::kInfeasible:
     case Status::kTimeout:
     case Status::kCancelled:
+    case Status::kOldScene:
       return ExitCode::kNegative;
     case Status::kNoDaemon:
     case Status::kNoAnswer:
