@@ -99,8 +99,6 @@ void WatchList::ask(Watched& watched) {
   watched.is_asked = true;
   watched.ask_at = Clock::time_point::max();
   watched.collector.clear();
-  // A daemon that was started anew must not answer for a scene that it has forgotten changes of.
-  watched.request.least_revision = std::max(watched.request.least_revision, watched.held_revision);
   PlanHandlers handlers;
   handlers.on_answer = [this, id](const PlanResponse& response) { answered(id, response); };
   hooks_.start(std::make_shared<PlanCall>(context_, watched.request, id, std::move(handlers)));
@@ -376,6 +374,9 @@ void WatchList::note_start(const DaemonStart& start) {
     const auto position = watched_.find(id);
     if (position == watched_.end() || position->second.held_revision < 0) continue;
     Watched& watched = position->second;
+    // It must not answer for a scene that it has forgotten changes of.
+    watched.request.least_revision =
+        std::max(watched.request.least_revision, watched.held_revision);
     const bool was_lost = watched.is_lost;
     WatchEvent event;
     event.kind = WatchEvent::Kind::kRestarted;

@@ -7,6 +7,7 @@ _RECORDING = ("lcm-logger --quiet session.lcmlog & until grep -qs PLAN_REQUEST s
               "camway load --scene office=scenes/office.obj --request "
               "scenes/requests/office-graze-door.json --seconds 1; done; kill -INT $!; wait")
 _MARKS = {
+    "camway state": {"not run": "it needs the folder of a daemon"},
     "camway doctor": {"not run": "it looks at this machine's own configuration"},
     "camway replay": {"run first": _RECORDING},
     "camway status": {"interrupted after": "sleep 2"},

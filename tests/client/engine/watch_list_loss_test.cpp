@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 #include <camway/watch_t.hpp>
 
@@ -118,6 +119,36 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   list_.take_heartbeat(up_for(2.0), now_ + seconds(1));
   step_at(milliseconds(100));
   EXPECT_TRUE(sent().empty()) << "once";
+}
+
+/// Revision that the request of a call asks for at least.
+std::int64_t least_revision_of(const Call& call) {
+  return wire::decode<plan_request_t>(call.request_messages().front().bytes)
+      .message.value()
+      .least_revision;
+}
+
+TEST_F(WatchListTest, ARestartIsToldOnceAndNoOlderSceneIsAnsweredFor) {
+  begin();
+  EXPECT_EQ(least_revision_of(*calls_.back()), 0);
+  list_.take_heartbeat(up_for(100.0, 1), now_);
+  EXPECT_EQ(told(EventKind::kRestarted), 0);
+  for (int i = 0; i < 3; ++i) list_.take_heartbeat(up_for(1.0 + i, 2), now_);
+  EXPECT_EQ(told(EventKind::kRestarted), 1);
+  EXPECT_EQ(events_.back().scene_revision, 3);
+  report(0, path_state_t::UNKNOWN, 0, 0);
+  step_at(seconds(1));
+  EXPECT_EQ(least_revision_of(*calls_.back()), 3);
+  finish_call(answer(1, plan_response_t::STATUS_OLD_SCENE));
+  EXPECT_EQ(events_.back().kind, EventKind::kLost);
+  EXPECT_EQ(events_.back().status, Status::kOldScene);
+  step_at(seconds(1));
+  finish_call(answer(1, plan_response_t::STATUS_OLD_SCENE));
+  EXPECT_EQ(told(EventKind::kLost), 1) << "once";
+  step_at(seconds(2));
+  finish_call(answer(4));
+  EXPECT_EQ(events_.back().kind, EventKind::kAnswer);
+  EXPECT_EQ(told(EventKind::kAnswer), 2);
 }
 
 TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
