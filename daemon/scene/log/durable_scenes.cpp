@@ -39,6 +39,7 @@ base::Result<SceneHistory> DurableScenes::history_of(const std::string& name,
                                                      const RecordedScene& scene,
                                                      const SceneHistory::Limits& limits) {
   SourceBlobs::Read read;
+  sources_.read_whole(scene.needs(), scene.options, read);
   std::vector<PlacedSource> objects;
   std::set<std::string> names;
   for (const RecordedObject& object : scene.objects) {

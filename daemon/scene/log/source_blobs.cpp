@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/base/parallel_chunks.h"
 #include "daemon/scene/log/source_record.h"
 
 namespace camway::scene {
@@ -91,6 +92,24 @@ base::Result<std::shared_ptr<const ObjectSource>> SourceBlobs::read(const BlobId
     read.emplace(part, source);
   }
   return source;
+}
+
+void SourceBlobs::read_whole(std::span<const BlobId> ids, const ObjectOptions& options,
+                             Read& read) {
+  std::vector<std::shared_ptr<const ObjectSource>> made(ids.size());
+  base::for_each_chunk(base::chunk_threads(0), ids.size(), [&](unsigned, std::size_t i) {
+    const base::Result<Bytes> bytes = log_.blob(ids[i]);
+    if (!bytes) return;
+    const base::Result<std::optional<BlobId>> base = base_of_record(*bytes);
+    if (!base || *base) return;
+    auto source = source_from(*bytes, nullptr, options);
+    if (source) made[i] = *std::move(source);
+  });
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (made[i] == nullptr) continue;
+    remember(made[i], ids[i], 0);
+    read.emplace(ids[i], std::move(made[i]));
+  }
 }
 
 void SourceBlobs::forget_unused() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "daemon/base/result.h"
 #include "daemon/scene/log/scene_log.h"
@@ -30,6 +31,10 @@ class SourceBlobs {
   /// Returns the content of a blob, built with `options`, with which all in `read` were built.
   base::Result<std::shared_ptr<const ObjectSource>> read(const BlobId& id,
                                                          const ObjectOptions& options, Read& read);
+
+  /// Reads the whole records among these blobs into `read`, on all processors. Leaves out
+  /// differences, and what cannot be read: `read` then says why.
+  void read_whole(std::span<const BlobId> ids, const ObjectOptions& options, Read& read);
 
   /// Forgets the contents that no scene holds any more.
   void forget_unused();

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/base/parallel_chunks.h"
+
 namespace camway::scene {
 namespace {
 
@@ -185,14 +187,17 @@ std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision,
                                                       const std::stop_token& stop) const {
   const std::optional<State> state = state_at(revision);
   if (!state) return nullptr;
-  SceneObjects objects;
-  for (const auto& [name, placed] : state->objects) {
-    ObjectResult result =
-        place_object(name, placed.source, placed.placement, options_, nullptr, stop);
-    if (stop.stop_requested()) return nullptr;
-    assert(result.object && "it could be placed before");
-    objects.push_back(std::move(result.object));
-  }
+  std::vector<const std::pair<const std::string, Placed>*> all;
+  for (const auto& object : state->objects) all.push_back(&object);
+  SceneObjects objects(all.size());
+  base::for_each_chunk(base::chunk_threads(0), all.size(), [&](unsigned, std::size_t i) {
+    const auto& [name, placed] = *all[i];
+    objects[i] =
+        place_object(name, placed.source, placed.placement, options_, nullptr, stop).object;
+  });
+  if (stop.stop_requested()) return nullptr;
+  assert(std::ranges::all_of(objects, [](const auto& object) { return object != nullptr; }) &&
+         "they could be placed before");
   return assemble(name_, revision, std::move(objects), options_);
 }
 
