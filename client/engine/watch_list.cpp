@@ -364,9 +364,9 @@ void WatchList::take_heartbeat(const DaemonStatus& status, Clock::time_point now
 
 void WatchList::note_start(const DaemonStart& start) {
   if (start.id == 0) return;
-  const std::int64_t before = std::exchange(start_id_, start.id);
-  if (before == 0 || before == start.id) return;
-  renew_at_ = Clock::now();
+  const bool is_first = starts_.empty();
+  if (!starts_.insert(start.id).second || is_first) return;
+  renew_at_ = Clock::time_point{};
   // A handler may remove paths.
   std::vector<std::int64_t> ids;
   for (const auto& [id, watched] : watched_) ids.push_back(id);
@@ -377,15 +377,10 @@ void WatchList::note_start(const DaemonStart& start) {
     // It must not answer for a scene that it has forgotten changes of.
     watched.request.least_revision =
         std::max(watched.request.least_revision, watched.held_revision);
-    const bool was_lost = watched.is_lost;
     WatchEvent event;
     event.kind = WatchEvent::Kind::kRestarted;
     event.scene_revision = watched.scene_revision;
     tell(watched, std::move(event));
-    // The handler of a path may have removed it.
-    if (const auto still = watched_.find(id); still != watched_.end()) {
-      still->second.is_lost = was_lost;
-    }
   }
 }
 

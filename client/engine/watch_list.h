@@ -146,7 +146,8 @@ class WatchList {
   Clock::time_point ping_at_{};  ///< earliest time to ask the daemon for a sign of life
   bool was_heard_ = false;       ///< whether a daemon was heard since the first path was added
   bool is_silent_ = false;       ///< whether the handlers were told of the daemon's silence
-  std::int64_t start_id_ = 0;    ///< `DaemonStart::id` of the daemon that was heard last; 0: none
+  /// `DaemonStart::id` of all daemons that were heard: two may share a prefix.
+  std::set<std::int64_t> starts_;
   bool is_closed_ = false;
 };
 

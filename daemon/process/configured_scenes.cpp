@@ -90,6 +90,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   bool all = true;
   for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
     const std::string name = snapshot->name;
+    warn_of_losses(name);
     const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) {
       const auto held =
@@ -107,6 +108,15 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     all = false;
   }
   return all;
+}
+
+void ConfiguredScenes::warn_of_losses(const std::string& name) {
+  const auto before = store_.find(name);
+  const std::size_t own = before && before->find(name) != nullptr ? 1 : 0;
+  if (!before || before->objects.size() == own) return;
+  log_->warn(
+      "scene is read anew, what clients added to it goes",
+      {{"scene", name}, {"revision", before->revision}, {"objects", before->objects.size() - own}});
 }
 
 void ConfiguredScenes::note_fault(const std::string& scene, const std::string& reason) {

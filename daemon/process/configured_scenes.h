@@ -67,6 +67,8 @@ class ConfiguredScenes {
   bool holds_from_log(const Held& wanted, const std::stop_token& stop);
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
                                                             const std::stop_token& stop);
+  /// Warns if a scene that is put anew has objects of clients.
+  void warn_of_losses(const std::string& name);
   void note_fault(const std::string& scene, const std::string& reason);
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 

@@ -28,8 +28,10 @@ class KeptState {
   std::string load_into(scene::SceneStore& store, service::Log& log);
 
  private:
-  explicit KeptState(std::unique_ptr<scene::SceneLog> log) : log_(std::move(log)), scenes_(*log_) {}
+  KeptState(std::string folder, std::unique_ptr<scene::SceneLog> log)
+      : folder_(std::move(folder)), log_(std::move(log)), scenes_(*log_) {}
 
+  const std::string folder_;
   std::unique_ptr<scene::SceneLog> log_;
   scene::DurableScenes scenes_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -94,12 +95,14 @@ ExitCode show_state(const std::string& folder, bool as_json) {
 }
 
 ExitCode check_state(const std::string& folder) {
-  const auto content = SqliteLog::check(SqliteLog::file_of(folder));
+  const bool is_export = std::filesystem::is_regular_file(folder);
+  const auto content =
+      SqliteLog::check(is_export ? std::filesystem::path(folder) : SqliteLog::file_of(folder));
   if (!content) {
     print_error(content.error);
     return ExitCode::kInvalidInput;
   }
-  if (!read_scenes(folder)) return ExitCode::kInvalidInput;
+  if (!is_export && !read_scenes(folder)) return ExitCode::kInvalidInput;
   fmt::print("{}: whole: {} scenes, {} changes since their summaries, {} blobs of {} bytes\n",
              folder, content->scenes, content->entries, content->blobs, content->blob_bytes);
   return ExitCode::kSuccess;
@@ -152,7 +155,7 @@ void add_state_command(CLI::App& app, ExitCode& exit_code) {
   list->callback([words, &exit_code] { exit_code = show_state(words->folder, words->as_json); });
 
   CLI::App* verify = command->add_subcommand("check", "Verify every byte");
-  add_word(verify, "FOLDER", words->folder, "the daemon's state.folder");
+  add_word(verify, "FOLDER", words->folder, "the daemon's state.folder, or an export");
   verify->callback([words, &exit_code] { exit_code = check_state(words->folder); });
 
   CLI::App* copy = command->add_subcommand(

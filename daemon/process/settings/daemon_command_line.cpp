@@ -103,7 +103,7 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
   declare_setting(
       app, "--state", "state.folder",
       "Folder in which scenes are kept, so that the next daemon with it has them again; "
-      "without it they end with the daemon",
+      "without it they end with the daemon; relative to the folder that this is started in",
       options, "none");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",
@@ -199,9 +199,10 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   };
   const std::string fault_of_scenes = add_scenes(raw.scenes, options.scenes);
   add(fault_of_scenes);
-  if (fault_of_scenes.empty() && options.scenes.empty() && options.scene_roots.empty()) {
+  if (fault_of_scenes.empty() && options.scenes.empty() && options.scene_roots.empty() &&
+      options.state.folder.empty()) {
     add("no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
-        "--scene-roots where clients may load scenes from");
+        "--scene-roots where clients may load scenes from, or with --state where scenes are kept");
   }
   for (SceneArgument& scene : options.scenes) {
     scene.options.import.map_limits = options.service.scene_rules.maps;

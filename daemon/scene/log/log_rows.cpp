@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/scene/log/commit_count.h"
 #include "daemon/scene/log/row_digest.h"
+#include "daemon/scene/log/sqlite_schema.h"
 
 namespace camway::scene {
 namespace {
@@ -194,19 +196,42 @@ std::string fault_of_notes(SqliteDatabase& database) {
       return "the note '" + key + "' is damaged";
     }
   }
-  SqliteQuery meta = database.query("SELECT value, digest FROM meta WHERE key='highest_removed'");
-  if (!notes.has_failed() && meta.next() &&
-      has_digest(meta, 1, meta_digest("highest_removed", meta.number(0)))) {
-    return "";
+  for (const auto& [key, what] :
+       {std::pair{"highest_removed", "the highest revision of removed scenes"},
+        std::pair{"commits", "the number of changes"}}) {
+    SqliteQuery meta = database.query("SELECT value, digest FROM meta WHERE key=?");
+    if (!notes.has_failed() && meta.with(std::string_view(key)).next() &&
+        has_digest(meta, 1, meta_digest(key, meta.number(0)))) {
+      continue;
+    }
+    return database.failure() ? database.failure()->text : std::string(what) + " is lost";
   }
-  return database.failure() ? database.failure()->text
-                            : "the highest revision of removed scenes is lost";
+  return "";
 }
 
 std::string fault_of_structure(SqliteDatabase& database, const std::string& pragma) {
   const std::string found = database.first_text("PRAGMA " + pragma + "(1)");
   if (database.failure()) return database.failure()->text;
   return found == "ok" ? "" : found;
+}
+
+std::uint64_t read_meta(SqliteDatabase& database, std::string_view key) {
+  SqliteQuery row = database.query("SELECT value FROM meta WHERE key=?");
+  return row.with(key).next() ? row.number(0) : 0;
+}
+
+std::string fault_of_commits(const std::filesystem::path& folder, SqliteDatabase& database) {
+  // Read first, since a daemon may raise both meanwhile.
+  const std::optional<std::uint64_t> answered = CommitCount::read(folder);
+  const std::uint64_t commits = read_meta(database, "commits");
+  if (!answered && commits > 0) {
+    return std::string("the file ") + CommitCount::kFile +
+           " is missing: the folder was not copied as a whole";
+  }
+  if (answered.value_or(0) <= commits) return "";
+  return "the last " + std::to_string(*answered - commits) + " of " + std::to_string(*answered) +
+         " changes that were answered are missing: the file " + kLogFile +
+         "-wal is lost or damaged";
 }
 
 }  // namespace camway::scene

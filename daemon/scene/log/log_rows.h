@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/base/result.h"
@@ -31,5 +33,12 @@ std::string fault_of_notes(SqliteDatabase& database);
 /// Returns what SQLite's own check of the file's structure found; empty for nothing. `pragma` is
 /// `quick_check` or `integrity_check`.
 std::string fault_of_structure(SqliteDatabase& database, const std::string& pragma);
+
+/// Returns a number of the table `meta`; 0 if it is not there.
+std::uint64_t read_meta(SqliteDatabase& database, std::string_view key);
+
+/// Returns what is wrong if the database of a folder lacks transactions that were answered
+/// (`CommitCount`); empty otherwise.
+std::string fault_of_commits(const std::filesystem::path& folder, SqliteDatabase& database);
 
 }  // namespace camway::scene

@@ -33,15 +33,19 @@ std::string fault_of_references(SqliteDatabase& database) {
                       : "";
 }
 
-base::Result<SqliteLogContent> check_content(SqliteDatabase& database) {
-  std::string fault = fault_of_structure(database, "integrity_check");
+base::Result<SqliteLogContent> check_content(const fs::path& file, SqliteDatabase& database) {
+  // An export stands alone.
+  const bool is_of_folder = file.filename() == kLogFile;
+  std::string fault = is_of_folder ? fault_of_commits(file.parent_path(), database) : "";
+  if (fault.empty()) fault = fault_of_structure(database, "integrity_check");
   if (fault.empty()) fault = fault_of_references(database);
   if (fault.empty()) fault = fault_of_notes(database);
   if (fault.empty()) fault = fault_of_blobs(database);
   if (!fault.empty()) return base::Failure{std::move(fault)};
   const auto scenes = read_logged_scenes(database);
   if (!scenes) return base::Failure{scenes.error};
-  const SqliteLogContent content = content_of(database, *scenes);
+  SqliteLogContent content = content_of(database, *scenes);
+  content.commits = read_meta(database, "commits");
   if (database.failure()) return base::Failure{database.failure()->text};
   return content;
 }
@@ -85,7 +89,7 @@ base::Result<SqliteLogContent> SqliteLog::check(const fs::path& file) {
   if (!fault.empty()) return base::Failure{std::move(fault)};
   base::Result<SqliteLogContent> content = base::Failure{"no state can be read"};
   database.read_at_once([&] {
-    content = check_content(database);
+    content = check_content(file, database);
     return true;
   });
   if (!content) return base::Failure{refusal(place, database, content.error)};
@@ -119,6 +123,9 @@ std::string SqliteLog::restore(const fs::path& file, const fs::path& state_dir) 
     }
   }
   const fs::path unfinished = target.string() + ".unfinished";
+  // Of this log, and durable before the log is there.
+  unlink((state_dir / CommitCount::kFile).c_str());
+  if (!CommitCount(state_dir).write(exported->commits)) return place + CommitCount::kFile;
   fault = copy_and_publish(file, unfinished, target);
   return fault.empty() ? "" : place + fault;
 }

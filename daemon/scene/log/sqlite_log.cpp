@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/log/sqlite_log.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
+#include <cstring>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -23,6 +27,12 @@ constexpr auto kMostRevision = static_cast<std::uint64_t>(std::numeric_limits<st
 
 AppendResult broken(std::string error) { return {AppendFault::kBroken, std::move(error)}; }
 
+/// The inode of a file; nothing if there is none.
+std::optional<ino_t> inode_of(const fs::path& file) {
+  struct stat status {};
+  return stat(file.c_str(), &status) == 0 ? std::optional(status.st_ino) : std::nullopt;
+}
+
 /// Makes the log if it is missing. Returns why not; empty otherwise.
 std::string make_missing_log(const fs::path& folder) {
   const fs::path file = folder / kLogFile;
@@ -35,13 +45,12 @@ std::string make_missing_log(const fs::path& folder) {
                          std::string(kLogFile) + " is missing, but its recent changes are there");
     }
   }
+  if (CommitCount::read(folder).value_or(0) > 0) {
+    return damage_text(place_of_state(folder),
+                       std::string(kLogFile) + " is missing, but changes were answered");
+  }
   const base::Result<bool> made = create_log_database(file);
   return made ? "" : place_of_state(folder) + " cannot be made: " + made.error;
-}
-
-std::uint64_t read_highest_removed(SqliteDatabase& database) {
-  SqliteQuery row = database.query("SELECT value FROM meta WHERE key='highest_removed'");
-  return row.next() ? row.number(0) : 0;
 }
 
 }  // namespace
@@ -81,9 +90,19 @@ std::string SqliteLog::open_database(SqliteDatabase::Access access) {
   fault = fault_of_structure(*database_, "quick_check");
   if (fault.empty()) fault = fault_of_notes(*database_);
   if (!fault.empty()) return refusal(place_of_state(folder_), *database_, fault);
-  highest_removed_ = read_highest_removed(*database_);
+  // Read before the number of the database, which a daemon may raise meanwhile.
+  fault = fault_of_commits(folder_, *database_);
+  commits_ = read_meta(*database_, "commits");
+  if (!fault.empty()) return refusal(place_of_state(folder_), *database_, fault);
+  highest_removed_ = read_meta(*database_, "highest_removed");
   if (access == SqliteDatabase::Access::kWrite) {
     if (!prepare_for_changes(*database_, limits_.most_bytes)) return database_fault().error;
+    database_inode_ = inode_of(folder_ / kLogFile).value_or(0);
+    answered_.emplace(folder_);
+    if (!answered_->write(commits_)) {
+      return place_of_state(folder_) + " cannot be written: " + CommitCount::kFile + ": " +
+             std::strerror(errno);
+    }
   }
   return database_->failure() ? database_fault().error : "";
 }
@@ -222,15 +241,41 @@ AppendResult SqliteLog::set_note(std::string_view key, std::string_view text) {
   });
 }
 
+AppendResult SqliteLog::fault_of_files() {
+  const fs::path file = folder_ / kLogFile;
+  const std::optional<ino_t> changes = inode_of(file.string() + "-wal");
+  const bool is_same =
+      inode_of(file) == database_inode_ && (!changes_inode_ || changes == changes_inode_);
+  changes_inode_ = changes_inode_ ? changes_inode_ : changes;
+  if (is_same) return {};
+  return broken(place_of_state(folder_) +
+                " cannot be written: its files were removed or replaced while it was in use");
+}
+
+AppendResult SqliteLog::count_commit() {
+  return database_->query("UPDATE meta SET value=?, digest=? WHERE key='commits'")
+                 .with(commits_ + 1)
+                 .with(meta_digest("commits", commits_ + 1))
+                 .run()
+             ? AppendResult{}
+             : database_fault();
+}
+
 AppendResult SqliteLog::write(const std::function<AppendResult()>& change) {
   database_->forget_failure();
-  AppendResult result;
+  if (!answered_) return broken(place_of_state(folder_) + " is open for reading only");
+  AppendResult result = fault_of_files();
+  if (result.fault != AppendFault::kNone) return result;
   const bool is_written = database_->transact([&] {
     result = change();
+    if (result.fault == AppendFault::kNone) result = count_commit();
     return result.fault == AppendFault::kNone;
   });
-  if (is_written || result.fault != AppendFault::kNone) return result;
-  return database_fault();
+  if (!is_written) return result.fault != AppendFault::kNone ? result : database_fault();
+  ++commits_;
+  if (answered_->write(commits_)) return result;
+  return broken(place_of_state(folder_) + " cannot be written: " + CommitCount::kFile + ": " +
+                std::strerror(errno));
 }
 
 AppendResult SqliteLog::database_fault() const {

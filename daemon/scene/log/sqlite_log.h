@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +16,7 @@
 
 #include "daemon/base/file_descriptor.h"
 #include "daemon/base/result.h"
+#include "daemon/scene/log/commit_count.h"
 #include "daemon/scene/log/scene_log.h"
 #include "daemon/scene/log/sqlite_database.h"
 
@@ -33,6 +36,7 @@ struct SqliteLogContent {
   std::size_t entries = 0;
   std::size_t blobs = 0;
   std::uint64_t blob_bytes = 0;
+  std::uint64_t commits = 0;  ///< transactions since the log was made
 };
 
 /// The log in one file of a folder, `scenes.sqlite`, by SQLite. While it is open, SQLite keeps
@@ -90,6 +94,9 @@ class SqliteLog final : public SceneLog {
 
   /// Opens the file that is there. Returns why not.
   std::string open_database(SqliteDatabase::Access access);
+  /// Returns what is wrong if the files of the log are no longer those that were opened.
+  [[nodiscard]] AppendResult fault_of_files();
+  AppendResult count_commit();
   /// Makes a change, all of it or nothing. `change` returns the fault that it found itself, or that
   /// of the database.
   AppendResult write(const std::function<AppendResult()>& change);
@@ -112,6 +119,10 @@ class SqliteLog final : public SceneLog {
   std::mutex mutex_;
   std::unique_ptr<SqliteDatabase> database_;
   std::uint64_t highest_removed_ = 0;
+  std::uint64_t commits_ = 0;            ///< transactions of the database
+  std::optional<CommitCount> answered_;  ///< set if it is open for changes
+  ino_t database_inode_ = 0;
+  std::optional<ino_t> changes_inode_;  ///< of the file of recent changes, once it is there
 };
 
 }  // namespace camway::scene

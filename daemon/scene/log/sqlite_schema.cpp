@@ -56,6 +56,9 @@ bool fill_new_database(SqliteDatabase& database) {
     return database.run(identification.c_str()) && database.run(kTables) &&
            database.query("INSERT INTO meta(key, value, digest) VALUES('highest_removed', 0, ?)")
                .with(digest)
+               .run() &&
+           database.query("INSERT INTO meta(key, value, digest) VALUES('commits', 0, ?)")
+               .with(meta_digest("commits", 0))
                .run();
   });
 }

@@ -46,9 +46,9 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
 
 /// A record of a change for people who look for a revision.
 struct ChangeNote {
-  std::string operation = {};  ///< word for the operation: "load", "move" and so on
-  std::string object = {};     ///< changed object; empty: all
-  std::string client = {};     ///< client that asked for it; empty: none
+  std::string operation = {};           ///< word for the operation: "load", "move" and so on
+  std::string object = {};              ///< changed object; empty: all
+  std::string client = {};              ///< client that asked for it; empty: none
   std::uint64_t restored_revision = 0;  ///< revision whose objects were restored; 0: none
   std::chrono::system_clock::time_point when = {};  ///< set by the store
   /// Names the request, if it may be repeated: equal for repetitions of one request only. Empty:

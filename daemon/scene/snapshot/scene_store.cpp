@@ -118,8 +118,8 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
   assert(snapshot);
   note.when = std::chrono::system_clock::now();
   const ChangeLock turn(*this, snapshot->name);
+  if (auto made = changed_by(snapshot->name, note.request)) return {made, StoreFault::kNone, ""};
   const std::shared_ptr<const Snapshot> before = find(snapshot->name);
-  if (before && was_made(snapshot->name, note)) return {before, StoreFault::kNone, ""};
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
     auto numbered = std::make_shared<Snapshot>(*snapshot);
     numbered->revision = next;
@@ -158,7 +158,7 @@ StoreResult SceneStore::change(std::string_view scene, SceneChange change, Chang
   const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
-  if (was_made(scene, note)) return {before, StoreFault::kNone, ""};
+  if (changed_by(scene, note.request)) return {before, StoreFault::kNone, ""};
   return make_next(*before, {std::move(change)}, std::move(note), ticket);
 }
 
@@ -168,7 +168,7 @@ StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, 
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
-  if (was_made(scene, note)) return {before, StoreFault::kNone, ""};
+  if (changed_by(scene, note.request)) return {before, StoreFault::kNone, ""};
   std::optional<SceneChanges> changes = known->changes_back_to(revision);
   if (!changes) return not_in_history(scene, revision, *known);
   note.restored_revision = revision;
@@ -218,9 +218,12 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
   return {std::move(result.snapshot), StoreFault::kNone, ""};
 }
 
-bool SceneStore::was_made(std::string_view scene, const ChangeNote& note) const {
+std::shared_ptr<const Snapshot> SceneStore::changed_by(std::string_view scene,
+                                                       const std::string& request) const {
   const std::lock_guard lock(mutex_);
-  return scenes_.find(scene)->second.history.has_request(note.request);
+  const auto found = scenes_.find(scene);
+  const bool is_made = found != scenes_.end() && found->second.history.has_request(request);
+  return is_made ? found->second.newest : nullptr;
 }
 
 std::uint64_t SceneStore::oldest_kept(const Snapshot& newest) const {

@@ -56,9 +56,9 @@ struct StoreResult {
 ///
 /// Thread-safe. Changes of one scene are serialised; different scenes change in parallel. The
 /// global lock is held only to publish a finished snapshot, so readers never wait for a build.
-/// Limits across scenes are checked on publication, so no limit is ever exceeded, but unfinished
-/// changes do not count. A change that is cancelled before it is committed (`ChangeTicket`) changes
-/// nothing.
+/// Limits across scenes are checked before a change is kept and published, so no limit is ever
+/// exceeded; changes that are still being built do not count. A change that is cancelled before it
+/// is committed (`ChangeTicket`) changes nothing.
 ///
 /// With a journal, a change takes effect only once it is durable. A change that repeats a request
 /// which the history names (`ChangeNote::request`) changes nothing more.
@@ -92,6 +92,11 @@ class SceneStore {
   /// Like `restore`, but puts the objects into scene `other`, as `put` does.
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
                          ChangeNote note = {}, const ChangeTicket& ticket = {});
+
+  /// Returns the newest snapshot of a scene that has a change by this request
+  /// (`ChangeNote::request`); null if there is none.
+  [[nodiscard]] std::shared_ptr<const Snapshot> changed_by(std::string_view scene,
+                                                           const std::string& request) const;
 
   /// Removes a scene. Returns its last snapshot.
   StoreResult remove(std::string_view scene, const ChangeTicket& ticket = {});
@@ -161,11 +166,8 @@ class SceneStore {
   /// `ChangeLock` is held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  // The next two functions require that the caller holds the `ChangeLock` of a scene that exists.
-
-  /// Returns whether the history has a change by the request of `note`.
-  [[nodiscard]] bool was_made(std::string_view scene, const ChangeNote& note) const;
-  /// The oldest revision of the scene that can be restored.
+  /// The oldest revision of a scene that can be restored. Requires that the caller holds its
+  /// `ChangeLock`, and that it exists.
   [[nodiscard]] std::uint64_t oldest_kept(const Snapshot& newest) const;
 
   /// Checks the limits, commits the ticket, and counts `next` in place of the scene of its name.

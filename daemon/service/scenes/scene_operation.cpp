@@ -69,6 +69,10 @@ class SceneOperation {
         scenes_(context.scenes) {}
 
   Answer run() {
+    // Before the upload is looked for, which a daemon that was started anew does not have.
+    if (const auto made = is_query(request_) ? nullptr : made_before()) {
+      return answer_to({made, scene::StoreFault::kNone, ""}, "");
+    }
     switch (request_.operation) {
       case Request::LOAD:
         return load();
@@ -101,6 +105,11 @@ class SceneOperation {
   std::vector<std::uint8_t> take_map() { return std::move(map_); }
 
  private:
+  /// Returns the scene if a repetition of this request has changed it already; else null.
+  [[nodiscard]] std::shared_ptr<const scene::Snapshot> made_before() const {
+    return scenes_.changed_by(target_of(request_), request_name(request_));
+  }
+
   [[nodiscard]] Answer invalid(std::string_view reason) const {
     return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
   }

@@ -136,6 +136,8 @@ TEST_F(WatchListTest, ARestartIsToldOnceAndNoOlderSceneIsAnsweredFor) {
   for (int i = 0; i < 3; ++i) list_.take_heartbeat(up_for(1.0 + i, 2), now_);
   EXPECT_EQ(told(EventKind::kRestarted), 1);
   EXPECT_EQ(events_.back().scene_revision, 3);
+  list_.take_heartbeat(up_for(103.0, 1), now_);
+  EXPECT_EQ(told(EventKind::kRestarted), 1) << "the two share a prefix";
   report(0, path_state_t::UNKNOWN, 0, 0);
   step_at(seconds(1));
   EXPECT_EQ(least_revision_of(*calls_.back()), 3);

@@ -61,7 +61,7 @@ class SqliteLogDamage : public ::testing::Test {
     intact_ = std::string(std::istreambuf_iterator<char>(file), {});
     ASSERT_EQ(intact_.size() % kLogPage, 0U);
     ASSERT_GE(intact_.size(), 20 * kLogPage);
-    ASSERT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2)
+    ASSERT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 3)
         << "changes are beside the file";
   }
 

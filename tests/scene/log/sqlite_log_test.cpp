@@ -261,11 +261,62 @@ TEST_F(SqliteLogTest, IsExportedIntoOneFileThatIsALog) {
   const std::string before = scenes();
   append("a", sample_entry(1, 2, "moved"));
   log_.reset();
-  fs::rename(target, file());
+  EXPECT_THAT(SqliteLog::restore(target, file().parent_path()), HasSubstr("is there already"));
+  fs::rename(file().parent_path(), folder_.path() / "aside");
+  EXPECT_EQ(SqliteLog::restore(target, file().parent_path()), "");
   reopen();
   EXPECT_EQ(scenes(), before);
   EXPECT_EQ(log_->note("key"), "text");
   append("a", sample_entry(1, 2, "moved"));
+}
+
+/// Returns a copy of the folder as a killed process leaves it: most changes are in the `-wal`.
+fs::path copy_of_folder(const fs::path& from, const fs::path& to) {
+  fs::copy(from, to);
+  return to;
+}
+
+TEST_F(SqliteLogTest, NoticesChangesThatAreLostBesideIt) {
+  for (std::uint64_t i = 0; i < 5; ++i) append("a", sample_entry(i, i + 1, "changed"));
+  const fs::path state = file().parent_path();
+  const auto opened = [](const fs::path& folder) { return SqliteLog::open(folder, {}).error; };
+  EXPECT_EQ(opened(copy_of_folder(state, folder_.path() / "whole")), "");
+  const fs::path without = copy_of_folder(state, folder_.path() / "without");
+  fs::remove(without / "scenes.sqlite-wal");
+  EXPECT_THAT(SqliteLog::check(SqliteLog::file_of(without)).error,
+              HasSubstr("5 of 5 changes that were answered are missing"));
+  EXPECT_THAT(opened(without), HasSubstr("5 of 5 changes that were answered are missing"));
+  const fs::path alone = folder_.path() / "alone";
+  fs::create_directory(alone);
+  fs::copy_file(state / "scenes.sqlite", alone / "scenes.sqlite");
+  fs::copy_file(state / "scenes.sqlite-wal", alone / "scenes.sqlite-wal");
+  EXPECT_THAT(opened(alone), HasSubstr("not copied as a whole"));
+  const auto whole_size = fs::file_size(state / "scenes.sqlite-wal");
+  for (int cut = 1; cut <= 3; ++cut) {
+    const fs::path damaged = copy_of_folder(state, folder_.path() / ("cut" + std::to_string(cut)));
+    fs::resize_file(damaged / "scenes.sqlite-wal",
+                    whole_size - static_cast<std::uintmax_t>(cut) * 5000);
+    EXPECT_THAT(opened(damaged), HasSubstr("changes that were answered are missing")) << cut;
+  }
+  const fs::path gone = copy_of_folder(state, folder_.path() / "gone");
+  for (const char* const name : {"scenes.sqlite", "scenes.sqlite-wal", "scenes.sqlite-shm"}) {
+    fs::remove(gone / name);
+  }
+  EXPECT_THAT(opened(gone), HasSubstr("is missing, but changes were answered"));
+}
+
+TEST_F(SqliteLogTest, SaysSoIfItsFilesAreReplacedWhileItIsInUse) {
+  append("a", sample_entry(0, 1, "made"));
+  const fs::path state = file().parent_path();
+  fs::rename(state, folder_.path() / "aside");
+  const AppendResult gone = log_->append("a", sample_entry(1, 2, "moved"));
+  EXPECT_EQ(gone.fault, AppendFault::kBroken);
+  EXPECT_THAT(gone.error, HasSubstr("removed or replaced"));
+  fs::rename(folder_.path() / "aside", state);
+  EXPECT_EQ(log_->append("a", sample_entry(1, 2, "moved")).error, "");
+  fs::rename(state / "scenes.sqlite-wal", folder_.path() / "wal");
+  EXPECT_THAT(log_->append("a", sample_entry(2, 3, "moved")).error,
+              HasSubstr("removed or replaced"));
 }
 
 TEST_F(SqliteLogTest, IsForManyThreads) {
@@ -505,6 +556,7 @@ TEST_F(SqliteLogTest, IsCheckedOnAMediumThatIsReadOnly) {
   if (!disk.is_mounted()) GTEST_SKIP() << "this user cannot mount a file system";
   log_.reset();
   fs::copy_file(file(), medium / "scenes.sqlite");
+  fs::copy_file(state() / "commits", medium / "commits");
   ASSERT_EQ(mount(nullptr, medium.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr), 0);
   const auto checked = SqliteLog::check(medium / "scenes.sqlite");
   ASSERT_TRUE(checked) << checked.error;
