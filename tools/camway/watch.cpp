@@ -269,7 +269,8 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
     unheard = is_unheard ? event : std::nullopt;
     if (is_unheard) continue;
     printer.add(*event);
-    is_watched = event->kind != WatchEvent::Kind::kLost;
+    is_watched =
+        event->kind != WatchEvent::Kind::kLost && event->kind != WatchEvent::Kind::kRestarted;
     is_answered = is_answered || event->kind == WatchEvent::Kind::kAnswer;
   }
   printer.flush();
@@ -281,7 +282,9 @@ constexpr char kEvents[] =
     "Events: answer (the first path, a corrected one, or one that was taken), broken (the path "
     "collides since a\nchange, and a corrected one is being planned), free (it is proved free "
     "again), better (what was in the way\nis gone, and a better path is on offer; --take-better "
-    "takes it), withdrawn (it is not on offer any more),\nlost (the daemon does not watch for "
+    "takes it), withdrawn (it is not on offer any more),\nrestarted (the daemon was started anew; "
+    "the next event has the result), "
+    "lost (the daemon does not watch for "
     "now: it fell silent more than 3 s ago, or a limit of its [watch] is\nreached; we go on "
     "trying, and say so once), watched (it does again, and what was said before holds).\nAt the "
     "end, and when interrupted, the daemon is told to watch no more.\n";

@@ -215,6 +215,32 @@ TEST_F(SceneServiceTest, LoadsWhatIsUploaded) {
   EXPECT_EQ(put.objects[0].kind, "point cloud");
 }
 
+/// A daemon that was started anew has the history of durable scenes, but neither answers nor
+/// uploads.
+TEST_F(SceneServiceTest, MakesAChangeOnceThoughTheUploadIsGoneWithTheDaemonBefore) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "yard")));
+  scene_request_t points = request_for(2, scene_request_t::PUT, "yard", "dust");
+  points.kind = scene_request_t::POINTS;
+  points.cell_m = 0.5;
+  upload(Bytes(48, 0), points);
+  const scene_response_t made = ask(points);
+  ASSERT_EQ(made.status, scene_response_t::STATUS_OK) << made.message;
+
+  RunningService next;
+  ASSERT_TRUE(next.scenes.adopt(*running_.scenes.history("yard")).snapshot);
+  Sender sender(next);
+  sender.send(points);
+  const std::optional<scene_response_t> again = sender.answer_to(points);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->status, scene_response_t::STATUS_OK) << again->message;
+  EXPECT_EQ(again->scene.revision, made.scene.revision);
+  scene_request_t other = points;
+  other.request_id = 3;
+  sender.send(other);
+  EXPECT_EQ(sender.answer_to(other)->status, scene_response_t::STATUS_INVALID)
+      << "another one needs its upload";
+}
+
 /// The pages of an exported map are sent as often as their client asks for them.
 TEST_F(SceneServiceTest, SendsAnExportedMapPageByPage) {
   scene_request_t load = request_for(1, scene_request_t::LOAD, "yard");
