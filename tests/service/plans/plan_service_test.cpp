@@ -155,30 +155,6 @@ TEST(PlanService, SaysWhichScenesThereAre) {
   EXPECT_EQ(answer->scene_revision, 0);
 }
 
-TEST(PlanService, DoesNotAnswerForAnOlderSceneThanAskedFor) {
-  RunningService daemon;
-  plan_request_t request = request_with(1);
-  request.least_revision = 1'000;
-  daemon.send(request);
-  const std::optional<plan_response_t> answer = daemon.answer_to(request);
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_OLD_SCENE);
-  EXPECT_NE(answer->message.find("least_revision: is 1000"), std::string::npos) << answer->message;
-  EXPECT_GT(answer->scene_revision, 0);
-  EXPECT_EQ(answer->num_segments, 0);
-  daemon.send(request);
-  EXPECT_EQ(daemon.answer_to(request, 1)->status, plan_response_t::STATUS_OLD_SCENE)
-      << "not remembered, but checked again";
-  request.request_id = 2;
-  request.least_revision = answer->scene_revision;
-  daemon.send(request);
-  EXPECT_EQ(daemon.answer_to(request)->status, plan_response_t::STATUS_OK);
-  request.request_id = 3;
-  request.least_revision = -1;
-  daemon.send(request);
-  EXPECT_EQ(daemon.answer_to(request)->status, plan_response_t::STATUS_INVALID);
-}
-
 TEST(PlanService, KeepsControlCharactersOfAPeerOutOfAnswersAndLogs) {
   RunningService daemon;
   plan_request_t request = request_with(2);
