@@ -125,21 +125,24 @@ void ConfiguredScenes::note_fault(const std::string& scene, const std::string& r
 
 void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) {
   for (const Held& held : held_) {
-    const bool stays = std::any_of(wanted.begin(), wanted.end(), [&](const SceneArgument& scene) {
-      return scene.name == held.scene.name;
-    });
-    if (stays) continue;
-    store_.remove(held.scene.name);
-    origins_.erase(held.scene.name);
-    log_->info("scene unloaded", {{"scene", held.scene.name}});
+    if (std::ranges::find(wanted, held.scene.name, &SceneArgument::name) == wanted.end()) {
+      remove(held.scene.name);
+    }
   }
+  // Scenes of an earlier process with the same log.
   for (const std::string& name : origins_.names()) {
-    if (std::ranges::any_of(wanted, [&](const SceneArgument& scene) { return scene.name == name; }))
-      continue;
-    store_.remove(name);
-    origins_.erase(name);
-    log_->info("scene unloaded, which is not configured any more", {{"scene", name}});
+    if (std::ranges::find(wanted, name, &SceneArgument::name) == wanted.end()) remove(name);
   }
+}
+
+void ConfiguredScenes::remove(const std::string& name) {
+  const scene::StoreResult removed = store_.remove(name);
+  if (removed.fault == scene::StoreFault::kNotKept) {
+    log_->error("scene cannot be unloaded", {{"scene", name}, {"reason", removed.error}});
+    return;
+  }
+  origins_.erase(name);
+  log_->info("scene unloaded", {{"scene", name}});
 }
 
 bool ConfiguredScenes::watches_files() const {

@@ -33,8 +33,9 @@ class ConfiguredScenes {
   /// clients added stays; where it cannot be read, the scene stays as it was, with a warning. Loads
   /// scenes that are new, that are to be read with other options or whose file changed, and logs
   /// what was read and assumed. If a scene cannot be loaded, or a stop is requested, changes
-  /// nothing and returns false; a fault is logged with the file and the reason. Also returns false
-  /// if the store has no room for a scene; then only that one is left out.
+  /// nothing but files that scenes of the log were made of, and returns false; a fault is logged
+  /// with the file and the reason. Also returns false if the store has no room for a scene; then
+  /// only that one is left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
   /// Returns the first scene that the last `update` could not load or hold, with the reason. Empty
@@ -70,6 +71,7 @@ class ConfiguredScenes {
   /// Warns if a scene that is put anew has objects of clients.
   void warn_of_losses(const std::string& name);
   void note_fault(const std::string& scene, const std::string& reason);
+  void remove(const std::string& name);
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;

@@ -24,8 +24,8 @@ struct FileStamp {
   static FileStamp of(const std::filesystem::path& file);
 };
 
-/// What the configured scenes in a log were made of, so that a start reads only files that have
-/// changed. Without a log it knows nothing and keeps nothing.
+/// The files and options that configured scenes in a log were read with, so that a start reads only
+/// files that have changed. Without a log it knows nothing and keeps nothing.
 /// Not thread-safe.
 class SceneOrigins {
  public:

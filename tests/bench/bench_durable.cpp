@@ -4,7 +4,6 @@
 // time of a start that finds its scenes in the log.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
+#include "tests/bench/scene_changes.h"
 #include "tests/bench/tiled_scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -43,11 +43,6 @@ struct Changes {
   std::string ratio;
 };
 
-/// Throws if the store refuses a change, which would leave nothing to measure.
-void expect_taken(const scene::StoreResult& result) {
-  if (!result.error.empty()) throw std::runtime_error(result.error);
-}
-
 /// A store that keeps its scenes in a folder.
 class DurableStore {
  public:
@@ -68,23 +63,6 @@ class DurableStore {
   std::unique_ptr<scene::DurableScenes> journal_;
   std::unique_ptr<scene::SceneStore> store_;
 };
-
-SceneChange put(const std::string& name, scene::Mesh mesh, const geometry::Vec3& position_W) {
-  std::string fault;
-  const scene::ImportReport report = scene::report_of(mesh, "bench");
-  return {SceneChange::Kind::kPut, name,
-          scene::make_source(scene::ObjectKind::kMesh, std::move(mesh), report, {}),
-          scene::Placement::make(position_W, geometry::Quat::Identity(), fault)};
-}
-
-SceneChange move(const std::string& name, int round) {
-  const double turn_rad = 0.1 * round;
-  std::string fault;
-  return {SceneChange::Kind::kMove, name, nullptr,
-          scene::Placement::make(
-              geometry::Vec3(5.0 + std::cos(turn_rad), 1.0, 5.0 + std::sin(turn_rad)),
-              geometry::Quat(std::cos(turn_rad / 2.0), 0.0, std::sin(turn_rad / 2.0), 0.0), fault)};
-}
 
 /// Makes the same moves in both stores by turns.
 Changes measure(scene::SceneStore& plain, scene::SceneStore& durable, const std::string& title,
@@ -129,6 +107,9 @@ Changes building(const Options& options) {
                  options.rounds);
 }
 
+/// Share by which a vertex of each ball is nearer to its centre than that of the one before.
+constexpr double kDifference = 1e-6;
+
 /// Also measures a start with all objects, in seconds.
 Changes warehouse(const Options& options, double& start_s) {
   const testing::TemporaryFolder folder;
@@ -142,9 +123,9 @@ Changes warehouse(const Options& options, double& start_s) {
     for (std::size_t i = 0; i < options.objects; ++i) {
       const geometry::Vec3 at(2.0 * static_cast<double>(i % 32), 1.0,
                               2.0 * static_cast<double>(i / 32));
-      // Each ball is a little different, so that none shares its content.
+      // Each ball has another vertex, so that none shares its content.
       scene::Mesh own = ball;
-      own.vertices[0] *= 1.0 - 1e-6 * static_cast<double>(i);
+      own.vertices[0] *= 1.0 - kDifference * static_cast<double>(i);
       change_both(plain, durable.store(), put(fmt::format("ball{:04}", i), std::move(own), at));
     }
     changes =

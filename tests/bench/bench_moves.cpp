@@ -4,19 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
+#include "tests/bench/scene_changes.h"
 #include "tests/bench/tiled_scene.h"
 
 namespace camway::bench {
 namespace {
 
 using nlohmann::json;
-using scene::SceneChange;
 
 struct Options {
   std::string scene = own_scenes() + "/office.obj";
@@ -36,36 +35,12 @@ struct Moves {
   double p99_s = 0.0;
 };
 
-/// Throws if the store refuses a change, which would leave nothing to measure.
-void expect_taken(const scene::StoreResult& result) {
-  if (!result.error.empty()) throw std::runtime_error(result.error);
-}
-
-SceneChange put(const std::string& name, scene::Mesh mesh, const geometry::Vec3& position_W,
-                const scene::ObjectOptions& options) {
-  std::string fault;
-  const scene::ImportReport report = scene::report_of(mesh, "bench");
-  return {SceneChange::Kind::kPut, name,
-          scene::make_source(scene::ObjectKind::kMesh, std::move(mesh), report, options),
-          scene::Placement::make(position_W, geometry::Quat::Identity(), fault)};
-}
-
-scene::Placement pose_of(int round) {
-  const double turn_rad = 0.1 * round;
-  std::string fault;
-  return scene::Placement::make(
-      geometry::Vec3(5.0 + std::cos(turn_rad), 1.0, 5.0 + std::sin(turn_rad)),
-      geometry::Quat(std::cos(turn_rad / 2.0), 0.0, std::sin(turn_rad / 2.0), 0.0), fault);
-}
-
 Moves measure(scene::SceneStore& store, const std::string& title, const std::string& object,
               int rounds) {
   std::vector<double> taken_s;
   for (int round = -5; round < rounds; ++round) {
-    const double once_s = timed_s([&] {
-      expect_taken(
-          store.change("bench", {SceneChange::Kind::kMove, object, nullptr, pose_of(round)}));
-    });
+    const double once_s =
+        timed_s([&] { expect_taken(store.change("bench", move(object, round))); });
     if (round >= 0) taken_s.push_back(once_s);
   }
   const auto now = store.find("bench");

@@ -35,7 +35,7 @@ struct LogEntry {
   std::vector<BlobId> needs;  ///< blobs that the record names
 };
 
-/// What is kept of a scene: the last summary, and the entries after it, in order of revision.
+/// A scene in the log: the last summary, and the entries after it in order of revision.
 struct LoggedScene {
   std::string name;
   std::uint64_t summary_revision = 0;  ///< 0 if there is no summary

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -114,7 +116,7 @@ std::string SqliteLog::restore(const fs::path& file, const fs::path& state_dir) 
   const auto lock = lock_state_folder(state_dir);
   if (!lock) return place + lock.error;
   const fs::path target = file_of(state_dir);
-  // What SQLite left beside an older log would be taken for a part of this one.
+  // SQLite would take files that it left beside an older log for a part of this one.
   for (const char* const end : {"", "-wal", "-shm", "-journal"}) {
     const fs::path left = target.string() + end;
     std::error_code failed;
@@ -123,9 +125,11 @@ std::string SqliteLog::restore(const fs::path& file, const fs::path& state_dir) 
     }
   }
   const fs::path unfinished = target.string() + ".unfinished";
-  // Of this log, and durable before the log is there.
+  // The number must be that of this log, and durable before the log is there.
   unlink((state_dir / CommitCount::kFile).c_str());
-  if (!CommitCount(state_dir).write(exported->commits)) return place + CommitCount::kFile;
+  if (!CommitCount(state_dir).write(exported->commits)) {
+    return place + CommitCount::kFile + ": " + std::strerror(errno);
+  }
   fault = copy_and_publish(file, unfinished, target);
   return fault.empty() ? "" : place + fault;
 }

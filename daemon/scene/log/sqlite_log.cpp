@@ -90,7 +90,6 @@ std::string SqliteLog::open_database(SqliteDatabase::Access access) {
   fault = fault_of_structure(*database_, "quick_check");
   if (fault.empty()) fault = fault_of_notes(*database_);
   if (!fault.empty()) return refusal(place_of_state(folder_), *database_, fault);
-  // Read before the number of the database, which a daemon may raise meanwhile.
   fault = fault_of_commits(folder_, *database_);
   commits_ = read_meta(*database_, "commits");
   if (!fault.empty()) return refusal(place_of_state(folder_), *database_, fault);
@@ -99,7 +98,7 @@ std::string SqliteLog::open_database(SqliteDatabase::Access access) {
     if (!prepare_for_changes(*database_, limits_.most_bytes)) return database_fault().error;
     database_inode_ = inode_of(folder_ / kLogFile).value_or(0);
     answered_.emplace(folder_);
-    if (!answered_->write(commits_)) {
+    if (!answered_->write(commits_) || !is_synced(folder_)) {
       return place_of_state(folder_) + " cannot be written: " + CommitCount::kFile + ": " +
              std::strerror(errno);
     }
@@ -273,9 +272,10 @@ AppendResult SqliteLog::write(const std::function<AppendResult()>& change) {
   });
   if (!is_written) return result.fault != AppendFault::kNone ? result : database_fault();
   ++commits_;
-  if (answered_->write(commits_)) return result;
-  return broken(place_of_state(folder_) + " cannot be written: " + CommitCount::kFile + ": " +
-                std::strerror(errno));
+  // The change is durable. Without this number its loss would not be noticed until the next one is
+  // written; to refuse the change, though, would leave the store without what its log has.
+  static_cast<void>(answered_->write(commits_));
+  return result;
 }
 
 AppendResult SqliteLog::database_fault() const {

@@ -21,12 +21,6 @@ std::string system_fault(const fs::path& path) {
   return path.string() + ": " + std::strerror(errno);
 }
 
-/// Makes the content of a file, or the names in a folder, durable. Returns whether it did.
-bool is_synced(const fs::path& path) {
-  const base::FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  return file.is_open() && fsync(file.get()) == 0;
-}
-
 fs::path folder_of(const fs::path& path) {
   const fs::path folder = path.parent_path();
   return folder.empty() ? fs::path(".") : folder;
@@ -45,6 +39,11 @@ bool rename_to_free_name(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
+
+bool is_synced(const fs::path& path) {
+  const base::FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  return file.is_open() && fsync(file.get()) == 0;
+}
 
 std::string make_state_folder(const fs::path& folder) {
   std::error_code failed;

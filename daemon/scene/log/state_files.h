@@ -9,6 +9,10 @@
 
 namespace camway::scene {
 
+/// Makes the content of a file, or the names in a folder, durable. Returns whether it did, and sets
+/// `errno` if not.
+[[nodiscard]] bool is_synced(const std::filesystem::path& path);
+
 /// Makes a folder with mode 0700 if it is missing, with the folders above it, durably. Returns why
 /// that failed; empty otherwise.
 std::string make_state_folder(const std::filesystem::path& folder);

@@ -67,7 +67,7 @@ std::shared_ptr<const VoxelMap> empty_map() {
   return VoxelMap::build(0.1, std::move(occupied), {}, UnknownSpace::kFree).map;
 }
 
-/// What users see of a store: every scene with all that its history can restore.
+/// Describes a store as users see it: every scene with all that its history can restore.
 std::string description_of(const SceneStore& store) {
   std::string text;
   for (const auto& snapshot : store.list()) {
@@ -228,7 +228,7 @@ TEST(DurableScenes, WhatCannotBeKeptIsNotMade) {
   EXPECT_EQ(store.put(assemble("attic", 1, {}, {})).fault, StoreFault::kNotKept);
   EXPECT_FALSE(store.find("attic"));
   log.fault = AppendFault::kNone;
-  // What was counted for the refused changes is free again: two crates fit.
+  // The refused changes do not count any more: two crates fit.
   EXPECT_EQ(store.change("room", put).error, "");
   SceneChange second = put;
   second.object = "second";

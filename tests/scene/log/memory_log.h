@@ -2,109 +2,110 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <map>
 #include <mutex>
 #include <set>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "daemon/scene/log/scene_log.h"
 
 namespace camway::testing {
 
-/// A log without a disk, with faults on demand.
-class MemoryLog : public scene::SceneLog {
+/// A log in memory: the model of other logs, and one whose faults a test can choose. Thread-safe,
+/// except for `fault`, `head` and what follows it.
+class MemoryLog final : public scene::SceneLog {
  public:
-  /// Next calls of `append` and `put_blob` fail so while it is set.
-  scene::AppendFault fault = scene::AppendFault::kNone;
+  using AppendFault = scene::AppendFault;
+  using AppendResult = scene::AppendResult;
+  using BlobId = scene::BlobId;
 
-  scene::AppendResult put_blob(const scene::BlobId& id, const scene::Blob& blob) override {
+  /// The fault of all calls of `append` and `put_blob` while it is set.
+  AppendFault fault = AppendFault::kNone;
+
+  AppendResult put_blob(const BlobId& id, const scene::Blob& blob) override {
     const std::lock_guard lock(mutex_);
-    if (fault != scene::AppendFault::kNone) return {fault, "no disk"};
-    for (const scene::BlobId& needed : blob.needs) assert(blobs_.contains(needed));
-    blobs_.insert_or_assign(id, blob);
+    if (fault != AppendFault::kNone) return {fault, "no disk"};
+    if (blobs_.contains(id)) return {};
+    if (!are_there(blob.needs)) return {AppendFault::kBroken, "needs"};
+    blobs_.emplace(id, blob);
     return {};
   }
-  bool has_blob(const scene::BlobId& id) override {
+  bool has_blob(const BlobId& id) override {
     const std::lock_guard lock(mutex_);
     return blobs_.contains(id);
   }
-  base::Result<scene::Bytes> blob(const scene::BlobId& id) override {
+  base::Result<scene::Bytes> blob(const BlobId& id) override {
     const std::lock_guard lock(mutex_);
-    const auto found = blobs_.find(id);
-    if (found == blobs_.end()) return base::Failure{"there is no such blob"};
-    return found->second.bytes;
+    if (!blobs_.contains(id)) return base::Failure{"not there"};
+    return blobs_.at(id).bytes;
   }
-
-  scene::AppendResult append(std::string_view scene, const scene::LogEntry& entry) override {
+  AppendResult append(std::string_view name, const scene::LogEntry& entry) override {
     const std::lock_guard lock(mutex_);
-    if (fault != scene::AppendFault::kNone) return {fault, "no disk"};
-    scene::LoggedScene& logged = scenes_[std::string(scene)];
-    logged.name = scene;
-    if (newest(logged) != entry.before) return {scene::AppendFault::kConflict, "another revision"};
-    for (const scene::BlobId& needed : entry.needs) assert(blobs_.contains(needed));
-    logged.entries.push_back(entry);
+    if (fault != AppendFault::kNone) return {fault, "no disk"};
+    if (head(name) != entry.before) return {AppendFault::kConflict, "revision"};
+    if (!are_there(entry.needs)) return {AppendFault::kBroken, "needs"};
+    Kept& kept = scenes_[std::string(name)];
+    kept.scene.name = name;
+    kept.scene.entries.push_back(entry);
     return {};
   }
-  scene::AppendResult summarize(std::string_view scene, std::uint64_t revision,
-                                const scene::Bytes& summary,
-                                const std::vector<scene::BlobId>& needs) override {
+  AppendResult summarize(std::string_view name, std::uint64_t revision, const scene::Bytes& summary,
+                         const std::vector<BlobId>& needs) override {
     const std::lock_guard lock(mutex_);
-    scene::LoggedScene& logged = scenes_.find(scene)->second;
-    std::erase_if(logged.entries, [&](const auto& entry) { return entry.revision <= revision; });
-    logged.summary_revision = revision;
-    logged.summary = summary;
-    summary_needs_[std::string(scene)] = needs;
+    const auto found = scenes_.find(std::string(name));
+    if (found == scenes_.end()) return {AppendFault::kConflict, "no scene"};
+    scene::LoggedScene& scene = found->second.scene;
+    const bool is_known =
+        revision == scene.summary_revision ||
+        std::ranges::any_of(scene.entries, [&](const auto& e) { return e.revision == revision; });
+    if (revision == 0 || !is_known) return {AppendFault::kConflict, "no revision"};
+    if (!are_there(needs)) return {AppendFault::kBroken, "needs"};
+    std::erase_if(scene.entries, [&](const auto& e) { return e.revision <= revision; });
+    scene.summary_revision = revision;
+    scene.summary = summary;
+    found->second.summary_needs = needs;
     return {};
   }
-  scene::AppendResult remove(std::string_view scene, std::uint64_t revision) override {
+  AppendResult remove(std::string_view name, std::uint64_t revision) override {
     const std::lock_guard lock(mutex_);
-    const auto found = scenes_.find(scene);
-    if (found == scenes_.end() || newest(found->second) != revision) {
-      return {scene::AppendFault::kConflict, "another revision"};
-    }
-    scenes_.erase(found);
-    summary_needs_.erase(std::string(scene));
+    if (revision == 0 || head(name) != revision) return {AppendFault::kConflict, "revision"};
+    scenes_.erase(std::string(name));
     highest_removed_ = std::max(highest_removed_, revision);
     return {};
   }
   std::uint64_t highest_removed() override { return highest_removed_; }
-
   base::Result<std::vector<scene::LoggedScene>> scenes() override {
     const std::lock_guard lock(mutex_);
-    std::vector<scene::LoggedScene> all;
-    for (const auto& [name, logged] : scenes_) all.push_back(logged);
-    return all;
+    std::vector<scene::LoggedScene> list;
+    for (const auto& [name, kept] : scenes_) list.push_back(kept.scene);
+    return list;
   }
-
   std::string note(std::string_view key) override { return notes_[std::string(key)]; }
-  scene::AppendResult set_note(std::string_view key, std::string_view text) override {
+  AppendResult set_note(std::string_view key, std::string_view text) override {
     notes_[std::string(key)] = text;
     return {};
   }
-
-  scene::AppendResult drop_unused_blobs() override {
+  AppendResult drop_unused_blobs() override {
     const std::lock_guard lock(mutex_);
-    std::set<scene::BlobId> used;
-    for (const auto& [name, needs] : summary_needs_) used.insert(needs.begin(), needs.end());
-    for (const auto& [name, logged] : scenes_) {
-      for (const scene::LogEntry& entry : logged.entries) {
-        used.insert(entry.needs.begin(), entry.needs.end());
-      }
-    }
-    std::vector<scene::BlobId> waiting(used.begin(), used.end());
-    while (!waiting.empty()) {
-      const scene::BlobId id = waiting.back();
-      waiting.pop_back();
-      for (const scene::BlobId& needed : blobs_.at(id).needs) {
-        if (used.insert(needed).second) waiting.push_back(needed);
+    std::set<BlobId> used;
+    for (const auto& [name, kept] : scenes_) {
+      for (const BlobId& id : kept.summary_needs) use(id, used);
+      for (const scene::LogEntry& entry : kept.scene.entries) {
+        for (const BlobId& id : entry.needs) use(id, used);
       }
     }
     std::erase_if(blobs_, [&](const auto& blob) { return !used.contains(blob.first); });
     return {};
   }
 
+  /// The newest revision of a scene; 0 if it does not exist. Not to be called beside changes.
+  [[nodiscard]] std::uint64_t head(std::string_view name) const {
+    const auto found = scenes_.find(std::string(name));
+    if (found == scenes_.end()) return 0;
+    const scene::LoggedScene& scene = found->second.scene;
+    return scene.entries.empty() ? scene.summary_revision : scene.entries.back().revision;
+  }
   [[nodiscard]] std::size_t blobs() const { return blobs_.size(); }
   [[nodiscard]] std::uint64_t blob_bytes() const {
     std::uint64_t bytes = 0;
@@ -112,19 +113,29 @@ class MemoryLog : public scene::SceneLog {
     return bytes;
   }
   /// The record of an entry, to be damaged.
-  scene::Bytes& record(const std::string& scene, std::size_t entry) {
-    return scenes_.at(scene).entries.at(entry).record;
+  scene::Bytes& record(const std::string& name, std::size_t entry) {
+    return scenes_.at(name).scene.entries.at(entry).record;
   }
 
  private:
-  static std::uint64_t newest(const scene::LoggedScene& logged) {
-    return logged.entries.empty() ? logged.summary_revision : logged.entries.back().revision;
+  struct Kept {
+    scene::LoggedScene scene;
+    std::vector<BlobId> summary_needs;
+  };
+
+  // The next two functions require that mutex_ is held.
+
+  [[nodiscard]] bool are_there(const std::vector<BlobId>& needs) const {
+    return std::ranges::all_of(needs, [&](const BlobId& id) { return blobs_.contains(id); });
+  }
+  void use(const BlobId& id, std::set<BlobId>& used) const {
+    if (!used.insert(id).second) return;
+    for (const BlobId& need : blobs_.at(id).needs) use(need, used);
   }
 
   std::mutex mutex_;
-  std::map<std::string, scene::LoggedScene, std::less<>> scenes_;
-  std::map<std::string, std::vector<scene::BlobId>> summary_needs_;
-  std::map<scene::BlobId, scene::Blob> blobs_;
+  std::map<std::string, Kept> scenes_;
+  std::map<BlobId, scene::Blob> blobs_;
   std::map<std::string, std::string> notes_;
   std::uint64_t highest_removed_ = 0;
 };

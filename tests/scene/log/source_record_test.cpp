@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/scene/snapshot/snapshot.h"
+#include "tests/scene/cache/prepared_matchers.h"
 #include "tests/scene/log/source_samples.h"
 
 namespace camway::scene {
@@ -19,40 +20,6 @@ using geometry::Vec3;
 using ::testing::HasSubstr;
 
 constexpr std::uint64_t kRecordSeed = 90417;
-
-void expect_equal(const ImportReport& a, const ImportReport& b) {
-  EXPECT_EQ(a.format, b.format);
-  EXPECT_EQ(a.scale, b.scale);
-  EXPECT_EQ(a.up, b.up);
-  EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.objects, b.objects);
-  EXPECT_EQ(a.bounds_m.min(), b.bounds_m.min());
-  EXPECT_EQ(a.bounds_m.max(), b.bounds_m.max());
-  EXPECT_EQ(a.degenerate_triangles, b.degenerate_triangles);
-  EXPECT_EQ(a.dropped_nonfinite, b.dropped_nonfinite);
-  EXPECT_EQ(a.dropped_bad_index, b.dropped_bad_index);
-  EXPECT_EQ(a.dropped_points_and_lines, b.dropped_points_and_lines);
-  EXPECT_EQ(a.dropped_freeform, b.dropped_freeform);
-  EXPECT_EQ(a.ignored_statements, b.ignored_statements);
-  EXPECT_EQ(a.single_precision, b.single_precision);
-  EXPECT_EQ(a.rounding_m, b.rounding_m);
-}
-
-/// Compares bits: 0 and -0 differ.
-void expect_equal(const Mesh& a, const Mesh& b) {
-  ASSERT_EQ(a.vertices.size(), b.vertices.size());
-  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
-    ASSERT_EQ(std::memcmp(a.vertices[i].data(), b.vertices[i].data(), sizeof(Vec3)), 0);
-  }
-  ASSERT_EQ(a.triangles, b.triangles);
-  ASSERT_EQ(a.objects.size(), b.objects.size());
-  for (std::size_t i = 0; i < a.objects.size(); ++i) {
-    EXPECT_EQ(a.objects[i].name, b.objects[i].name);
-    EXPECT_EQ(a.objects[i].first_triangle, b.objects[i].first_triangle);
-    EXPECT_EQ(a.objects[i].triangle_count, b.objects[i].triangle_count);
-  }
-}
 
 std::vector<Voxel> list_of(const VoxelSet& set) {
   std::vector<Voxel> voxels;
@@ -83,13 +50,13 @@ void expect_equal(const VoxelMap& a, const VoxelMap& b) {
 
 void expect_equal(const ObjectSource& a, const ObjectSource& b) {
   EXPECT_EQ(a.kind, b.kind);
-  expect_equal(a.report, b.report);
+  testing::expect_same_report(a.report, b.report);
   EXPECT_EQ(a.why_no_field, b.why_no_field);
   EXPECT_EQ(a.field_O == nullptr, b.field_O == nullptr);
   ASSERT_EQ(a.parts_O.size(), b.parts_O.size());
   for (std::size_t i = 0; i < a.parts_O.size(); ++i) {
     EXPECT_EQ(a.parts_O[i].key, b.parts_O[i].key);
-    ASSERT_NO_FATAL_FAILURE(expect_equal(*a.parts_O[i].mesh, *b.parts_O[i].mesh));
+    ASSERT_NO_FATAL_FAILURE(testing::expect_same_mesh(*a.parts_O[i].mesh, *b.parts_O[i].mesh));
   }
   ASSERT_EQ(a.map_O == nullptr, b.map_O == nullptr);
   if (a.map_O) expect_equal(*a.map_O, *b.map_O);

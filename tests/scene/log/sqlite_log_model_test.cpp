@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "daemon/scene/log/sqlite_log.h"
 #include "tests/scene/log/log_samples.h"
+#include "tests/scene/log/memory_log.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/temporary_folder.h"
@@ -18,99 +17,6 @@ namespace camway::scene {
 namespace {
 
 constexpr std::uint64_t kLogModelSeed = 20240611;
-
-/// What a log has to keep, in memory.
-class LogModel final : public SceneLog {
- public:
-  AppendResult put_blob(const BlobId& id, const Blob& blob) override {
-    if (blobs_.contains(id)) return {};
-    if (!are_there(blob.needs)) return {AppendFault::kBroken, "needs"};
-    blobs_.emplace(id, blob);
-    return {};
-  }
-  bool has_blob(const BlobId& id) override { return blobs_.contains(id); }
-  base::Result<Bytes> blob(const BlobId& id) override {
-    if (!blobs_.contains(id)) return base::Failure{"not there"};
-    return blobs_.at(id).bytes;
-  }
-  AppendResult append(std::string_view name, const LogEntry& entry) override {
-    if (head(name) != entry.before) return {AppendFault::kConflict, "revision"};
-    if (!are_there(entry.needs)) return {AppendFault::kBroken, "needs"};
-    Kept& kept = scenes_[std::string(name)];
-    kept.scene.name = name;
-    kept.scene.entries.push_back(entry);
-    return {};
-  }
-  AppendResult summarize(std::string_view name, std::uint64_t revision, const Bytes& summary,
-                         const std::vector<BlobId>& needs) override {
-    const auto found = scenes_.find(std::string(name));
-    if (found == scenes_.end()) return {AppendFault::kConflict, "no scene"};
-    LoggedScene& scene = found->second.scene;
-    const bool is_known =
-        revision == scene.summary_revision ||
-        std::ranges::any_of(scene.entries, [&](const auto& e) { return e.revision == revision; });
-    if (revision == 0 || !is_known) return {AppendFault::kConflict, "no revision"};
-    if (!are_there(needs)) return {AppendFault::kBroken, "needs"};
-    std::erase_if(scene.entries, [&](const LogEntry& e) { return e.revision <= revision; });
-    scene.summary_revision = revision;
-    scene.summary = summary;
-    found->second.summary_needs = needs;
-    return {};
-  }
-  AppendResult remove(std::string_view name, std::uint64_t revision) override {
-    if (revision == 0 || head(name) != revision) return {AppendFault::kConflict, "revision"};
-    scenes_.erase(std::string(name));
-    highest_removed_ = std::max(highest_removed_, revision);
-    return {};
-  }
-  std::uint64_t highest_removed() override { return highest_removed_; }
-  base::Result<std::vector<LoggedScene>> scenes() override {
-    std::vector<LoggedScene> list;
-    for (const auto& [name, kept] : scenes_) list.push_back(kept.scene);
-    return list;
-  }
-  std::string note(std::string_view key) override { return notes_[std::string(key)]; }
-  AppendResult set_note(std::string_view key, std::string_view text) override {
-    notes_[std::string(key)] = text;
-    return {};
-  }
-  AppendResult drop_unused_blobs() override {
-    std::set<BlobId> used;
-    for (const auto& [name, kept] : scenes_) {
-      for (const BlobId& id : kept.summary_needs) use(id, used);
-      for (const LogEntry& entry : kept.scene.entries) {
-        for (const BlobId& id : entry.needs) use(id, used);
-      }
-    }
-    std::erase_if(blobs_, [&](const auto& blob) { return !used.contains(blob.first); });
-    return {};
-  }
-
-  std::uint64_t head(std::string_view name) {
-    const auto found = scenes_.find(std::string(name));
-    if (found == scenes_.end()) return 0;
-    const LoggedScene& scene = found->second.scene;
-    return scene.entries.empty() ? scene.summary_revision : scene.entries.back().revision;
-  }
-
- private:
-  struct Kept {
-    LoggedScene scene;
-    std::vector<BlobId> summary_needs;
-  };
-  bool are_there(const std::vector<BlobId>& needs) {
-    return std::ranges::all_of(needs, [&](const BlobId& id) { return has_blob(id); });
-  }
-  void use(const BlobId& id, std::set<BlobId>& used) {
-    if (!used.insert(id).second) return;
-    for (const BlobId& need : blobs_.at(id).needs) use(need, used);
-  }
-
-  std::map<std::string, Kept> scenes_;
-  std::map<BlobId, Blob> blobs_;
-  std::map<std::string, std::string> notes_;
-  std::uint64_t highest_removed_ = 0;
-};
 
 /// Makes the same random changes to a log and to its model.
 class LogComparison {
@@ -209,7 +115,7 @@ class LogComparison {
   testing::TemporaryFolder folder_;
   std::vector<SampleBlob> blobs_;
   std::unique_ptr<SqliteLog> log_;
-  LogModel model_;
+  testing::MemoryLog model_;
 };
 
 TEST(SqliteLogModel, KeepsWhatAModelInMemoryKeeps) {

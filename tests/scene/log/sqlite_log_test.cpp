@@ -376,7 +376,7 @@ TEST_F(SqliteLogTest, BeginsAnewWhereItsMakingWasInterrupted) {
   EXPECT_EQ(scenes(), "");
 }
 
-/// What another program did to a log, and what the log then says.
+/// A statement of another program on the file, and the error of the log after it.
 struct LostRow {
   const char* sql;
   const char* error;
