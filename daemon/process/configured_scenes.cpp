@@ -137,7 +137,7 @@ void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) 
 
 void ConfiguredScenes::remove(const std::string& name) {
   const scene::StoreResult removed = store_.remove(name);
-  if (removed.fault == scene::StoreFault::kNotKept) {
+  if (!removed.snapshot && removed.fault != scene::StoreFault::kUnknownScene) {
     log_->error("scene cannot be unloaded", {{"scene", name}, {"reason", removed.error}});
     return;
   }

@@ -31,37 +31,38 @@ void SourceBlobs::remember(const std::shared_ptr<const ObjectSource>& source, co
   known_.insert_or_assign(source.get(), Known{source, id, differences});
 }
 
-base::Result<BlobId> SourceBlobs::keep(const std::shared_ptr<const ObjectSource>& source,
-                                       const std::shared_ptr<const ObjectSource>& before) {
+AppendResult SourceBlobs::keep(const std::shared_ptr<const ObjectSource>& source,
+                               const std::shared_ptr<const ObjectSource>& before, BlobId& id) {
   if (const std::optional<Known> known = find(source); known && log_.has_blob(known->id)) {
-    return known->id;
+    id = known->id;
+    return {};
   }
-  if (before != nullptr && source->map_O != nullptr && before->map_O != nullptr) {
-    if (const auto kept = keep_difference(source, before)) return *kept;
+  const std::optional<Known> base = before ? find(before) : std::nullopt;
+  if (const std::optional<Blob> small = base ? difference(*source, *before, *base) : std::nullopt) {
+    return put(source, *small, base->differences + 1, id);
   }
-  const Blob blob{record_of(*source), {}};
-  const BlobId id = blob_id_of(blob.bytes);
-  if (AppendResult put = log_.put_blob(id, blob); !put.error.empty()) {
-    return base::Failure{std::move(put.error)};
-  }
-  remember(source, id, 0);
-  return id;
+  return put(source, {record_of(*source), {}}, 0, id);
 }
 
-std::optional<base::Result<BlobId>> SourceBlobs::keep_difference(
-    const std::shared_ptr<const ObjectSource>& source,
-    const std::shared_ptr<const ObjectSource>& before) {
-  const std::optional<Known> base = find(before);
-  if (!base || base->differences >= kMostDifferences || !log_.has_blob(base->id)) return {};
-  std::optional<Bytes> difference = record_of_difference(*source, *before, base->id);
-  if (!difference) return {};
-  const Blob blob{*std::move(difference), {base->id}};
-  const BlobId id = blob_id_of(blob.bytes);
-  if (AppendResult put = log_.put_blob(id, blob); !put.error.empty()) {
-    return base::Failure{std::move(put.error)};
-  }
-  remember(source, id, base->differences + 1);
-  return id;
+AppendResult SourceBlobs::put(const std::shared_ptr<const ObjectSource>& source, const Blob& blob,
+                              int differences, BlobId& id) {
+  id = blob_id_of(blob.bytes);
+  AppendResult done = log_.put_blob(id, blob);
+  if (done.fault == AppendFault::kNone) remember(source, id, differences);
+  return done;
+}
+
+std::optional<Blob> SourceBlobs::difference(const ObjectSource& source, const ObjectSource& before,
+                                            const Known& base) {
+  if (source.map_O == nullptr || before.map_O == nullptr) return std::nullopt;
+  if (base.differences >= kMostDifferences || !log_.has_blob(base.id)) return std::nullopt;
+  std::optional<Bytes> difference = record_of_difference(source, before, base.id);
+  if (!difference) return std::nullopt;
+  return Blob{*std::move(difference), {base.id}};
+}
+
+void SourceBlobs::add_known(const std::shared_ptr<const ObjectSource>& source, Read& read) {
+  if (const std::optional<Known> known = find(source)) read.emplace(known->id, source);
 }
 
 base::Result<std::shared_ptr<const ObjectSource>> SourceBlobs::read(const BlobId& id,

@@ -21,10 +21,10 @@ class SourceBlobs {
   /// Refers to `log`, which must outlive it.
   explicit SourceBlobs(SceneLog& log) : log_(log) {}
 
-  /// Returns the blob of a content, which it puts into the log if it is not there. `before`: the
-  /// content that this one takes the place of; may be null.
-  base::Result<BlobId> keep(const std::shared_ptr<const ObjectSource>& source,
-                            const std::shared_ptr<const ObjectSource>& before);
+  /// Sets `id` to the blob of a content, which it puts into the log if it is not there. `before`:
+  /// the content that this one takes the place of; may be null.
+  AppendResult keep(const std::shared_ptr<const ObjectSource>& source,
+                    const std::shared_ptr<const ObjectSource>& before, BlobId& id);
 
   /// Contents that were read, so that objects with the same content share it.
   using Read = std::map<BlobId, std::shared_ptr<const ObjectSource>>;
@@ -35,6 +35,9 @@ class SourceBlobs {
   /// Reads the whole records among these blobs into `read`, on all processors. Leaves out
   /// differences, and what cannot be read: `read` then says why.
   void read_whole(std::span<const BlobId> ids, const ObjectOptions& options, Read& read);
+
+  /// Adds a content to `read` if its blob is known.
+  void add_known(const std::shared_ptr<const ObjectSource>& source, Read& read);
 
   /// Forgets the contents that no scene holds any more.
   void forget_unused();
@@ -49,9 +52,11 @@ class SourceBlobs {
   [[nodiscard]] std::optional<Known> find(const std::shared_ptr<const ObjectSource>& source);
   void remember(const std::shared_ptr<const ObjectSource>& source, const BlobId& id,
                 int differences);
-  std::optional<base::Result<BlobId>> keep_difference(
-      const std::shared_ptr<const ObjectSource>& source,
-      const std::shared_ptr<const ObjectSource>& before);
+  AppendResult put(const std::shared_ptr<const ObjectSource>& source, const Blob& blob,
+                   int differences, BlobId& id);
+  /// Returns the difference between two maps as a blob; nothing if a whole record is better.
+  std::optional<Blob> difference(const ObjectSource& source, const ObjectSource& before,
+                                 const Known& base);
 
   SceneLog& log_;
   std::mutex mutex_;  ///< guards known_

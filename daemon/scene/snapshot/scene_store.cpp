@@ -22,6 +22,18 @@ StoreResult not_in_history(std::string_view scene, std::uint64_t revision,
               std::to_string(kept.back().revision) + " are"};
 }
 
+/// Requires a fault.
+StoreResult result_of(Keeping keeping) {
+  const StoreFault fault = keeping.fault == KeepFault::kOutrun ? StoreFault::kOutrun
+                           : keeping.fault == KeepFault::kFull ? StoreFault::kFull
+                                                               : StoreFault::kNotKept;
+  return {nullptr, fault, std::move(keeping.error)};
+}
+
+/// How long a change is made anew because other processes outrun it. Each time one of them has made
+/// a change, so all together never stand still.
+constexpr std::chrono::seconds kOutrunPatience{30};
+
 }  // namespace
 
 SceneStore::ChangeLock::ChangeLock(SceneStore& store, std::string_view scene) : store_(store) {
@@ -94,10 +106,23 @@ std::optional<StoreResult> SceneStore::reserve(const Snapshot& next, const Usage
   return std::nullopt;
 }
 
-StoreResult SceneStore::not_kept(const Snapshot& next, const Usage& usage, std::string reason) {
+StoreResult SceneStore::not_kept(const Snapshot& next, const Usage& usage, Keeping keeping) {
   const std::lock_guard lock(mutex_);
   count(usage, usage_before(next.name));
-  return {nullptr, StoreFault::kNotKept, std::move(reason)};
+  return result_of(std::move(keeping));
+}
+
+StoreResult SceneStore::until_not_outrun(std::string_view scene,
+                                         const std::function<StoreResult()>& attempt) {
+  const auto end = std::chrono::steady_clock::now() + kOutrunPatience;
+  while (true) {
+    const std::shared_ptr<const Snapshot> before = find(scene);
+    StoreResult result = attempt();
+    if (result.fault != StoreFault::kOutrun) return result;
+    const bool can_go_on = std::chrono::steady_clock::now() < end &&
+                           journal_->await_other(std::string(scene), before ? before->revision : 0);
+    if (!can_go_on) return {nullptr, StoreFault::kNotKept, std::move(result.error)};
+  }
 }
 
 StoreResult SceneStore::publish(Entry entry) {
@@ -116,6 +141,11 @@ StoreResult SceneStore::publish(Entry entry) {
 StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
                             const ChangeTicket& ticket) {
   assert(snapshot);
+  return until_not_outrun(snapshot->name, [&] { return put_once(snapshot, note, ticket); });
+}
+
+StoreResult SceneStore::put_once(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
+                                 const ChangeTicket& ticket) {
   note.when = std::chrono::system_clock::now();
   const ChangeLock turn(*this, snapshot->name);
   if (auto made = changed_by(snapshot->name, note.request)) return {made, StoreFault::kNone, ""};
@@ -128,15 +158,20 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
   const Usage usage = usage_of(*snapshot);
   if (std::optional<StoreResult> fault = reserve(*snapshot, usage, ticket)) return *fault;
   if (journal_ != nullptr) {
-    std::string reason = journal_->keep_scene(*snapshot, before ? before->revision : 0, note);
-    if (!reason.empty()) return not_kept(*snapshot, usage, std::move(reason));
+    Keeping keeping = journal_->keep_scene(*snapshot, before ? before->revision : 0, note);
+    if (keeping.fault != KeepFault::kNone) return not_kept(*snapshot, usage, std::move(keeping));
   }
   SceneHistory history(*snapshot, limits_.history, std::move(note));
   return publish({std::move(snapshot), usage, std::move(history)});
 }
 
 StoreResult SceneStore::adopt(SceneHistory history) {
-  const ChangeLock turn(*this, history.name());
+  const std::string name = history.name();
+  const ChangeLock turn(*this, name);
+  return take(name, std::move(history));
+}
+
+StoreResult SceneStore::take(const std::string&, SceneHistory history) {
   std::shared_ptr<const Snapshot> newest = history.rebuild(history.newest_revision());
   const Usage usage = usage_of(*newest);
   if (std::optional<StoreResult> fault = reserve(*newest, usage, {})) return *fault;
@@ -155,15 +190,25 @@ StoreResult SceneStore::unknown(std::string_view scene) const {
 
 StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
                                const ChangeTicket& ticket) {
+  return until_not_outrun(scene, [&] { return change_once(scene, change, note, ticket); });
+}
+
+StoreResult SceneStore::change_once(std::string_view scene, const SceneChange& change,
+                                    const ChangeNote& note, const ChangeTicket& ticket) {
   const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
   if (changed_by(scene, note.request)) return {before, StoreFault::kNone, ""};
-  return make_next(*before, {std::move(change)}, std::move(note), ticket);
+  return make_next(*before, {change}, note, ticket);
 }
 
 StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,
                                 const ChangeTicket& ticket) {
+  return until_not_outrun(scene, [&] { return restore_once(scene, revision, note, ticket); });
+}
+
+StoreResult SceneStore::restore_once(std::string_view scene, std::uint64_t revision,
+                                     ChangeNote note, const ChangeTicket& ticket) {
   const ChangeLock turn(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
@@ -203,19 +248,55 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
   note.when = std::chrono::system_clock::now();
   if (std::optional<StoreResult> fault = reserve(next, usage, ticket)) return *fault;
   if (journal_ != nullptr) {
-    std::string reason = journal_->keep_changes(before, next, changes, note, oldest_kept(before));
-    if (!reason.empty()) return not_kept(next, usage, std::move(reason));
+    Keeping keeping = journal_->keep_changes(before, next, changes, note, oldest_kept(before));
+    if (keeping.fault != KeepFault::kNone) return not_kept(next, usage, std::move(keeping));
   }
+  return publish_changes(std::move(result.snapshot), usage, std::move(changes), std::move(note));
+}
+
+StoreResult SceneStore::publish_changes(std::shared_ptr<const Snapshot> next, const Usage& usage,
+                                        SceneChanges changes, ChangeNote note) {
   {
     const std::lock_guard lock(mutex_);
-    Entry& entry = scenes_.find(before.name)->second;
-    entry.newest = result.snapshot;
+    Entry& entry = scenes_.find(next->name)->second;
+    entry.newest = next;
     entry.usage = usage;
-    entry.history.add(std::move(changes), {next.revision, std::move(note)});
+    entry.history.add(std::move(changes), {next->revision, std::move(note)});
     forget_history();
   }
   notify();
-  return {std::move(result.snapshot), StoreFault::kNone, ""};
+  return {std::move(next), StoreFault::kNone, ""};
+}
+
+StoreResult SceneStore::follow(
+    const std::string& scene,
+    const std::function<base::Result<OthersWork>(const Snapshot* newest)>& read) {
+  const ChangeLock turn(*this, scene);
+  base::Result<OthersWork> work = read(find(scene).get());
+  if (!work) return {nullptr, StoreFault::kInvalid, std::move(work.error)};
+  return std::visit([&](auto&& kind) { return take(scene, std::move(kind)); }, *std::move(work));
+}
+
+StoreResult SceneStore::take(const std::string& scene, OthersChanges work) {
+  const std::shared_ptr<const Snapshot> before = find(scene);
+  if (!before) return unknown(scene);
+  SnapshotResult next = changed(*before, work.changes, work.made.revision);
+  if (!next.snapshot) return {nullptr, StoreFault::kInvalid, std::move(next.error), next.limit};
+  const Usage usage = usage_of(*next.snapshot);
+  if (std::optional<StoreResult> fault = reserve(*next.snapshot, usage, {})) return *fault;
+  return publish_changes(std::move(next.snapshot), usage, std::move(work.changes),
+                         std::move(work.made.note));
+}
+
+StoreResult SceneStore::take(const std::string& scene, OthersRemoval) {
+  const std::shared_ptr<const Snapshot> last = find(scene);
+  if (!last) return unknown(scene);
+  take_out(scene, last->revision);
+  return {last, StoreFault::kNone, ""};
+}
+
+StoreResult SceneStore::take(const std::string& scene, std::monostate) {
+  return {find(scene), StoreFault::kNone, ""};
 }
 
 std::shared_ptr<const Snapshot> SceneStore::changed_by(std::string_view scene,
@@ -245,25 +326,33 @@ void SceneStore::forget_history() {
 }
 
 StoreResult SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
-  std::optional<Entry> old;
+  return until_not_outrun(scene, [&] { return remove_once(scene, ticket); });
+}
+
+StoreResult SceneStore::remove_once(std::string_view scene, const ChangeTicket& ticket) {
   const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> last = find(scene);
   if (!last) return unknown(scene);
   if (!ticket.try_commit()) return cancelled();
   if (journal_ != nullptr) {
-    std::string reason = journal_->keep_removal(*last);
-    if (!reason.empty()) return {nullptr, StoreFault::kNotKept, std::move(reason)};
+    Keeping keeping = journal_->keep_removal(*last);
+    if (keeping.fault != KeepFault::kNone) return result_of(std::move(keeping));
   }
+  take_out(scene, last->revision);
+  return {last, StoreFault::kNone, ""};
+}
+
+void SceneStore::take_out(std::string_view scene, std::uint64_t last_revision) {
+  std::optional<Entry> old;  // destroyed after the lock is released, since that takes time
   {
     const std::lock_guard lock(mutex_);
     const auto found = scenes_.find(scene);
-    highest_removed_ = std::max(highest_removed_, last->revision);
+    highest_removed_ = std::max(highest_removed_, last_revision);
     old = std::move(found->second);
     count(old->usage, {});
     scenes_.erase(found);
   }
   notify();
-  return {last, StoreFault::kNone, ""};
 }
 
 void SceneStore::on_change(std::function<void()> listener) {

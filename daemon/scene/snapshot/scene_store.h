@@ -12,8 +12,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/snapshot/change_ticket.h"
 #include "daemon/scene/snapshot/scene_change.h"
@@ -40,7 +42,9 @@ enum class StoreFault : std::uint8_t {
   kInvalid,
   kLimit,
   kCancelled,
+  kFull,     ///< the journal has no room for the change
   kNotKept,  ///< the journal could not keep the change
+  kOutrun,   ///< another process changed the scene first; only inside of the store
 };
 
 struct StoreResult {
@@ -61,7 +65,8 @@ struct StoreResult {
 /// is committed (`ChangeTicket`) changes nothing.
 ///
 /// With a journal, a change takes effect only once it is durable. A change that repeats a request
-/// which the history names (`ChangeNote::request`) changes nothing more.
+/// which the history names (`ChangeNote::request`) changes nothing more. If other processes write
+/// the journal too, a change that one of them has outrun is made anew on the newer revision.
 class SceneStore {
  public:
   /// Refers to `journal`, which must outlive it; null keeps nothing.
@@ -100,6 +105,20 @@ class SceneStore {
 
   /// Removes a scene. Returns its last snapshot.
   StoreResult remove(std::string_view scene, const ChangeTicket& ticket = {});
+
+  /// Changes that another process has made, and kept in the journal, of the newest revision.
+  struct OthersChanges {
+    SceneChanges changes;
+    KeptRevision made;
+  };
+  struct OthersRemoval {};
+  /// Nothing, or a scene that takes the place of the one of that name, or changes of it.
+  using OthersWork = std::variant<std::monostate, SceneHistory, OthersChanges, OthersRemoval>;
+  /// Makes what `read` returns; the journal does not hear of it. `read` gets the newest
+  /// snapshot, null if there is no such scene, which stays the newest meanwhile. Fails as `read`
+  /// does, or if a limit is exceeded or the changes do not fit; then changes nothing.
+  StoreResult follow(const std::string& scene,
+                     const std::function<base::Result<OthersWork>(const Snapshot* newest)>& read);
 
   /// Replaces the listener, which is called after each change, on the thread that made the change
   /// and never on two threads at a time. It must not change scenes. When this returns, the old
@@ -156,6 +175,15 @@ class SceneStore {
   };
 
   static Usage usage_of(const Snapshot& snapshot);
+  /// Calls `attempt` until no other process outruns it.
+  StoreResult until_not_outrun(std::string_view scene, const std::function<StoreResult()>& attempt);
+  StoreResult put_once(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
+                       const ChangeTicket& ticket);
+  StoreResult change_once(std::string_view scene, const SceneChange& change, const ChangeNote& note,
+                          const ChangeTicket& ticket);
+  StoreResult restore_once(std::string_view scene, std::uint64_t revision, ChangeNote note,
+                           const ChangeTicket& ticket);
+  StoreResult remove_once(std::string_view scene, const ChangeTicket& ticket);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
   /// Requires that the caller holds the scene's `ChangeLock` and that `before` is its newest
   /// snapshot.
@@ -175,9 +203,20 @@ class SceneStore {
   std::optional<StoreResult> reserve(const Snapshot& next, const Usage& usage,
                                      const ChangeTicket& ticket);
   /// Takes back what `reserve` counted, because the journal could not keep the change.
-  StoreResult not_kept(const Snapshot& next, const Usage& usage, std::string reason);
+  StoreResult not_kept(const Snapshot& next, const Usage& usage, Keeping keeping);
   /// Puts an entry whose usage is counted, and calls the listener.
   StoreResult publish(Entry entry);
+  /// Makes `next` the newest snapshot of its scene, whose usage is counted, and calls the listener.
+  StoreResult publish_changes(std::shared_ptr<const Snapshot> next, const Usage& usage,
+                              SceneChanges changes, ChangeNote note);
+  /// Takes a scene out and calls the listener.
+  void take_out(std::string_view scene, std::uint64_t last_revision);
+
+  // What `follow` makes. Require that the caller holds the scene's `ChangeLock`.
+  StoreResult take(const std::string& scene, SceneHistory history);
+  StoreResult take(const std::string& scene, OthersChanges work);
+  StoreResult take(const std::string& scene, OthersRemoval);
+  StoreResult take(const std::string& scene, std::monostate);
 
   // The next four functions require that mutex_ is held.
 

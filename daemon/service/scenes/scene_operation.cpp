@@ -39,10 +39,12 @@ std::int32_t status_of(scene::StoreFault fault) {
     case scene::StoreFault::kInvalid:
       return Answer::STATUS_INVALID;
     case scene::StoreFault::kLimit:
+    case scene::StoreFault::kFull:
       return Answer::STATUS_LIMIT;
     case scene::StoreFault::kCancelled:
       return Answer::STATUS_CANCELLED;
     case scene::StoreFault::kNotKept:
+    case scene::StoreFault::kOutrun:
       return Answer::STATUS_INTERNAL_ERROR;
   }
   return Answer::STATUS_INTERNAL_ERROR;

@@ -15,14 +15,17 @@
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/map_scan.h"
 #include "tests/scene/log/memory_log.h"
+#include "tests/scene/log/random_changes.h"
 #include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
 
 using geometry::Vec3;
+using testing::change_at_random;
 using ::testing::HasSubstr;
 using testing::MemoryLog;
+using testing::random_box;
 
 /// A process with a store: ends, and begins again with the same log.
 class Process {
@@ -47,20 +50,6 @@ class Process {
   std::string error_;
 };
 
-std::shared_ptr<const ObjectSource> random_box(testing::Random& random) {
-  std::uniform_real_distribution<double> size(0.1, 2.0);
-  Mesh mesh = *box_mesh(Vec3(size(random), size(random), size(random)));
-  const ImportReport report = report_of(mesh, "box");
-  return make_source(ObjectKind::kBox, std::move(mesh), report, {});
-}
-
-Placement random_placement(testing::Random& random) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::string fault;
-  return Placement::make(5.0 * Vec3(unit(random), unit(random), unit(random)),
-                         geometry::Quat(1.0, unit(random), unit(random), unit(random)), fault);
-}
-
 std::shared_ptr<const VoxelMap> empty_map() {
   VoxelSet occupied;
   occupied.insert(Voxel{0, 0, 0});
@@ -83,34 +72,6 @@ std::string description_of(const SceneStore& store) {
     text += "\n";
   }
   return text;
-}
-
-void change_at_random(SceneStore& store, testing::Random& random, int step) {
-  const auto below = [&](int end) {
-    return std::uniform_int_distribution<int>(0, end - 1)(random);
-  };
-  const std::string scene = below(2) == 0 ? "room" : "attic";
-  const std::string object = "object" + std::to_string(below(4));
-  const ChangeNote note{.operation = "step",
-                        .object = object,
-                        .client = "tester",
-                        .request = "tester/" + std::to_string(step)};
-  const auto snapshot = store.find(scene);
-  if (!snapshot || below(40) == 0) {
-    store.put(assemble(scene, 1, {}, {}), note);
-  } else if (below(60) == 0) {
-    store.remove(scene);
-  } else if (below(10) == 0) {
-    store.restore(scene, snapshot->revision - static_cast<std::uint64_t>(below(3)), note);
-  } else if (below(3) == 0) {
-    store.change(scene, {SceneChange::Kind::kMove, object, nullptr, random_placement(random)},
-                 note);
-  } else if (below(6) == 0) {
-    store.change(scene, {SceneChange::Kind::kRemove, object, nullptr, {}}, note);
-  } else {
-    const auto source = random_box(random);
-    store.change(scene, {SceneChange::Kind::kPut, object, source, random_placement(random)}, note);
-  }
 }
 
 TEST(DurableScenes, AreTheSameInTheNextProcess) {
@@ -222,10 +183,10 @@ TEST(DurableScenes, WhatCannotBeKeptIsNotMade) {
   const SceneChange put{SceneChange::Kind::kPut, "crate", random_box(random), {}};
   log.fault = AppendFault::kFull;
   const StoreResult refused = store.change("room", put);
-  EXPECT_EQ(refused.fault, StoreFault::kNotKept);
+  EXPECT_EQ(refused.fault, StoreFault::kFull);
   EXPECT_THAT(refused.error, HasSubstr("no disk"));
   EXPECT_EQ(store.find("room")->revision, 1U);
-  EXPECT_EQ(store.put(assemble("attic", 1, {}, {})).fault, StoreFault::kNotKept);
+  EXPECT_EQ(store.put(assemble("attic", 1, {}, {})).fault, StoreFault::kFull);
   EXPECT_FALSE(store.find("attic"));
   log.fault = AppendFault::kNone;
   // The refused changes do not count any more: two crates fit.

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "daemon/scene/log/durable_scenes.h"
+#include "daemon/scene/log/shared_log.h"
+#include "daemon/scene/snapshot/scene_store.h"
+
+namespace camway::scene {
+
+/// Brings the changes that other processes append to a log into a store, while it lives.
+class SceneFollower {
+ public:
+  /// Called with a sentence for the user when the store cannot make a change that is in the log.
+  using Warn = std::function<void(const std::string&)>;
+
+  /// Requires that `log`, `scenes` and `store` outlive this, that `scenes` keeps `store` in `log`,
+  /// and that the scenes of the log were loaded into the store. `warn` is called on another thread.
+  SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn);
+  ~SceneFollower();
+  SceneFollower(const SceneFollower&) = delete;
+  SceneFollower& operator=(const SceneFollower&) = delete;
+
+ private:
+  void take(const LogUpdate& update);
+
+  SharedLog& log_;
+  DurableScenes& scenes_;
+  SceneStore& store_;
+  const Warn warn_;
+};
+
+}  // namespace camway::scene
