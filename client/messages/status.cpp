@@ -21,6 +21,12 @@ void convert(const status_t& wire, DaemonStatus& mine) {
   convert_common(wire, mine);
   mine.status = Status::kOk;
   mine.failed_reload = wire::printable(wire.failed_reload);
+  mine.role = wire::printable(wire.role);
+  for (FleetPlanner& planner : mine.planners) {
+    for (std::string* text : {&planner.id, &planner.host, &planner.version}) {
+      *text = wire::printable(std::move(*text));
+    }
+  }
 }
 
 std::optional<DaemonStatus> read_status(std::span<const std::uint8_t> bytes) {

@@ -60,13 +60,23 @@ void add_scenes(const scene::SceneStore& store, status_t& status) {
 
 }  // namespace
 
+void fit_message(status_t& status) {
+  auto size = static_cast<std::size_t>(status.getEncodedSize());
+  while (size > wire::kMaxMessageBytes && !status.scenes.empty()) {
+    size -= static_cast<std::size_t>(status.scenes.back()._getEncodedSizeNoHash());
+    status.scenes.pop_back();
+  }
+  status.num_scenes = static_cast<std::int32_t>(status.scenes.size());
+}
+
 status_t make_status(const Core& core, std::chrono::duration<double> uptime) {
   status_t status{};
   status.utime = utime_now();
   status.daemon_start = core.start;
   status.version = kVersion;
   status.uptime_s = uptime.count();
-  status.num_workers = core.workers.workers();
+  status.num_workers = core.workers.allowed();
+  status.role = "alone";
   status.queued_requests = static_cast<std::int32_t>(core.workers.queued());
   status.running_requests = static_cast<std::int32_t>(core.workers.running());
   add_counters(core, status);

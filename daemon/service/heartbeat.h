@@ -16,4 +16,7 @@ namespace camway::service {
 /// Not thread-safe: for the loop thread.
 status_t make_status(const Core& core, std::chrono::duration<double> uptime);
 
+/// Drops the last scenes of a status that has grown beyond `wire::kMaxMessageBytes` since.
+void fit_message(status_t& status);
+
 }  // namespace camway::service

@@ -29,15 +29,22 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 }  // namespace
 
 Service::Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
-                 Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks)
+                 std::shared_ptr<PlanAnswerer> answerer, std::shared_ptr<Log> log,
+                 ServiceHooks hooks)
     : hooks_(std::move(hooks)),
       longest_deadline_s_(config.deadline.max_s),
       core_(transport, scenes, config, std::move(log)),
       claim_(core_),
       watches_(core_, scenes, config.watches),
-      plans_(core_, watches_, config, std::move(planner)),
+      plans_(core_, watches_, config, std::move(answerer)),
       occupancy_(core_, config.occupancy_deadline),
       scenes_(core_, scenes, config) {}
+
+Service::Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
+                 Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks)
+    : Service(transport, scenes, config,
+              std::make_shared<LocalAnswerer>(std::move(planner), config.deadline), std::move(log),
+              std::move(hooks)) {}
 
 // Jobs use the services, which are destroyed before the workers in `core_`. So the workers end
 // here.
@@ -179,6 +186,7 @@ bool Service::idle() const {
 void Service::heartbeat(Clock::time_point now) {
   status_t status = make_status(core_, now - started_);
   if (hooks_.status) hooks_.status(status);
+  fit_message(status);
   if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
     core_.limited_log.trouble.write("the status could not be published");
   }

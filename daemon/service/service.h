@@ -45,10 +45,16 @@ struct ServiceHooks {
 };
 
 /// The daemon without its process. One thread, the caller of `run`, owns the transport, checks and
-/// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots.
+/// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots, or
+/// wait for other processes that do.
 class Service {
  public:
   /// `transport` and `scenes` must outlive the service. Requires that `config` keeps its limits.
+  /// `answerer` is not null.
+  Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
+          std::shared_ptr<PlanAnswerer> answerer, std::shared_ptr<Log> log,
+          ServiceHooks hooks = {});
+  /// Plans in this process.
   Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
           Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks = {});
   /// Waits for planning that is still running; its results are not sent.
@@ -66,6 +72,11 @@ class Service {
   /// `stopping`.
   /// Thread-safe.
   void request_stop() noexcept;
+
+  /// Sets how many requests may be planned at a time from now on, `CoreConfig::workers` at first.
+  /// Other values count as the nearest possible one.
+  /// Thread-safe. [Limit: 1 <= jobs <= CoreConfig::most_jobs]
+  void allow(int jobs) { core_.workers.allow(jobs); }
 
  private:
   using Clock = std::chrono::steady_clock;

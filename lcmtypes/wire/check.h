@@ -54,10 +54,11 @@ struct Decoded {
   Fault fault;  ///< meaningful when `message` is empty
 };
 
-/// Checks and decodes a message. Its memory is at most a few times the size of `bytes`.
+/// Checks and decodes a message, by a layout of its type. Its memory is at most a few times the
+/// size of `bytes`. [Limit: layout.max_bytes < 2 GB]
 template <class Message>
-[[nodiscard]] Decoded<Message> decode(std::span<const std::uint8_t> bytes) {
-  if (std::optional<Fault> fault = check(layout_of<Message>(), bytes)) {
+[[nodiscard]] Decoded<Message> decode(const Layout& layout, std::span<const std::uint8_t> bytes) {
+  if (std::optional<Fault> fault = check(layout, bytes)) {
     return {std::nullopt, std::move(*fault)};
   }
   Decoded<Message> result{std::make_optional<Message>(), {}};
@@ -66,6 +67,20 @@ template <class Message>
     return {std::nullopt, {"", "the decoder disagrees with the check"}};
   }
   return result;
+}
+
+template <class Message>
+[[nodiscard]] Decoded<Message> decode(std::span<const std::uint8_t> bytes) {
+  return decode<Message>(layout_of<Message>(), bytes);
+}
+
+/// Decodes a message that did not travel by itself, so that it may be longer than others are.
+template <class Message>
+[[nodiscard]] Decoded<Message> decode_within(std::size_t most_bytes,
+                                             std::span<const std::uint8_t> bytes) {
+  Layout layout = layout_of<Message>();
+  layout.max_bytes = most_bytes;
+  return decode<Message>(layout, bytes);
 }
 
 /// Returns the bytes of `message`. Requires counts that equal the lengths of their lists.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes how every message with a channel is laid out on the wire, from the .lcm files alone.
+"""Writes how every message with a channel or a subject is laid out on the wire, from the .lcm files alone.
 
   generate_layout.py --source LAYOUT.cpp --limits LIMITS.h --members MEMBERS.h --types TYPE... --files FILE.lcm...
 
@@ -235,6 +235,7 @@ constexpr Field list_of(std::string_view name, std::span<const Field> element) {
   return {{.kind = Field::Kind::kList, .name = name, .element = element}};
 }}
 constexpr std::size_t max_bytes_of(std::string_view type) {{
+  if (type.starts_with("fleet_")) return kMaxFleetBytes;
   return type == "envelope_t" ? kMaxEnvelopeBytes : kMaxMessageBytes;
 }}
 

@@ -13,6 +13,8 @@ class cancel_t;
 class claim_t;
 class envelope_t;
 class error_t;
+class fleet_answer_t;
+class fleet_job_t;
 class map_page_t;
 class missing_pages_t;
 class occupancy_request_t;
@@ -20,6 +22,7 @@ class occupancy_response_t;
 class plan_progress_t;
 class plan_request_t;
 class plan_response_t;
+class planner_status_t;
 class scene_request_t;
 class scene_response_t;
 class status_t;
@@ -38,6 +41,11 @@ inline constexpr std::size_t kMaxEnvelopeBytes = 60'000;
 /// Largest size of a message without an envelope. Every message fits an envelope, signed or not.
 inline constexpr std::size_t kMaxMessageBytes = 59'900;
 
+/// Largest size of a message between a front and its planners, which travels over NATS.
+inline constexpr std::size_t kMaxFleetBytes = std::size_t{512} << 10;
+/// Largest number of parts of a job, or of its answer.
+inline constexpr std::int32_t kMaxFleetParts = 65'536;
+
 /// Limits of strings from the .lcm files, in bytes without the final NUL.
 inline constexpr std::size_t kMaxSceneNameBytes = max_bytes::plan_request_scene;
 inline constexpr std::size_t kMaxMethodBytes = max_bytes::plan_request_method;
@@ -48,6 +56,8 @@ inline constexpr std::size_t kMaxDigestBytes = max_bytes::plan_response_scene_di
 inline constexpr std::size_t kMaxVersionBytes = max_bytes::status_version;
 inline constexpr std::size_t kMaxReloadFaultBytes = max_bytes::status_failed_reload;
 inline constexpr std::size_t kMaxHostBytes = max_bytes::claim_host;
+static_assert(max_bytes::planner_status_host == kMaxHostBytes &&
+              max_bytes::planner_status_version == kMaxVersionBytes);
 inline constexpr std::size_t kMaxFileNameBytes = max_bytes::scene_request_file;
 inline constexpr std::size_t kMaxFormatBytes = max_bytes::scene_request_upload_format;
 inline constexpr std::size_t kMaxKindBytes = max_bytes::scene_object_kind;
@@ -92,8 +102,8 @@ struct Layout {
   std::size_t max_bytes = kMaxMessageBytes;
 };
 
-/// Returns the layout of a message type. Defined for the types that have a channel, in a source
-/// that `generate_layout.py` writes from the .lcm files. Thread-safe.
+/// Returns the layout of a message type. Defined for the types that have a channel or a subject, in
+/// a source that `generate_layout.py` writes from the .lcm files. Thread-safe.
 template <class Message>
 Layout layout_of();
 template <>
@@ -132,5 +142,11 @@ template <>
 Layout layout_of<error_t>();
 template <>
 Layout layout_of<envelope_t>();
+template <>
+Layout layout_of<fleet_job_t>();
+template <>
+Layout layout_of<fleet_answer_t>();
+template <>
+Layout layout_of<planner_status_t>();
 
 }  // namespace camway::wire

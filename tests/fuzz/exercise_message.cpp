@@ -9,6 +9,8 @@
 #include <camway/claim_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/fleet_answer_t.hpp>
+#include <camway/fleet_job_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
@@ -16,6 +18,7 @@
 #include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/planner_status_t.hpp>
 #include <camway/scene_response_t.hpp>
 #include <camway/status_t.hpp>
 #include <camway/upload_status_t.hpp>
@@ -134,6 +137,9 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   }
   if (decoded<cancel_t>(bytes)) ++right;
   if (decoded<claim_t>(bytes)) ++right;
+  if (decoded<fleet_job_t>(bytes)) ++right;
+  if (decoded<fleet_answer_t>(bytes)) ++right;
+  if (decoded<planner_status_t>(bytes)) ++right;
   if (decoded<missing_pages_t>(bytes)) ++right;
   if (decoded<watch_t>(bytes)) ++right;
   if (decoded<watch_report_t>(bytes)) ++right;

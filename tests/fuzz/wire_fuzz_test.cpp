@@ -14,11 +14,11 @@ namespace {
 
 template <class Message>
 class WireFuzz : public ::testing::Test {};
-using Exercised =
-    ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
-                     missing_pages_t, plan_progress_t, scene_request_t, upload_page_t, watch_t,
-                     watch_report_t, occupancy_response_t, scene_response_t, upload_status_t,
-                     map_page_t, claim_t, status_t, error_t, envelope_t>;
+using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
+                                   missing_pages_t, plan_progress_t, scene_request_t, upload_page_t,
+                                   watch_t, watch_report_t, occupancy_response_t, scene_response_t,
+                                   upload_status_t, map_page_t, claim_t, status_t, error_t,
+                                   envelope_t, fleet_job_t, fleet_answer_t, planner_status_t>;
 TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {

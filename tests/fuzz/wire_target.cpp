@@ -21,7 +21,8 @@ std::vector<FuzzBytes> wire_seeds() {
   return messages_of<plan_request_t, plan_response_t, plan_progress_t, cancel_t, missing_pages_t,
                      map_page_t, occupancy_request_t, occupancy_response_t, scene_request_t,
                      scene_response_t, upload_page_t, upload_status_t, watch_t, watch_report_t,
-                     claim_t, status_t, error_t, envelope_t>(30);
+                     claim_t, status_t, error_t, envelope_t, fleet_job_t, fleet_answer_t,
+                     planner_status_t>(30);
 }
 
 }  // namespace

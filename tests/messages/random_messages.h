@@ -7,6 +7,8 @@
 #include <camway/claim_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/fleet_answer_t.hpp>
+#include <camway/fleet_job_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
@@ -14,6 +16,7 @@
 #include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/planner_status_t.hpp>
 #include <camway/scene_request_t.hpp>
 #include <camway/scene_response_t.hpp>
 #include <camway/status_t.hpp>
@@ -35,7 +38,7 @@ inline constexpr std::uint64_t kSeed = 20060619;
 /// Returns an integer in [0, below).
 std::size_t below(Random& random, std::size_t below);
 
-/// `Message`: any type with a channel.
+/// `Message`: any type with a channel or a subject.
 template <class Message>
 Message random_message(Random& random);
 

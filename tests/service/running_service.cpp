@@ -80,6 +80,15 @@ RunningService::RunningService(const service::ServiceConfig& config, FakePlanner
   loop_ = std::thread([this] { outcome_ = service_->run(); });
 }
 
+RunningService::RunningService(const service::ServiceConfig& config,
+                               std::shared_ptr<service::PlanAnswerer> answerer)
+    : planner(echo_result), channels{config.prefix} {
+  scenes.put(empty_scene("room"));
+  scenes.put(empty_scene("hall"));
+  service_.emplace(transport, scenes, config, std::move(answerer), log_.log());
+  loop_ = std::thread([this] { outcome_ = service_->run(); });
+}
+
 RunningService::~RunningService() {
   planner.release();
   if (loop_.joinable()) stop();

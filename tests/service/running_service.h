@@ -61,6 +61,9 @@ class RunningService {
                           FakePlanner::Result result = echo_result,
                           service::ServiceHooks hooks = {},
                           const scene::SceneStoreLimits& limits = {});
+  /// `planner` is not asked then.
+  RunningService(const service::ServiceConfig& config,
+                 std::shared_ptr<service::PlanAnswerer> answerer);
   ~RunningService();
 
   /// Sends all pages of a request, in this order.
@@ -75,6 +78,7 @@ class RunningService {
   service::RunOutcome stop();
   service::RunOutcome wait_for_end();
 
+  [[nodiscard]] service::Service& service() { return *service_; }
   [[nodiscard]] std::string log_text() const { return log_.text(); }
 
   FakeTransport transport;

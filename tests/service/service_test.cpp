@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <semaphore>
 #include <thread>
 
 #include <camway/error_t.hpp>
 #include <camway/status_t.hpp>
+#include <camway/watch_report_t.hpp>
 
+#include "daemon/messages/plan.h"
 #include "daemon/service/heartbeat.h"
 #include "daemon/version/version.h"
 #include "tests/messages/message_mutation.h"
@@ -376,6 +379,61 @@ TEST(Service, SaysWhenTheTransportFails) {
   ASSERT_TRUE(daemon.transport.wait_for_messages_on(daemon.channels.status(), 1));
   daemon.transport.break_down();
   EXPECT_EQ(daemon.wait_for_end(), RunOutcome::kTransportBroken);
+}
+
+/// An answerer that plans elsewhere, in a later revision that this process does not hold.
+class AheadAnswerer final : public PlanAnswerer {
+ public:
+  Answered answer(const std::shared_ptr<const scene::Snapshot>&, const plan_request_t& request,
+                  const base::Deadline&) override {
+    messages::AnswerHeader header;
+    header.ids = {request.client_id, request.request_id, utime_now()};
+    header.scene = request.scene;
+    header.scene_revision = 99;
+    Answered answered{messages::plain_answer(plan_response_t::STATUS_OK, "elsewhere", header)};
+    if (request.watch_lease_s > 0.0) {
+      answered.path = std::make_shared<const planning::WatchedPath>(
+          testing::echo_result(*messages::from_wire(request)).path, motion::Body(motion::Camera{}),
+          collision::DetectOptions{});
+    }
+    return answered;
+  }
+};
+
+TEST(Service, AnswersOfOtherProcessesMayBeOfALaterRevision) {
+  RunningService daemon({}, std::make_shared<AheadAnswerer>());
+  plan_request_t request = request_with(1);
+  request.watch_lease_s = 30.0;
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->message, "elsewhere");
+  EXPECT_EQ(answer->scene_revision, 99);
+  const auto report =
+      daemon.transport.message_on(daemon.channels.watch_report(request.client_id), 0);
+  ASSERT_TRUE(report) << "its path is watched, and checked in the scene that is here";
+  const auto decoded = wire::decode<watch_report_t>(*report);
+  ASSERT_TRUE(decoded.message);
+  ASSERT_EQ(decoded.message->paths.size(), 1U);
+  EXPECT_EQ(decoded.message->paths[0].answer_revision, 99);
+  EXPECT_EQ(decoded.message->paths[0].state, path_state_t::FREE);
+}
+
+TEST(Service, AllowsAsManyPlansAsItIsTold) {
+  ServiceConfig config = testing::with_workers(1, 64);
+  config.most_jobs = 3;
+  RunningService daemon(config);
+  daemon.planner.hold();
+  for (int id = 1; id <= 5; ++id) daemon.send(request_with(id));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(daemon.planner.calls(), 1) << "its own workers, until it hears of planners";
+  daemon.service().allow(3);
+  ASSERT_TRUE(daemon.planner.wait_for_calls(3));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(daemon.planner.calls(), 3);
+  daemon.planner.release();
+  for (int id = 1; id <= 5; ++id) ASSERT_TRUE(daemon.answer_to(request_with(id)));
 }
 
 TEST(Service, SaysWhenNothingCanBeSubscribed) {

@@ -34,7 +34,8 @@ using Messages =
     ::testing::Types<plan_request_t, plan_response_t, cancel_t, plan_progress_t, missing_pages_t,
                      map_page_t, occupancy_request_t, occupancy_response_t, scene_request_t,
                      scene_response_t, upload_page_t, upload_status_t, watch_t, watch_report_t,
-                     claim_t, status_t, error_t, envelope_t>;
+                     claim_t, status_t, error_t, envelope_t, fleet_job_t, fleet_answer_t,
+                     planner_status_t>;
 TYPED_TEST_SUITE(WireCheck, Messages);
 
 TYPED_TEST(WireCheck, AcceptsWhatTheEncoderWrites) {

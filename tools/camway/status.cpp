@@ -115,6 +115,29 @@ OrderedJson message_counts_json(const DaemonStatus& status) {
           {"sent_bytes", status.sent_bytes}};
 }
 
+OrderedJson planner_json(const FleetPlanner& planner) {
+  return {{"id", planner.id},
+          {"host", planner.host},
+          {"pid", planner.pid},
+          {"version", planner.version},
+          {"workers", planner.workers},
+          {"running", planner.running},
+          {"behind", planner.is_behind},
+          {"silent_s", planner.silent_s}};
+}
+
+/// Returns the role of the daemon, and its planners.
+OrderedJson fleet_json(const DaemonStatus& status) {
+  OrderedJson planners = OrderedJson::array();
+  for (const FleetPlanner& planner : status.planners) planners.push_back(planner_json(planner));
+  return {{"role", status.role},
+          {"log_in_touch", status.log_in_touch},
+          {"jobs_sent_again", status.jobs_sent_again},
+          {"differing_answers", status.differing_answers},
+          {"planned_here", status.planned_here},
+          {"planners", std::move(planners)}};
+}
+
 /// Returns the answers by status, and how long they took.
 OrderedJson all_answers_json(const DaemonStatus& status) {
   return {{"plan_answers", answers_json(status.plan_answers)},
@@ -134,6 +157,7 @@ OrderedJson status_json(const DaemonStatus& status) {
   json.update(request_counts_json(status));
   json.update(message_counts_json(status));
   json.update(all_answers_json(status));
+  json.update(fleet_json(status));
   json.update({{"watched_paths", status.watched_paths},
                {"broken_paths", status.broken_paths},
                {"signed_only", status.signed_only},
@@ -205,6 +229,24 @@ void print_reloads(const DaemonStatus& status) {
       status.failed_reload);
 }
 
+/// Prints the lines about the planners of a front.
+void print_fleet(const DaemonStatus& status) {
+  if (status.role != "front") return;
+  fmt::print(
+      "fleet        {} planners; {} requests were sent again, {} planned by the front; {}\n",
+      status.planners.size(), status.jobs_sent_again, status.planned_here,
+      status.log_in_touch ? "the log of scenes is in touch" : "the log of scenes is OUT OF REACH");
+  if (status.differing_answers > 0) {
+    fmt::print("differing    {} requests had DIFFERENT ANSWERS of two planners; see the log\n",
+               status.differing_answers);
+  }
+  for (const FleetPlanner& planner : status.planners) {
+    fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}, heard {:.1f} s ago\n", planner.id,
+               planner.running, planner.workers, planner.host, planner.pid, planner.version,
+               planner.is_behind ? ", behind the log" : "", planner.silent_s);
+  }
+}
+
 void print_text(const DaemonStatus& status) {
   fmt::print("camwayd      {}, up {}\n", status.version, duration_text(status.uptime_s));
   fmt::print("workers      {} of {} plan, {} requests wait\n", status.running_requests,
@@ -222,6 +264,7 @@ void print_text(const DaemonStatus& status) {
   fmt::print("planning     {}\n", quantiles_text(status.planning));
   print_traffic(status);
   print_reloads(status);
+  print_fleet(status);
   fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
              status.broken_paths);
   fmt::print("scenes       {}, changed {} times, {}\n", status.total_scenes, status.scene_changes,

@@ -28,6 +28,18 @@ struct Latency {
   Latency since(const Latency& before) const;
 };
 
+/// A planner of a fleet, as a front sees it.
+struct FleetPlanner {
+  std::string id;
+  std::string host;  ///< name of its machine
+  std::int32_t pid = 0;
+  std::string version;
+  std::int32_t workers = 0;  ///< jobs that it can run at the same time
+  std::int32_t running = 0;  ///< jobs that it runs
+  bool is_behind = false;    ///< whether it has not read all of the log that the front has read
+  double silent_s = 0.0;     ///< time since the front last heard it
+};
+
 /// The heartbeat of a daemon. Counters begin at the daemon's start.
 struct DaemonStatus {
   Status status = Status::kNoDaemon;
@@ -80,6 +92,13 @@ struct DaemonStatus {
   std::int64_t failed_reload_utime = 0;  ///< time of the last, microseconds since 1970; 0 if none
   std::string failed_reload;             ///< reason of the last failure; empty if there was none
   bool reload_failed = false;            ///< whether no reload has succeeded since that failure
+
+  std::string role;                    ///< "alone", or "front" of a fleet of planners
+  bool log_in_touch = false;           ///< whether the fleet's log of scenes can be reached
+  std::int64_t jobs_sent_again = 0;    ///< requests that were sent to planners again
+  std::int64_t differing_answers = 0;  ///< requests to which two planners gave different answers
+  std::int64_t planned_here = 0;       ///< requests that a front planned by itself
+  std::vector<FleetPlanner> planners;  ///< of a front: planners that it heard lately, by id
 
   /// Number of scenes of the daemon. `scenes` may list fewer, because the list must fit one
   /// message.

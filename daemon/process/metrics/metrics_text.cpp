@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -167,6 +168,27 @@ void add_scenes(const status_t& status, Page& page) {
   }
 }
 
+void add_fleet(const status_t& status, Page& page) {
+  std::int64_t slots = 0;
+  std::int64_t taken = 0;
+  for (const fleet_planner_t& planner : status.planners) {
+    slots += planner.workers;
+    taken += std::min(planner.running, planner.workers);
+  }
+  page.gauge("planners", status.planners.size(), "Planners of the fleet that are heard.");
+  page.head("planner_slots", "gauge", "Requests that the planners can plan at the same time.");
+  page.sample("planner_slots", "state=\"free\"", slots - taken);
+  page.sample("planner_slots", "state=\"taken\"", taken);
+  page.counter("jobs_sent_again_total", status.jobs_sent_again,
+               "Requests that were sent again, since their planner was lost or silent.");
+  page.counter("differing_answers_total", status.differing_answers,
+               "Requests to which two planners gave different answers.");
+  page.counter("planned_here_total", status.planned_here,
+               "Requests that a front planned by itself, since no planner could.");
+  page.gauge("log_in_touch", status.log_in_touch != 0 ? 1 : 0,
+             "1 if the log of scenes that the fleet shares can be reached.");
+}
+
 }  // namespace
 
 std::string metrics_text(const status_t& status) {
@@ -184,6 +206,7 @@ std::string metrics_text(const status_t& status) {
   add_traffic(status, page);
   add_reloads(status, page);
   add_scenes(status, page);
+  if (status.role == "front") add_fleet(status, page);
   return page.take();
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
@@ -40,7 +41,9 @@ Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store, Cor
       malformed_answers(config.malformed_answers_per_s, config.malformed_answers_per_s),
       outbox(transport, config.answers),
       mailbox(transport),
-      workers(config.workers, config.queue) {}
+      workers(std::max(config.workers, config.most_jobs), config.queue) {
+  workers.allow(config.workers);
+}
 
 void Core::submit(Job job) {
   if (std::optional<FairQueue::Refused> refused = workers.submit(std::move(job))) {
@@ -68,7 +71,7 @@ std::string Core::refusal_text(Refusal why) const {
   }
   return fmt::format(
       "all {} workers are busy and {} requests wait (queue.requests); send it again later",
-      config.workers, config.queue.jobs);
+      workers.allowed(), config.queue.jobs);
 }
 
 bool Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {

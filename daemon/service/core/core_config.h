@@ -21,7 +21,10 @@ struct CoreConfig {
   /// Prefix of all channels; `--prefix` [Limit: wire::is_prefix(value)]
   std::string prefix = "CAMWAY";
   bool is_durable = false;  ///< whether the scenes outlive the daemon
-  int workers = 1;  ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
+  int workers = 1;          ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
+  /// Threads that answer plan requests, if they only wait for other processes that plan: then
+  /// `Service::allow` says how many work. Not below `workers`; 0: `workers`.
+  int most_jobs = 0;
   /// Requests that wait for a worker; `--queue`, `--client-queue`
   /// [Limit: 1 <= value <= kMaxQueueCapacity]
   FairQueue::Limits queue;

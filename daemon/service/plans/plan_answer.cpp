@@ -49,7 +49,7 @@ messages::AnswerHeader header_of(const plan_request_t& request, const scene::Sna
   return header;
 }
 
-Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+Answered answer_of(const Planner& planner, const std::shared_ptr<const scene::Snapshot>& snapshot,
                    const plan_request_t& wire, const messages::DeadlineLimits& limits,
                    const base::Deadline& deadline) {
   std::string error;
@@ -57,12 +57,13 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
     const base::Result<planning::PlanRequest> converted = messages::from_wire(wire, limits);
     if (!converted) {
       return {messages::plain_answer(plan_response_t::STATUS_INVALID, converted.error,
-                                     header_of(wire, &snapshot))};
+                                     header_of(wire, snapshot.get()))};
     }
-    planning::PlanResult result = planner(snapshot, *converted, deadline);
-    planning::name_witnesses(snapshot.mesh, *converted, result);
-    append_warnings(snapshot.report, *converted, result);
-    Answered answered{messages::to_wire(result, header_of(wire, &snapshot))};
+    planning::PlanResult result = planner(*snapshot, *converted, deadline);
+    planning::name_witnesses(snapshot->mesh, *converted, result);
+    append_warnings(snapshot->report, *converted, result);
+    Answered answered{messages::to_wire(result, header_of(wire, snapshot.get()))};
+    answered.proved_in = snapshot;
     if (wire.watch_lease_s > 0.0) {
       answered.path = shared(planning::WatchedPath::of(*converted, result));
       answered.interpolated = shared(planning::WatchedPath::as_interpolated(*converted, result));
@@ -74,7 +75,7 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
     error = "unknown exception";
   }
   return {messages::plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
-                                 header_of(wire, &snapshot))};
+                                 header_of(wire, snapshot.get()))};
 }
 
 Pages encode_answer(plan_response_t& answer, const daemon_start_t& start, int most_pages) {

@@ -28,11 +28,13 @@ struct Answered {
   std::shared_ptr<const planning::WatchedPath> path = nullptr;
   /// The path as interpolated; null also where that is `path`.
   std::shared_ptr<const planning::WatchedPath> interpolated = nullptr;
+  /// The revision of the scene that the answer names; null if this process does not hold it.
+  std::shared_ptr<const scene::Snapshot> proved_in = nullptr;
 };
 
 /// Returns the answer of `planner`. Does not throw: an exception of the planner is an internal
 /// error.
-Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+Answered answer_of(const Planner& planner, const std::shared_ptr<const scene::Snapshot>& snapshot,
                    const plan_request_t& wire, const messages::DeadlineLimits& limits,
                    const base::Deadline& deadline);
 

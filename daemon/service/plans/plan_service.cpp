@@ -37,14 +37,14 @@ std::string fault_of_handling(const plan_request_t& request) {
   return {};
 }
 
-/// Returns an answer with what watching needs to know. `snapshot` is the one it was planned in.
+/// Returns an answer with what watching needs to know.
 WatchableAnswer watchable(const RequestKey& key, std::shared_ptr<const plan_request_t> request,
-                          const Answered& answered,
-                          std::shared_ptr<const scene::Snapshot> snapshot) {
+                          const Answered& answered) {
   WatchableAnswer watchable{key,
                             std::move(request),
                             answered.path,
-                            std::move(snapshot),
+                            answered.wire.scene_revision,
+                            answered.proved_in,
                             AnswerQuality::of(answered.wire),
                             answered.interpolated};
   for (const collision_interval_t& collision : answered.wire.collisions) {
@@ -65,7 +65,7 @@ Priority priority_of(const plan_request_t& request) {
   }
 }
 
-/// Watched paths, per worker, that are planned again or wait for that.
+/// Watched paths, for each worker that may plan, that are planned again or wait for that.
 constexpr std::size_t kReplansPerWorker = 2;
 
 Pages one_page(Bytes bytes) {
@@ -96,7 +96,6 @@ struct PlanService::Replan {
 struct PlanService::Replanned {
   Answered answered;
   Pages pages;
-  std::shared_ptr<const scene::Snapshot> snapshot;
 };
 
 void PlanService::refuse_malformed(const wire::Sender& sender, std::string_view reason) {
@@ -281,7 +280,7 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
   core_.submit(std::move(job));
 }
 
-// Runs on a worker: uses nothing of the service but the planner and thread-safe members.
+// Runs on a worker: uses nothing of the service but the answerer and thread-safe members.
 void PlanService::run(const Pending& pending) {
   if (pending.deadline.passed()) {
     const Refusal why = pending.deadline.stopped() ? Refusal::kCancelled : Refusal::kExpired;
@@ -290,7 +289,7 @@ void PlanService::run(const Pending& pending) {
   }
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
   auto answered = std::make_shared<Answered>(
-      answer_of(planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
+      answerer_->answer(pending.snapshot, *pending.request, pending.deadline));
   Pages pages = encode_answer(answered->wire, core_.start, config_.answer_pages);
   core_.mailbox.post(
       [this, pending, waited_s, answered = std::move(answered), pages = std::move(pages)] {
@@ -327,15 +326,14 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
 }
 
 void PlanService::watch(const Pending& pending, const Answered& answered) {
-  const WatchableAnswer watched =
-      watchable(pending.key, pending.request, answered, pending.snapshot);
+  const WatchableAnswer watched = watchable(pending.key, pending.request, answered);
   if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
 // Plans a few at a time: they must not fill the queue, nor all be planned in a scene that has
 // changed again by then.
 void PlanService::plan_broken(Clock::time_point now) {
-  const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
+  const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.workers.allowed());
   if (replanning_ >= most) return;
   for (const Watches::Request& broken : watches_.take_broken(most - replanning_, now)) {
     ++replanning_;
@@ -362,14 +360,13 @@ void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
 
 // Runs on a worker.
 void PlanService::run_again(const Replan& replan) {
-  auto done = std::make_shared<Replanned>();
-  done->snapshot = core_.scenes.find(replan.request->scene);
-  if (!done->snapshot || replan.deadline.passed()) {
+  const auto snapshot = core_.scenes.find(replan.request->scene);
+  if (!snapshot || replan.deadline.passed()) {
     core_.mailbox.post([this, replan] { give_up(replan); });
     return;
   }
-  done->answered =
-      answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
+  auto done = std::make_shared<Replanned>();
+  done->answered = answerer_->answer(snapshot, *replan.request, replan.deadline);
   done->answered.interpolated.reset();  // watched since the first answer
   done->pages = encode_answer(done->answered.wire, core_.start, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
@@ -378,8 +375,7 @@ void PlanService::run_again(const Replan& replan) {
 void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   const Clock::time_point now = Clock::now();
   const plan_response_t& answer = done.answered.wire;
-  const WatchableAnswer watched =
-      watchable(replan.key, replan.request, done.answered, done.snapshot);
+  const WatchableAnswer watched = watchable(replan.key, replan.request, done.answered);
   if (replan.for_offer) {
     if (watched.path) {
       watches_.offer(watched, done.pages, now);

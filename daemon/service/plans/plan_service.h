@@ -12,12 +12,14 @@
 #include "daemon/service/core/core.h"
 #include "daemon/service/plans/in_flight.h"
 #include "daemon/service/plans/plan_answer.h"
+#include "daemon/service/plans/plan_answerer.h"
 #include "daemon/service/plans/plan_config.h"
 #include "daemon/service/watches/watches.h"
 
 namespace camway::service {
 
-/// Answers plan requests. Workers run the planner and encode; all else runs on the loop thread.
+/// Answers plan requests. Workers wait for the answerer and encode; all else runs on the loop
+/// thread.
 ///
 /// Stages of a request: bytes checked, decoded, pages joined, looked up in the cache (answered from
 /// there, or ignored while it is being planned), scene looked up, queued, planned, encoded, cached,
@@ -29,12 +31,13 @@ class PlanService {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `core` and `watches` must outlive the service.
-  PlanService(Core& core, Watches& watches, const PlanConfig& config, Planner planner)
+  /// `core` and `watches` must outlive the service. Requires an answerer that is not null.
+  PlanService(Core& core, Watches& watches, const PlanConfig& config,
+              std::shared_ptr<PlanAnswerer> answerer)
       : core_(core),
         watches_(watches),
         config_(config),
-        planner_(std::move(planner)),
+        answerer_(std::move(answerer)),
         pages_(config.assembly),
         cache_(core.config.cache) {}
 
@@ -90,7 +93,7 @@ class PlanService {
   Core& core_;
   Watches& watches_;
   const PlanConfig config_;
-  Planner planner_;
+  const std::shared_ptr<PlanAnswerer> answerer_;
   wire::PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
   InFlight in_flight_;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/queue/worker_pool.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace camway::service {
 
 WorkerPool::WorkerPool(int workers, const FairQueue::Limits& limits)
-    : workers_(workers), queue_(limits) {
+    : workers_(workers), queue_(limits), allowed_(static_cast<std::size_t>(workers)) {
   threads_.reserve(static_cast<std::size_t>(workers));
   for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
 }
@@ -60,6 +61,19 @@ std::vector<Job> WorkerPool::close() {
   return left;
 }
 
+void WorkerPool::allow(int running) {
+  {
+    const std::lock_guard lock(mutex_);
+    allowed_ = static_cast<std::size_t>(std::clamp(running, 1, workers_));
+  }
+  changed_.notify_all();
+}
+
+int WorkerPool::allowed() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<int>(allowed_);
+}
+
 std::size_t WorkerPool::queued() const {
   const std::lock_guard lock(mutex_);
   return queue_.size();
@@ -78,13 +92,13 @@ Job::Clock::duration WorkerPool::longest_run(Job::Clock::time_point now) const {
 void WorkerPool::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return closed_ || queue_.can_begin(); });
+    changed_.wait(lock, [this] { return closed_ || may_begin(); });
     if (queue_.empty()) return;
     FairQueue::Begun begun = queue_.pop();
     // The end of a job may permit two others: the next of its strand, and one of its client.
-    if (queue_.can_begin()) changed_.notify_one();
     const Job::Clock::time_point start = Job::Clock::now();
     const auto mark = begun_.insert(start);
+    if (may_begin()) changed_.notify_one();
     lock.unlock();
     begun.job.run();
     const Job::Clock::duration took = Job::Clock::now() - start;

@@ -14,8 +14,9 @@
 
 namespace camway::service {
 
-/// A fixed number of threads and the queue that feeds them. Jobs that leave the queue without being
-/// run are returned to the caller, who abandons them.
+/// A fixed number of threads and the queue that feeds them. Fewer jobs than threads run at a time
+/// if `allow` says so: then the threads only wait, as for other processes that do the work. Jobs
+/// that leave the queue without being run are returned to the caller, who abandons them.
 /// Thread-safe.
 class WorkerPool {
  public:
@@ -46,6 +47,11 @@ class WorkerPool {
   /// before anything is destroyed that a job uses. Not for two threads at a time.
   void stop();
 
+  /// Sets how many jobs may run at a time from now on; jobs that run go on. At first, all threads
+  /// may. Values outside of the limits are cut to them. [Limit: 1 <= running <= workers()]
+  void allow(int running);
+  [[nodiscard]] int allowed() const;
+
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
   /// Returns the longest time that a worker has been at its present job; 0 if all are idle.
@@ -54,12 +60,15 @@ class WorkerPool {
 
  private:
   void work();
+  /// Whether a thread may begin a job now. Requires the lock.
+  [[nodiscard]] bool may_begin() const { return begun_.size() < allowed_ && queue_.can_begin(); }
 
   const int workers_;
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
   FairQueue queue_;
   std::multiset<Job::Clock::time_point> begun_;  ///< start times of the running jobs
+  std::size_t allowed_;
   bool closed_ = false;
   std::vector<std::jthread> threads_;
 };

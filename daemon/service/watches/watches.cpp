@@ -119,8 +119,8 @@ void Watches::set_answer(Watch& watch, const WatchableAnswer& answer, std::size_
   keys_.emplace(watch.id, answer.key);
   watch.is_checked = false;
   watch.collisions.clear();
-  watch.revision = answer.proved_in->revision;
-  watch.answer_revision = static_cast<std::int64_t>(answer.proved_in->revision);
+  watch.revision = static_cast<std::uint64_t>(answer.revision);
+  watch.answer_revision = answer.revision;
   checker_.watch(watch.id, answer.request->scene, answer.path, answer.proved_in);
 }
 
@@ -414,8 +414,7 @@ void Watches::offer(const WatchableAnswer& answer, Pages pages, Clock::time_poin
   Watch& watch = position->second;
   if (!watch.collisions.empty() || watch.planning != Planning::kNot) return;
   const AnswerQuality& best = watch.offer ? watch.offer->answer.quality : watch.answer.quality;
-  const bool is_newer =
-      static_cast<std::int64_t>(answer.proved_in->revision) > watch.answer_revision;
+  const bool is_newer = answer.revision > watch.answer_revision;
   std::size_t bytes = answer.path->memory_bytes();
   for (const Bytes& page : *pages) bytes += page.size();
   if (!is_newer || !is_better(answer.quality, best, answer.request->objective) ||
@@ -428,11 +427,10 @@ void Watches::offer(const WatchableAnswer& answer, Pages pages, Clock::time_poin
   bytes_ += bytes;
   keys_.emplace(watch.offer->id, answer.key);
   checker_.watch(watch.offer->id, answer.request->scene, answer.path, answer.proved_in);
-  core_.limited_log.watches.write("better path on offer",
-                                  {{"client", answer.key.client_id},
-                                   {"request", answer.key.request_id},
-                                   {"scene", answer.request->scene},
-                                   {"revision", answer.proved_in->revision}});
+  core_.limited_log.watches.write("better path on offer", {{"client", answer.key.client_id},
+                                                           {"request", answer.key.request_id},
+                                                           {"scene", answer.request->scene},
+                                                           {"revision", answer.revision}});
 }
 
 void Watches::no_offer(const RequestKey& key, Clock::time_point now) {
@@ -453,7 +451,7 @@ void Watches::not_improved(const RequestKey& key, Clock::time_point now) {
 /// Handles the client's reply to an offer.
 void Watches::apply_offers(Watch& watch, const watched_path_t& path) {
   if (!watch.offer || !watch.offer->is_checked) return;
-  const auto revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);
+  const std::int64_t revision = watch.offer->answer.revision;
   if (path.taken_offer == revision) {
     accepted_.push_back({watch.offer->answer, watch.offer->pages});
     withdraw_offer(watch);
@@ -516,7 +514,7 @@ path_state_t Watches::state_of(const Watch& watch) const {
   state.scene_revision = static_cast<std::int64_t>(revision);
   state.answer_revision = watch.answer_revision;
   if (watch.offer && watch.offer->is_checked) {
-    state.offer_revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);
+    state.offer_revision = watch.offer->answer.revision;
   }
   return state;
 }

@@ -29,9 +29,11 @@ struct WatchableAnswer {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const planning::WatchedPath> path;
+  std::int64_t revision = 0;  ///< revision of the scene in which the path is proved free
+  /// That revision; null if it is not at hand: then nothing is known of the path here.
   std::shared_ptr<const scene::Snapshot> proved_in;
   AnswerQuality quality;
-  /// The path as interpolated, which collides in `proved_in` for `colliding_s`; null if it is free.
+  /// The path as interpolated, which collides in `revision` for `colliding_s`; null if it is free.
   std::shared_ptr<const planning::WatchedPath> interpolated;
   double colliding_s = 0.0;
 };

@@ -137,7 +137,10 @@ def rooms():
     """The rooms, each above those that it includes."""
     figure = Figure(880, 604, "The rooms, each above those that it includes")
     figure.box(230, 16, 420, 44, ["daemon/process", "command line, configuration, signals, metrics"])
-    figure.box(230, 82, 420, 44, ["daemon/service", "core, queue, transport, log; plans, scenes, occupancy, watches"])
+    figure.box(230, 82, 262, 44, ["daemon/service", "queue, transport; plans, scenes, watches"])
+    figure.box(516, 82, 134, 44, ["daemon/fleet, nats", "fronts and planners"])
+    figure.arrow([(583, 60), (583, 80)])
+    figure.arrow([(516, 104), (494, 104)])
     figure.box(230, 148, 420, 44, ["daemon/messages", "planning's types and the messages"])
     figure.box(230, 214, 420, 44, ["daemon/planning", "plan(snapshot, request) → result"], "accent")
     figure.box(230, 280, 270, 44, ["daemon/correction", "path, search, smoothing, infeasibility, ladder"], "accent")

@@ -103,6 +103,31 @@ TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
   }
 }
 
+TEST(MetricsText, AFrontTellsOfItsPlanners) {
+  status_t status{};
+  status.role = "alone";
+  EXPECT_EQ(metrics_text(status).find("planner"), std::string::npos);
+  status.role = "front";
+  status.log_in_touch = 1;
+  status.jobs_sent_again = 3;
+  status.differing_answers = 4;
+  status.planned_here = 5;
+  status.planners.resize(2);
+  status.planners[0].workers = 8;
+  status.planners[0].running = 3;
+  status.planners[1].workers = 1;
+  status.planners[1].running = 2;  // a planner that lies
+  const PrometheusChecker page(metrics_text(status));
+  EXPECT_EQ(page.faults(), "");
+  EXPECT_EQ(page.value("camway_planners"), 2);
+  EXPECT_EQ(page.value(R"(camway_planner_slots{state="free"})"), 5);
+  EXPECT_EQ(page.value(R"(camway_planner_slots{state="taken"})"), 4);
+  EXPECT_EQ(page.value("camway_jobs_sent_again_total"), 3);
+  EXPECT_EQ(page.value("camway_differing_answers_total"), 4);
+  EXPECT_EQ(page.value("camway_planned_here_total"), 5);
+  EXPECT_EQ(page.value("camway_log_in_touch"), 1);
+}
+
 /// The checker detects the faults for which it was made.
 TEST(MetricsText, TheCheckerFindsFaults) {
   const auto faults = [](const std::string& text) { return PrometheusChecker(text).faults(); };

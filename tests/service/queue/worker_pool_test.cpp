@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <latch>
+#include <semaphore>
 #include <thread>
 #include <utility>
 
@@ -67,6 +69,47 @@ TEST(WorkerPool, RunsEveryJobItTook) {
   }
   all.wait();
   EXPECT_EQ(done, 100);
+}
+
+TEST(WorkerPool, RunsAsManyAtATimeAsAreAllowed) {
+  std::atomic<int> running = 0;
+  std::atomic<int> most = 0;
+  std::counting_semaphore<64> go(0);
+  std::latch all(12);
+  WorkerPool pool(4, {.jobs = 100, .jobs_of_a_client = 100});
+  EXPECT_EQ(pool.allowed(), 4) << "all threads at first";
+  pool.allow(0);
+  EXPECT_EQ(pool.allowed(), 1);
+  pool.allow(5);
+  EXPECT_EQ(pool.allowed(), 4);
+  const auto until = [&](int count) {
+    const auto patience = Job::Clock::now() + std::chrono::seconds(30);
+    while (running != count && Job::Clock::now() < patience) std::this_thread::yield();
+    // Time for one too many to begin.
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return running.load();
+  };
+  pool.allow(2);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_FALSE(pool.submit(job_of([&] {
+      most = std::max(most.load(), ++running);
+      go.acquire();
+      --running;
+      all.count_down();
+    })));
+  }
+  EXPECT_EQ(until(2), 2);
+  pool.allow(3);
+  EXPECT_EQ(until(3), 3) << "a change takes effect at once";
+  pool.allow(1);
+  EXPECT_EQ(until(3), 3) << "what runs goes on";
+  go.release(2);
+  EXPECT_EQ(until(1), 1) << "and none begins before there is room";
+  EXPECT_EQ(most, 3);
+  pool.allow(4);
+  EXPECT_EQ(until(4), 4);
+  go.release(12);
+  all.wait();
 }
 
 TEST(WorkerPool, NoWorkerSleepsWhenTheEndOfAJobLetsTwoBegin) {
