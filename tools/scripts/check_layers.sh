@@ -91,6 +91,8 @@ LC_ALL=C exec awk '
       fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp and daemon/scene/log/blob_id.cpp")
     } else if (file == "sqlite3.h" && here !~ /^(daemon\/scene\/log|tests)$/) {
       fault("SQLite is for daemon/scene/log")
+    } else if (file ~ /^nats\// && here !~ /^(daemon\/nats|tests)$/) {
+      fault("NATS is for daemon/nats")
     } else if (file == "microhttpd.h" && FILENAME != "daemon/process/metrics/http_page.cpp") {
       fault("libmicrohttpd is for daemon/process/metrics/http_page.cpp")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {

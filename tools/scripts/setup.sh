@@ -23,10 +23,14 @@ readonly kPackages=(
   libsodium-dev
   # scenes that outlive the daemon
   libsqlite3-dev
+  # messages between daemons, and the log that they share
+  libnats-dev
   # the page for Prometheus
   libmicrohttpd-dev
   # tests
   libgtest-dev libgmock-dev
+  # the server of the messages, and certificates for it
+  nats-server openssl
   # the private network namespace, and one that loses packets
   iproute2 util-linux iptables
 )

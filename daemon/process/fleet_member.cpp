@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/fleet_member.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "daemon/scene/log/nats/nats_log.h"
+#include "lcmtypes/wire/channels.h"
+
+namespace camway::process {
+namespace {
+
+/// Returns the name of this host as a part of a plain name: its first label, other characters
+/// replaced by '-'.
+std::string plain_host_name(std::size_t most) {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "host";
+  std::string text(name.data());
+  text.resize(std::min({text.size(), text.find('.'), most}));
+  for (char& c : text) {
+    if (!wire::is_plain_name(std::string_view(&c, 1), 1)) c = '-';
+  }
+  return text.empty() ? "host" : text;
+}
+
+nats::ConnectOptions connect_options(const FleetOptions& options, const std::string& id) {
+  nats::ConnectOptions connect;
+  connect.servers = servers_of(options.servers);
+  connect.name =
+      fmt::format("camwayd {} {}", kFleetRoles[static_cast<std::size_t>(options.role)], id);
+  connect.credentials_file = options.credentials_file;
+  connect.ca_file = options.ca_file;
+  connect.certificate_file = options.certificate_file;
+  connect.key_file = options.key_file;
+  connect.patience = options.patience;
+  return connect;
+}
+
+scene::NatsLogOptions log_options(const FleetOptions& options,
+                                  const std::shared_ptr<service::Log>& log) {
+  scene::NatsLogOptions log_options;
+  log_options.fleet = options.name;
+  log_options.replicas = options.replicas;
+  log_options.patience = options.patience;
+  log_options.warn = [log](const std::string& warning) {
+    log->warn("log of the fleet", {{"reason", warning}});
+  };
+  return log_options;
+}
+
+}  // namespace
+
+std::string member_id(const DaemonOptions& options) {
+  if (!options.fleet.id.empty()) return options.fleet.id;
+  const std::string own = options.fleet.role == FleetRole::kPlanner ? std::to_string(::getpid())
+                                                                    : options.service.prefix;
+  return plain_host_name(wire::kMaxClientIdLength - 1 - own.size()) + "-" + own;
+}
+
+std::unique_ptr<FleetMember> FleetMember::open_or_log(const DaemonOptions& options,
+                                                      const std::shared_ptr<service::Log>& log) {
+  const FleetOptions& fleet = options.fleet;
+  const std::string id = member_id(options);
+  const auto fail = [&](const std::string& reason) {
+    log->error("there is no way into the fleet",
+               {{"setting", options.where("fleet.servers")}, {"reason", reason}});
+    return nullptr;
+  };
+  auto connection = nats::Connection::open(connect_options(fleet, id));
+  if (!connection) return fail(connection.error);
+  auto opened = scene::NatsLog::open(**connection, log_options(fleet, log));
+  if (!opened) return fail(opened.error);
+  log->info("part of a fleet", {{"fleet", fleet.name},
+                                {"role", kFleetRoles[static_cast<std::size_t>(fleet.role)]},
+                                {"id", id},
+                                {"server", (*connection)->server()}});
+  return std::unique_ptr<FleetMember>(
+      new FleetMember(*std::move(connection), *std::move(opened), fleet, log));
+}
+
+FleetMember::FleetMember(std::unique_ptr<nats::Connection> connection,
+                         std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
+                         std::shared_ptr<service::Log> service_log)
+    : service_log_(std::move(service_log)),
+      connection_(std::move(connection)),
+      shared_log_(log.get()),
+      state_(std::make_unique<KeptState>(fmt::format("fleet '{}'", options.name), std::move(log),
+                                         options.patience)) {
+  connection_->on_change([log = service_log_](bool is_connected) {
+    if (is_connected) {
+      log->info("connected to the fleet again");
+    } else {
+      log->warn("the servers of the fleet cannot be reached; trying again");
+    }
+  });
+}
+
+std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store) {
+  return std::make_unique<scene::SceneFollower>(
+      *shared_log_, state_->scenes(), store, [log = service_log_](const std::string& warning) {
+        log->error("a change of the fleet is missing here", {{"reason", warning}});
+      });
+}
+
+}  // namespace camway::process
