@@ -91,10 +91,15 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
     const std::string name = snapshot->name;
     warn_of_losses(name);
-    const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
+    const auto held =
+        std::ranges::find(held_, name, [](const Held& each) { return each.scene.name; });
+    scene::ChangeNote note{.operation = "load"};
+    // Processes that begin at the same time put a scene once.
+    if (is_shared_) {
+      note.request = "configured " + SceneOrigins::options_of(held->scene) + snapshot->digest;
+    }
+    const scene::StoreResult put = store_.put(std::move(snapshot), std::move(note));
     if (put.snapshot) {
-      const auto held =
-          std::ranges::find(held_, name, [](const Held& each) { return each.scene.name; });
       origins_.set(held->scene, held->stamp);
       continue;
     }
@@ -218,13 +223,12 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
   const SceneArgument& scene = wanted.scene;
   const bool is_held =
       std::ranges::any_of(held_, [&](const Held& held) { return held.scene.name == scene.name; });
-  const std::optional<SceneOrigins::Origin> origin = origins_.find(scene.name);
-  if (is_held || !origin || origin->arguments != SceneOrigins::arguments_of(scene)) return false;
+  const std::optional<FileStamp> stamp = stamp_in_log(scene);
   const auto kept = store_.find(scene.name);
-  if (!kept) return false;
+  if (is_held || !stamp || !kept) return false;
   log_->info("scene kept",
              {{"scene", scene.name}, {"revision", kept->revision}, {"digest", kept->digest}});
-  if (origin->stamp == wanted.stamp) return true;
+  if (*stamp == wanted.stamp) return true;
   if (wanted.stamp == FileStamp{}) {
     log_->warn("scene file is gone, what was kept of it stays",
                {{"scene", scene.name}, {"file", scene.file.string()}});
@@ -232,6 +236,13 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
     origins_.set(scene, wanted.stamp);
   }
   return true;
+}
+
+std::optional<FileStamp> ConfiguredScenes::stamp_in_log(const SceneArgument& scene) const {
+  const std::optional<SceneOrigins::Origin> origin = origins_.find(scene.name);
+  if (!origin) return is_shared_ ? std::optional(FileStamp()) : std::nullopt;
+  if (origin->arguments != SceneOrigins::arguments_of(scene)) return std::nullopt;
+  return origin->stamp;
 }
 
 std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,

@@ -21,11 +21,16 @@ namespace camway::process {
 class ConfiguredScenes {
  public:
   /// `store` must outlive this. `cache` has the prepared forms of scenes that are loaded.
-  /// `scene_log` is the one that keeps the store, null for none, and must outlive this.
+  /// `scene_log` is the one that keeps the store, null for none, and must outlive this. `owner` is
+  /// the name of this process if others keep scenes in the log too, else empty.
   ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<service::Log> log,
                    std::optional<scene::SceneCache> cache = std::nullopt,
-                   scene::SceneLog* scene_log = nullptr)
-      : store_(store), log_(std::move(log)), cache_(std::move(cache)), origins_(scene_log) {}
+                   scene::SceneLog* scene_log = nullptr, const std::string& owner = "")
+      : store_(store),
+        log_(std::move(log)),
+        cache_(std::move(cache)),
+        origins_(scene_log, owner),
+        is_shared_(!owner.empty()) {}
 
   /// Makes the store hold `wanted`, and removes the scenes of earlier calls, and of earlier
   /// processes with the same log, that are no longer wanted. A scene that the log has is taken from
@@ -65,11 +70,14 @@ class ConfiguredScenes {
   bool read_again(const SceneArgument& scene, const std::stop_token& stop);
   [[nodiscard]] bool holds(const Held& wanted) const;
   /// Returns whether the log has the scene, with the present content of its file if that is there.
+  /// A scene that another process has put into the log counts, too.
   bool holds_from_log(const Held& wanted, const std::stop_token& stop);
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
                                                             const std::stop_token& stop);
   /// Warns if a scene that is put anew has objects of clients.
   void warn_of_losses(const std::string& name);
+  /// Returns what the scene was last read from, if it is in the log.
+  [[nodiscard]] std::optional<FileStamp> stamp_in_log(const SceneArgument& scene) const;
   void note_fault(const std::string& scene, const std::string& reason);
   void remove(const std::string& name);
   void remove_all_but(const std::vector<SceneArgument>& wanted);
@@ -78,6 +86,7 @@ class ConfiguredScenes {
   std::shared_ptr<service::Log> log_;
   std::optional<scene::SceneCache> cache_;
   SceneOrigins origins_;
+  const bool is_shared_;
   std::vector<Held> held_;
   std::string fault_;
 };

@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "daemon/planning/plan.h"
+#include "daemon/process/fleet_front.h"
 #include "daemon/process/metrics/metrics_text.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/service_manager.h"
@@ -23,6 +25,7 @@ namespace {
 constexpr int kExitLcm = 1;
 constexpr int kExitMetrics = 1;
 constexpr int kExitPrefix = 1;
+constexpr int kExitFleet = 1;
 constexpr int kExitBadInput = 2;
 /// How long a start waits for an answer of another daemon with its prefix, which takes
 /// milliseconds.
@@ -123,17 +126,37 @@ class ServingDaemon {
   }
 
   /// Serves until a signal ends it. Returns the exit code. Requires that all is open.
-  int run(Reloader::Read read_again, scene::SceneStore& scenes, ConfiguredScenes& configured) {
+  int run(Reloader::Read read_again, scene::SceneStore& scenes, ConfiguredScenes& configured,
+          FleetMember* fleet) {
     if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
       log_->info("removed uploads that a daemon left behind", {{"files", files}});
     }
-    const service::Planner planner =
+    here_ = std::make_shared<service::LocalAnswerer>(
         [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
-           const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); };
+           const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); },
+        options_.service.deadline);
+    if (fleet != nullptr) {
+      front_ = FleetFront::open_or_log(options_, *fleet, scenes, *here_, log_);
+      if (!front_) return kExitFleet;
+    }
+    service::Service service(transport(), scenes, service_config(),
+                             front_ ? front_->answerer() : here_, log_, hooks());
+    if (front_) front_->feed(service);
+    const int code = serve(service, std::move(read_again), configured);
+    if (front_) front_->stop_feeding();
+    return code;
+  }
+
+ private:
+  [[nodiscard]] service::ServiceConfig service_config() const {
     service::ServiceConfig config = options_.service;
-    config.is_durable = !options_.state.folder.empty();
+    config.is_durable = !options_.state.folder.empty() || front_ != nullptr;
     config.claim_window = options_.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
-    service::Service service(transport(), scenes, std::move(config), planner, log_, hooks());
+    if (front_) config.most_jobs = static_cast<int>(options_.fleet.jobs);
+    return config;
+  }
+
+  int serve(service::Service& service, Reloader::Read read_again, ConfiguredScenes& configured) {
     Reloader reloader(options_, std::move(read_again), configured, reloads_, manager_, log_, auth_);
     const SignalWaiter signals(
         [&](int signal) {
@@ -144,7 +167,6 @@ class ServingDaemon {
     return exit_code_of(service.run(), options_.lcm_url, *log_);
   }
 
- private:
   std::optional<int> open_network() {
     const std::string other = url_of_environment();
     if (!other.empty() && other != options_.lcm_url) {
@@ -223,6 +245,7 @@ class ServingDaemon {
     }
     status.signed_only = signing_ && options_.auth.required ? 1 : 0;
     reloads_.add_to(status);
+    if (front_) front_->add_to(status);
     if (metrics_) latest_.set(status);
   }
 
@@ -235,15 +258,18 @@ class ServingDaemon {
   std::unique_ptr<HttpPage> metrics_;  ///< null if the options ask for none
   const ServiceManager manager_;
   ReloadRecord reloads_;
+  std::shared_ptr<service::PlanAnswerer> here_;  ///< plans in this process
+  std::unique_ptr<FleetFront> front_;            ///< null if this is not the front of a fleet
 };
 
 }  // namespace
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<service::Log>& log) {
+          ConfiguredScenes& configured, FleetMember* fleet,
+          const std::shared_ptr<service::Log>& log) {
   ServingDaemon daemon(options, log);
   if (const std::optional<int> code = daemon.open()) return *code;
-  return daemon.run(std::move(read_again), scenes, configured);
+  return daemon.run(std::move(read_again), scenes, configured, fleet);
 }
 
 }  // namespace camway::process

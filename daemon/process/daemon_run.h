@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "daemon/process/configured_scenes.h"
+#include "daemon/process/fleet_member.h"
 #include "daemon/process/reloader.h"
 #include "daemon/process/settings/daemon_options.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -14,9 +15,11 @@ namespace camway::process {
 /// Serves `scenes` over LCM until SIGTERM or SIGINT, and reports to the service manager. At SIGHUP
 /// reads its configuration again (`read_again`, on another thread), which changes the `configured`
 /// scenes. Returns the exit code of the process. Does not return if planning was abandoned at the
-/// drain limit, since its threads cannot be joined: ends the process with code 0. Requires that
-/// `block_reload_signal` and `block_stop_signals` were called before any other thread began.
+/// drain limit, since its threads cannot be joined: ends the process with code 0. With a `fleet`,
+/// which may be null, its planners plan. Requires that `block_reload_signal` and
+/// `block_stop_signals` were called before any other thread began.
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<service::Log>& log);
+          ConfiguredScenes& configured, FleetMember* fleet,
+          const std::shared_ptr<service::Log>& log);
 
 }  // namespace camway::process

@@ -80,13 +80,14 @@ std::unique_ptr<FleetMember> FleetMember::open_or_log(const DaemonOptions& optio
                                 {"id", id},
                                 {"server", (*connection)->server()}});
   return std::unique_ptr<FleetMember>(
-      new FleetMember(*std::move(connection), *std::move(opened), fleet, log));
+      new FleetMember(id, *std::move(connection), *std::move(opened), fleet, log));
 }
 
-FleetMember::FleetMember(std::unique_ptr<nats::Connection> connection,
+FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
                          std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
                          std::shared_ptr<service::Log> service_log)
-    : service_log_(std::move(service_log)),
+    : id_(std::move(id)),
+      service_log_(std::move(service_log)),
       connection_(std::move(connection)),
       shared_log_(log.get()),
       state_(std::make_unique<KeptState>(fmt::format("fleet '{}'", options.name), std::move(log),
@@ -100,11 +101,14 @@ FleetMember::FleetMember(std::unique_ptr<nats::Connection> connection,
   });
 }
 
-std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store) {
+std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store,
+                                                          scene::SceneFollower::Advanced advanced) {
   return std::make_unique<scene::SceneFollower>(
-      *shared_log_, state_->scenes(), store, [log = service_log_](const std::string& warning) {
+      *shared_log_, state_->scenes(), store,
+      [log = service_log_](const std::string& warning) {
         log->error("a change of the fleet is missing here", {{"reason", warning}});
-      });
+      },
+      std::move(advanced));
 }
 
 }  // namespace camway::process

@@ -25,13 +25,16 @@ class FleetMember {
   static std::unique_ptr<FleetMember> open_or_log(const DaemonOptions& options,
                                                   const std::shared_ptr<service::Log>& log);
 
+  [[nodiscard]] const std::string& id() const { return id_; }
   [[nodiscard]] nats::Connection& connection() { return *connection_; }
   [[nodiscard]] scene::SharedLog& shared_log() { return *shared_log_; }
   [[nodiscard]] KeptState& state() { return *state_; }
 
   /// Brings the changes of other processes into `store` as long as the returned object lives.
-  /// Requires that the state was loaded into the store, and that both outlive it.
-  [[nodiscard]] std::unique_ptr<scene::SceneFollower> follow(scene::SceneStore& store);
+  /// Requires that the state was loaded into the store, and that both outlive it. `advanced` is as
+  /// in `SceneFollower`.
+  [[nodiscard]] std::unique_ptr<scene::SceneFollower> follow(
+      scene::SceneStore& store, scene::SceneFollower::Advanced advanced = {});
 
  private:
   FleetMember(std::unique_ptr<nats::Connection> connection, std::unique_ptr<scene::SharedLog> log,

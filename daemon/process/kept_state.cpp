@@ -10,14 +10,14 @@ base::Result<std::unique_ptr<KeptState>> KeptState::open(const StateOptions& opt
   base::Result<std::unique_ptr<scene::SqliteLog>> log =
       scene::SqliteLog::open(options.folder, {.most_bytes = options.most_bytes});
   if (!log) return base::Failure{std::move(log.error)};
-  return std::unique_ptr<KeptState>(new KeptState(options.folder, *std::move(log)));
+  return std::make_unique<KeptState>(options.folder, *std::move(log), std::chrono::milliseconds(0));
 }
 
 std::string KeptState::load_into(scene::SceneStore& store, service::Log& log) {
   base::Result<std::vector<scene::SceneHistory>> histories = scenes_.load(store.limits().history);
   if (!histories) return std::move(histories.error);
   store.begin_above(log_->highest_removed());
-  log.info("scenes are durable", {{"folder", folder_}, {"scenes", histories->size()}});
+  log.info("scenes are durable", {{"kept_in", place_}, {"scenes", histories->size()}});
   for (scene::SceneHistory& history : *histories) {
     const scene::StoreResult adopted = store.adopt(std::move(history));
     if (!adopted.snapshot) return adopted.error;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "daemon/base/result.h"
 #include "daemon/process/settings/daemon_options.h"
@@ -13,25 +15,29 @@
 
 namespace camway::process {
 
-/// The folder in which the daemon keeps its scenes beyond its own life.
+/// The log in which the daemon keeps its scenes beyond its own life.
 class KeptState {
  public:
-  /// Opens the folder, or makes it. Fails if it cannot be used or is damaged, with what to do.
+  /// Opens the log of a folder, or makes it. Fails if it cannot be used or is damaged, with what to
+  /// do.
   static base::Result<std::unique_ptr<KeptState>> open(const StateOptions& options);
 
-  /// The log and the journal live as long as this.
+  /// Uses a log that other processes may write too. `place` says where it is, for the log of the
+  /// daemon; `patience` is that of `DurableScenes`.
+  KeptState(std::string place, std::unique_ptr<scene::SceneLog> log,
+            std::chrono::milliseconds patience)
+      : place_(std::move(place)), log_(std::move(log)), scenes_(*log_, patience) {}
+
+  /// The log and the scenes in it live as long as this.
   [[nodiscard]] scene::SceneLog& log() { return *log_; }
-  [[nodiscard]] scene::SceneJournal& journal() { return scenes_; }
+  [[nodiscard]] scene::DurableScenes& scenes() { return scenes_; }
 
   /// Puts the scenes that are kept into a store. Returns a fault, or an empty text. Must be called
   /// once, before any change of the store.
   std::string load_into(scene::SceneStore& store, service::Log& log);
 
  private:
-  KeptState(std::string folder, std::unique_ptr<scene::SceneLog> log)
-      : folder_(std::move(folder)), log_(std::move(log)), scenes_(*log_) {}
-
-  const std::string folder_;
+  const std::string place_;
   std::unique_ptr<scene::SceneLog> log_;
   scene::DurableScenes scenes_;
 };

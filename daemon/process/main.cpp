@@ -4,12 +4,15 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "daemon/base/standard_streams.h"
 #include "daemon/process/configured_scenes.h"
 #include "daemon/process/daemon_run.h"
+#include "daemon/process/fleet_member.h"
 #include "daemon/process/kept_state.h"
+#include "daemon/process/planner_run.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -21,15 +24,77 @@ namespace {
 constexpr int kExitFault = 1;
 constexpr int kExitBadInput = 2;
 
-int state_fault(const camway::process::DaemonOptions& options, const std::string& reason,
-                camway::service::Log& log) {
-  log.error("the folder of the state cannot be used",
-            {{"setting", options.where("state.folder")}, {"reason", reason}});
+using namespace camway;
+
+int state_fault(const process::DaemonOptions& options, const std::string& reason,
+                service::Log& log) {
+  const bool is_alone = options.fleet.role == process::FleetRole::kAlone;
+  log.error(is_alone ? "the folder of the state cannot be used"
+                     : "the scenes of the fleet cannot be read",
+            {{"setting", options.where(is_alone ? "state.folder" : "fleet.servers")},
+             {"reason", reason}});
   return kExitFault;
 }
 
+/// What keeps the scenes of this process beyond its life. Both are null if nothing does.
+struct Keeper {
+  std::unique_ptr<process::FleetMember> fleet;
+  std::unique_ptr<process::KeptState> folder;
+
+  [[nodiscard]] process::KeptState* state() const { return fleet ? &fleet->state() : folder.get(); }
+};
+
+/// Opens what the options ask for. Returns the exit code if that is not possible, having logged
+/// why.
+std::optional<int> open(const process::DaemonOptions& options,
+                        const std::shared_ptr<service::Log>& log, Keeper& keeper) {
+  if (options.fleet.role != process::FleetRole::kAlone) {
+    process::block_stop_signals();  // the connection has threads
+    keeper.fleet = process::FleetMember::open_or_log(options, log);
+    return keeper.fleet ? std::nullopt : std::optional(kExitFault);
+  }
+  if (options.state.folder.empty()) return std::nullopt;
+  auto opened = process::KeptState::open(options.state);
+  if (!opened) return state_fault(options, opened.error, *log);
+  keeper.folder = *std::move(opened);
+  return std::nullopt;
+}
+
+std::optional<scene::SceneCache> open_cache(const process::DaemonOptions& options,
+                                            service::Log& log) {
+  std::optional<scene::SceneCache> cache = process::scene_cache(options);
+  if (const std::string fault = cache ? cache->fault() : ""; !fault.empty()) {
+    log.warn("the cache of scenes is not used",
+             {{"folder", cache->folder().string()}, {"reason", fault}});
+    cache.reset();
+  }
+  return cache;
+}
+
+/// Serves clients, alone or as the front of a fleet.
+int run_service(const process::DaemonOptions& options, const process::Reloader::Read& read_again,
+                const std::shared_ptr<service::Log>& log) {
+  process::block_reload_signal();  // a reload that is asked for now comes after the scenes
+  Keeper keeper;
+  if (const std::optional<int> code = open(options, log, keeper)) return *code;
+  process::KeptState* const state = keeper.state();
+  scene::SceneStore scenes(options.store, state != nullptr ? &state->scenes() : nullptr);
+  if (const std::string fault = state != nullptr ? state->load_into(scenes, *log) : "";
+      !fault.empty()) {
+    return state_fault(options, fault, *log);
+  }
+  const auto follower = keeper.fleet ? keeper.fleet->follow(scenes) : nullptr;
+  process::ConfiguredScenes configured(scenes, log, open_cache(options, *log),
+                                       state != nullptr ? &state->log() : nullptr,
+                                       keeper.fleet ? process::member_id(options) : "");
+  // A stop signal while scenes are being read ends the process at once: no client depends on it
+  // yet.
+  if (!configured.update(options.scenes)) return kExitBadInput;
+  process::block_stop_signals();
+  return process::serve(options, read_again, scenes, configured, keeper.fleet.get(), log);
+}
+
 int run(int argc, char** argv) {
-  using namespace camway;
   const process::ParsedOptions parsed = process::parse_daemon_options(argc, argv);
   if (!(std::cout << parsed.text).flush()) {
     std::cerr << "camwayd: standard output cannot be written: the disk is full, or nobody reads\n";
@@ -43,37 +108,17 @@ int run(int argc, char** argv) {
                                                   parsed.options->log_level);
   log->info("starting", {{"version", service::version_text()}});
 
-  process::block_reload_signal();  // a reload that is asked for now comes after the scenes
-  std::unique_ptr<process::KeptState> state;
-  if (!parsed.options->state.folder.empty()) {
-    auto opened = process::KeptState::open(parsed.options->state);
-    if (!opened) return state_fault(*parsed.options, opened.error, *log);
-    state = *std::move(opened);
+  if (parsed.options->fleet.role == process::FleetRole::kPlanner) {
+    return process::run_planner(*parsed.options, log);
   }
-  scene::SceneStore scenes(parsed.options->store, state ? &state->journal() : nullptr);
-  if (const std::string fault = state ? state->load_into(scenes, *log) : ""; !fault.empty()) {
-    return state_fault(*parsed.options, fault, *log);
-  }
-  std::optional<scene::SceneCache> cache = process::scene_cache(*parsed.options);
-  if (const std::string fault = cache ? cache->fault() : ""; !fault.empty()) {
-    log->warn("the cache of scenes is not used",
-              {{"folder", cache->folder().string()}, {"reason", fault}});
-    cache.reset();
-  }
-  process::ConfiguredScenes configured(scenes, log, std::move(cache),
-                                       state ? &state->log() : nullptr);
-  // A stop signal while scenes are being read ends the process at once: no client depends on it
-  // yet.
-  if (!configured.update(parsed.options->scenes)) return kExitBadInput;
-  process::block_stop_signals();
   const auto read_again = [=] { return process::parse_daemon_options(argc, argv); };
-  return process::serve(*parsed.options, read_again, scenes, configured, log);
+  return run_service(*parsed.options, read_again, log);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!camway::base::occupy_closed_standard_streams()) return kExitFault;
+  if (!base::occupy_closed_standard_streams()) return kExitFault;
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -25,9 +25,11 @@ FileStamp FileStamp::of(const std::filesystem::path& file) {
           status.st_ino};
 }
 
-SceneOrigins::SceneOrigins(scene::SceneLog* log) : log_(log) {
+SceneOrigins::SceneOrigins(scene::SceneLog* log, const std::string& owner)
+    : log_(log),
+      note_key_(owner.empty() ? std::string(kNoteKey) : fmt::format("{} of {}", kNoteKey, owner)) {
   if (log_ == nullptr) return;
-  const json note = json::parse(log_->note(kNoteKey), nullptr, false);
+  const json note = json::parse(log_->note(note_key_), nullptr, false);
   // Without the note all files are read again, which is never wrong.
   if (!note.is_object()) return;
   for (const auto& [name, origin] : note.items()) {
@@ -61,13 +63,16 @@ void SceneOrigins::erase(const std::string& name) {
 }
 
 std::string SceneOrigins::arguments_of(const SceneArgument& scene) {
+  return std::filesystem::absolute(scene.file).string() + " " + options_of(scene);
+}
+
+std::string SceneOrigins::options_of(const SceneArgument& scene) {
   const scene::SnapshotOptions& options = scene.options;
   std::string bounds;
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
     bounds += fmt::format(" {}", options.bounds.limit_m(side));
   }
-  return fmt::format("{} scale {} up {} unknown {} voxel {} bounds{}",
-                     std::filesystem::absolute(scene.file).string(), options.import.scale,
+  return fmt::format("scale {} up {} unknown {} voxel {} bounds{}", options.import.scale,
                      static_cast<int>(options.import.up), static_cast<int>(options.import.unknown),
                      options.occupancy_resolution_m.value_or(0.0), bounds);
 }
@@ -78,7 +83,7 @@ void SceneOrigins::save() {
     note[name] = {origin.arguments, origin.stamp.written_ns, origin.stamp.size, origin.stamp.inode};
   }
   // If this fails, the next start reads the files again.
-  log_->set_note(kNoteKey, note.dump(-1, ' ', false, json::error_handler_t::replace));
+  log_->set_note(note_key_, note.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace camway::process

@@ -29,8 +29,9 @@ struct FileStamp {
 /// Not thread-safe.
 class SceneOrigins {
  public:
-  /// Refers to `log`, which must outlive it; null for none.
-  explicit SceneOrigins(scene::SceneLog* log);
+  /// Refers to `log`, which must outlive it; null for none. `owner`: whose files these are, if
+  /// several processes keep scenes in the log; empty if it is the only one.
+  SceneOrigins(scene::SceneLog* log, const std::string& owner);
 
   struct Origin {
     std::string arguments;  ///< `arguments_of` the scene
@@ -45,11 +46,14 @@ class SceneOrigins {
 
   /// Returns a text that is equal for scenes that are read alike from the same file.
   static std::string arguments_of(const SceneArgument& scene);
+  /// Returns a text that is equal for scenes that are read alike.
+  static std::string options_of(const SceneArgument& scene);
 
  private:
   void save();
 
   scene::SceneLog* log_;
+  const std::string note_key_;
   std::map<std::string, Origin, std::less<>> origins_;
 };
 

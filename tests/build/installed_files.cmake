@@ -6,6 +6,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefi
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
+             lib/systemd/system/camwayd-planner@.service
              share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/camway_plan_request_t.lcm
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/lcmtypes/README.md
@@ -26,6 +27,12 @@ foreach(folder ${prefix} ${WORK_DIR}/client)
     message(SEND_ERROR "documents in ${folder}:\n${said}")
   endif()
 endforeach()
+
+file(READ ${prefix}/lib/systemd/system/camwayd-planner@.service unit)
+string(FIND "${unit}" "ExecStart=\"${prefix}/bin/camwayd\" --config /etc/camway/planner.toml\n" place)
+if(place EQUAL -1)
+  message(SEND_ERROR "the unit of planners does not start the daemon:\n${unit}")
+endif()
 
 file(READ ${prefix}/lib/systemd/system/camwayd.service unit)
 foreach(line "ExecStart=\"${prefix}/bin/camwayd\" --config /etc/camway/camwayd.toml\n"
@@ -70,9 +77,11 @@ execute_process(COMMAND "${WORK_DIR}/a folder/bin/camwayd" --check-config
                 WORKING_DIRECTORY / COMMAND_ERROR_IS_FATAL ANY)
 find_program(systemd_analyze systemd-analyze)
 if(systemd_analyze)
-  execute_process(COMMAND ${systemd_analyze} verify "${WORK_DIR}/a folder/lib/systemd/system/camwayd.service"
-                  ERROR_VARIABLE said OUTPUT_VARIABLE said)
-  if(said MATCHES "not executable|absolute path")
-    message(SEND_ERROR "systemd does not take the unit: ${said}")
-  endif()
+  foreach(unit camwayd.service camwayd-planner@1.service)
+    execute_process(COMMAND ${systemd_analyze} verify "${WORK_DIR}/a folder/lib/systemd/system/${unit}"
+                    ERROR_VARIABLE said OUTPUT_VARIABLE said)
+    if(said MATCHES "not executable|absolute path")
+      message(SEND_ERROR "systemd does not take the unit ${unit}: ${said}")
+    endif()
+  endforeach()
 endif()

@@ -25,9 +25,9 @@ namespace {
 
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
-    "signal ends it at once), 1 LCM, the port for metrics or the folder of the state cannot be "
-    "used, LCM "
-    "failed, or another daemon serves with this prefix, 2 wrong "
+    "signal ends it at once), 1 LCM, the port for metrics, the folder of the state or the servers "
+    "of "
+    "the fleet cannot be used, LCM failed, or another daemon serves with this prefix, 2 wrong "
     "command line, configuration or scene file, or standard output cannot be written.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is logged and needs a restart.\n"
@@ -105,6 +105,17 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
       "Folder in which scenes are kept, so that the next daemon with it has them again; "
       "without it they end with the daemon; relative to the folder that this is started in",
       options, "none");
+  declare_setting(
+      app, "--role", "fleet.role",
+      "What this process does: all of it alone; front: serve clients of a fleet and let "
+      "its planners plan; planner: plan for the fronts of a fleet",
+      options);
+  declare_setting(app, "--fleet", "fleet.servers",
+                  "Servers of NATS that join the fleet, nats://HOST:PORT or tls://HOST:PORT, with "
+                  "',' between them",
+                  options, "none");
+  declare_setting(app, "--fleet-name", "fleet.name", "Processes of the same name are one fleet",
+                  options);
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",
                  "Serve though another daemon serves with this prefix; else this one says so and "
@@ -200,7 +211,7 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   const std::string fault_of_scenes = add_scenes(raw.scenes, options.scenes);
   add(fault_of_scenes);
   if (fault_of_scenes.empty() && options.scenes.empty() && options.scene_roots.empty() &&
-      options.state.folder.empty()) {
+      options.state.folder.empty() && options.fleet.role == FleetRole::kAlone) {
     add("no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
         "--scene-roots where clients may load scenes from, or with --state where scenes are kept");
   }

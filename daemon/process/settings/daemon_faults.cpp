@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
+#include <string_view>
+
 #include "daemon/process/metrics/http_page.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 
@@ -47,10 +50,62 @@ void check_shares(const DaemonOptions& options, std::vector<std::string>& faults
               service.watches.paths, faults);
 }
 
+/// Reports settings that are set although the role gives them no effect.
+void check_effect(const DaemonOptions& options, std::initializer_list<std::string_view> keys,
+                  std::string_view why, std::vector<std::string>& faults) {
+  for (const std::string_view key : keys) {
+    if (options.set_at.contains(key) && options.where(key) != "LCM_DEFAULT_URL") {
+      faults.push_back(fmt::format("{}: {}", options.where(key), why));
+    }
+  }
+}
+
+void check_fleet(const DaemonOptions& options, std::vector<std::string>& faults) {
+  const FleetOptions& fleet = options.fleet;
+  if (fleet.role == FleetRole::kAlone) {
+    check_effect(options, {"fleet.servers"},
+                 "has no effect without a role in the fleet: give --role front or --role planner "
+                 "(fleet.role)",
+                 faults);
+    return;
+  }
+  if (servers_of(fleet.servers).empty()) {
+    faults.push_back(options.where("fleet.role") +
+                     ": needs the servers of NATS: give --fleet nats://HOST:4222 "
+                     "(fleet.servers)");
+  }
+  if (fleet.certificate_file.empty() != fleet.key_file.empty()) {
+    faults.push_back(
+        options.where(fleet.key_file.empty() ? "fleet.certificate_file" : "fleet.key_file") +
+        ": a certificate and its key go together");
+  }
+  if (fleet.name.empty()) faults.push_back(options.where("fleet.name") + ": must not be empty");
+  if (fleet.replicas % 2 == 0) {
+    faults.push_back(options.where("fleet.replicas") + ": must be 1, 3 or 5");
+  }
+  check_effect(options, {"state.folder"},
+               "has no effect in a fleet, which keeps its scenes in NATS", faults);
+  if (fleet.role != FleetRole::kPlanner) return;
+  check_effect(options,
+               {"lcm.url", "lcm.prefix", "lcm.share_prefix", "scenes.roots", "auth.key_file",
+                "metrics.port", "fleet.jobs"},
+               "has no effect on a planner, which talks to the fronts of its fleet alone", faults);
+  for (const SceneArgument& scene : options.scenes) {
+    faults.push_back(
+        fmt::format("{}: scene '{}': a planner has the scenes of its fleet; name it "
+                    "to a front",
+                    scene.set_at, scene.name));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const DaemonOptions& options) {
   std::vector<std::string> faults;
+  check_fleet(options, faults);
+  if (options.state.folder.empty() && options.where("state.folder") == "--state") {
+    faults.push_back("--state: must name a folder");
+  }
   check_deadlines(options, "planning", options.service.deadline, faults);
   check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
   check_deadlines(options, "scenes", options.service.change_deadline, faults);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/process/settings/daemon_options.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -14,6 +15,18 @@ std::string url_of_environment() {
 std::string DaemonOptions::where(std::string_view key) const {
   const auto said = set_at.find(key);
   return said == set_at.end() ? std::string(key) : said->second;
+}
+
+std::vector<std::string> servers_of(std::string_view list) {
+  std::vector<std::string> servers;
+  while (!list.empty()) {
+    std::string_view one = list.substr(0, list.find(','));
+    list.remove_prefix(std::min(list.size(), one.size() + 1));
+    while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ')) one.remove_suffix(1);
+    if (!one.empty()) servers.emplace_back(one);
+  }
+  return servers;
 }
 
 std::optional<scene::SceneCache> scene_cache(const DaemonOptions& options) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -40,6 +42,32 @@ struct StateOptions {
   std::size_t most_bytes = std::size_t{16} << 30;
 };
 
+/// What a daemon does in a fleet: several processes with the same scenes.
+enum class FleetRole : std::uint8_t {
+  kAlone,   ///< it is in none
+  kFront,   ///< serves clients, and lets planners plan
+  kPlanner  ///< plans for fronts; clients do not hear of it
+};
+inline constexpr std::array<std::string_view, 3> kFleetRoles = {"alone", "front", "planner"};
+
+/// The fleet that a daemon is part of, which NATS joins.
+struct FleetOptions {
+  FleetRole role = FleetRole::kAlone;
+  std::string servers;           ///< URLs of NATS with ',' between them
+  std::string name = "camway";   ///< processes of the same name are one fleet
+  std::string id;                ///< of this process in it; empty: made of host and process
+  std::string credentials_file;  ///< of NATS (`.creds`); empty: none
+  std::string ca_file;           ///< PEM, for `tls://`; empty: the system's
+  std::string certificate_file;  ///< PEM of this client; empty: none
+  std::string key_file;          ///< PEM of its key
+  int replicas = 1;              ///< servers that keep each change
+  std::size_t jobs = 64;         ///< plans that a front has under way at most
+  std::chrono::milliseconds patience{10'000};  ///< for the servers at start, and for changes
+};
+
+/// Returns the parts of a list with ',' between them, without blanks around them and empty ones.
+std::vector<std::string> servers_of(std::string_view list);
+
 /// The options of `camwayd`: built-in defaults, overridden by the configuration file, overridden by
 /// the command line.
 struct DaemonOptions {
@@ -57,6 +85,7 @@ struct DaemonOptions {
   std::size_t cache_bytes = std::size_t{2} << 30;  ///< limit of the cache; 0: no cache
   scene::SceneStoreLimits store;
   StateOptions state;
+  FleetOptions fleet;
   service::ServiceConfig service;
   /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",
   /// "LCM_DEFAULT_URL". Settings with their defaults are not here.

@@ -30,6 +30,7 @@ constexpr bool kIsWhole = std::is_same_v<Value, int> || std::is_same_v<Value, st
 /// The words for the values of an enumeration, in their order.
 std::span<const std::string_view> words_for(service::LogLevel) { return service::kLogLevels; }
 std::span<const std::string_view> words_for(service::LogFormat) { return service::kLogFormats; }
+std::span<const std::string_view> words_for(FleetRole) { return kFleetRoles; }
 
 template <class Choice>
 std::string choose(Choice& place, std::string_view word) {
@@ -47,6 +48,23 @@ std::string fault_of_prefix(const std::string& text) {
   if (wire::is_prefix(text)) return {};
   return fmt::format("'{}' is not of 1 to {} letters, digits, '_' and '-'", wire::printable(text),
                      wire::kMaxPrefixLength);
+}
+
+/// For the names of fleets and of processes in them, which are parts of subjects.
+std::string fault_of_member(const std::string& text) {
+  if (text.empty() || wire::is_client_id(text)) return {};
+  return fmt::format("'{}' is not of 1 to {} letters, digits, '_' and '-'", wire::printable(text),
+                     wire::kMaxClientIdLength);
+}
+
+std::string fault_of_servers(const std::string& text) {
+  for (const std::string& server : servers_of(text)) {
+    if (!server.starts_with("nats://") && !server.starts_with("tls://")) {
+      return fmt::format("'{}' begins neither with nats:// nor with tls://",
+                         wire::printable(server));
+    }
+  }
+  return {};
 }
 
 std::string fault_of_address(const std::string& text) {
@@ -77,6 +95,7 @@ std::string Setting::set(std::string_view value) const {
     return choose(**level, value);
   if (const auto* const format = std::get_if<service::LogFormat*>(&target))
     return choose(**format, value);
+  if (const auto* const role = std::get_if<FleetRole*>(&target)) return choose(**role, value);
   std::string text(value);
   std::string fault = fault_of_text != nullptr ? fault_of_text(text) : std::string();
   if (fault.empty()) *std::get<std::string*>(target) = std::move(text);
@@ -116,7 +135,8 @@ bool Setting::is_switch() const { return std::holds_alternative<bool*>(target); 
 bool Setting::is_text() const {
   return std::holds_alternative<std::string*>(target) ||
          std::holds_alternative<service::LogLevel*>(target) ||
-         std::holds_alternative<service::LogFormat*>(target);
+         std::holds_alternative<service::LogFormat*>(target) ||
+         std::holds_alternative<FleetRole*>(target);
 }
 
 std::string Setting::below(const std::filesystem::path& folder, std::string_view value) const {
@@ -195,6 +215,19 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
       {"state.folder", &options.state.folder, 0, 0, false, nullptr, Setting::Path::kFile},
       {"state.most_bytes", &options.state.most_bytes, 1 << 20, kManyBytes},
+      {"fleet.role", &options.fleet.role},
+      {"fleet.servers", &options.fleet.servers, 0, 0, false, &fault_of_servers},
+      {"fleet.name", &options.fleet.name, 0, 0, false, &fault_of_member},
+      {"fleet.id", &options.fleet.id, 0, 0, false, &fault_of_member},
+      {"fleet.credentials_file", &options.fleet.credentials_file, 0, 0, false, nullptr,
+       Setting::Path::kFile},
+      {"fleet.ca_file", &options.fleet.ca_file, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"fleet.certificate_file", &options.fleet.certificate_file, 0, 0, false, nullptr,
+       Setting::Path::kFile},
+      {"fleet.key_file", &options.fleet.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"fleet.replicas", &options.fleet.replicas, 1, 5},
+      {"fleet.jobs", &options.fleet.jobs, 1, service::kMaxWorkers},
+      {"fleet.patience_s", &options.fleet.patience, 0.1, 3600},
       {"watch.paths", &service.watches.paths, 0, 1e6},
       {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
       {"watch.bytes", &service.watches.bytes, 0, kManyBytes},

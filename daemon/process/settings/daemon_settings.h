@@ -16,8 +16,9 @@ namespace camway::process {
 /// A setting of the configuration file, bound to its member of the options. `settings_of` is the
 /// only list of settings: the reader of the file, the ranges, the sample and reloading all use it.
 struct Setting {
-  using Target = std::variant<std::string*, bool*, int*, std::size_t*, double*,
-                              std::chrono::milliseconds*, service::LogLevel*, service::LogFormat*>;
+  using Target =
+      std::variant<std::string*, bool*, int*, std::size_t*, double*, std::chrono::milliseconds*,
+                   service::LogLevel*, service::LogFormat*, FleetRole*>;
 
   std::string_view key;  ///< "queue.requests"; its suffix is its unit, `_s` for durations
   Target target;

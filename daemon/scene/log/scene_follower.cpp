@@ -6,8 +6,14 @@
 
 namespace camway::scene {
 
-SceneFollower::SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn)
-    : log_(log), scenes_(scenes), store_(store), warn_(std::move(warn)) {
+SceneFollower::SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn,
+                             Advanced advanced)
+    : log_(log),
+      scenes_(scenes),
+      store_(store),
+      warn_(std::move(warn)),
+      advanced_(std::move(advanced)),
+      position_(log.followed()) {
   log_.follow([this](const LogUpdate& update) { take(update); });
 }
 
@@ -30,6 +36,10 @@ void SceneFollower::take(const LogUpdate& update) {
     warn_("revision " + std::to_string(update.entry.revision) + " of scene '" + update.scene +
           "' cannot be made here: " + fault);
   }
+  // The log is read again from its beginning after a loss of the connection.
+  if (update.position <= position_) return;
+  position_ = update.position;
+  if (advanced_) advanced_(position_);
 }
 
 }  // namespace camway::scene

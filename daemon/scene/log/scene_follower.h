@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -15,10 +16,15 @@ class SceneFollower {
  public:
   /// Called with a sentence for the user when the store cannot make a change that is in the log.
   using Warn = std::function<void(const std::string&)>;
+  /// Called with the position in the log up to which the store has all changes, but for those that
+  /// were warned of.
+  using Advanced = std::function<void(std::uint64_t position)>;
 
-  /// Requires that `log`, `scenes` and `store` outlive this, that `scenes` keeps `store` in `log`,
-  /// and that the scenes of the log were loaded into the store. `warn` is called on another thread.
-  SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn);
+  /// Requires that `log`, `scenes` and `store` outlive this, that `scenes` keeps `store` in `log`
+  /// or nothing does, and that the scenes of the log were loaded into the store. `warn` and
+  /// `advanced` are called on another thread; `advanced` when `position` has changed.
+  SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn,
+                Advanced advanced = {});
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -30,6 +36,8 @@ class SceneFollower {
   DurableScenes& scenes_;
   SceneStore& store_;
   const Warn warn_;
+  const Advanced advanced_;
+  std::uint64_t position_;
 };
 
 }  // namespace camway::scene

@@ -82,6 +82,7 @@ std::string copy_and_publish(const fs::path& from, const fs::path& unfinished,
 
 base::Result<SqliteLogContent> SqliteLog::check(const fs::path& file) {
   const std::string place = file.string();
+  if (!fs::exists(file)) return base::Failure{place + ": there is no such file"};
   const auto opened = SqliteDatabase::open(file, SqliteDatabase::Access::kRead);
   if (!opened) return base::Failure{opened.error};
   SqliteDatabase& database = **opened;

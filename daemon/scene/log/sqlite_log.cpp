@@ -74,6 +74,10 @@ base::Result<std::unique_ptr<SqliteLog>> SqliteLog::open(const fs::path& state_d
 
 base::Result<std::unique_ptr<SqliteLog>> SqliteLog::open_read_only(const fs::path& state_dir) {
   std::unique_ptr<SqliteLog> log(new SqliteLog(fs::absolute(state_dir), {}));
+  if (!fs::exists(file_of(state_dir))) {
+    return base::Failure{place_of_state(log->folder_) + " is not there: no daemon has kept its " +
+                         "scenes in this folder"};
+  }
   std::string fault = log->open_database(SqliteDatabase::Access::kRead);
   if (!fault.empty()) return base::Failure{std::move(fault)};
   return log;

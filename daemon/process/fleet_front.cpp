@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/fleet_front.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace camway::process {
+
+std::unique_ptr<FleetFront> FleetFront::open_or_log(const DaemonOptions& options,
+                                                    FleetMember& member,
+                                                    const scene::SceneStore& scenes,
+                                                    service::PlanAnswerer& here,
+                                                    const std::shared_ptr<service::Log>& log) {
+  std::unique_ptr<FleetFront> front(new FleetFront(member, options.service.workers));
+  fleet::FrontOptions front_options;
+  front_options.fleet = options.fleet.name;
+  front_options.front_id = member.id();
+  front_options.workers_here = options.service.workers;
+  front_options.deadline = options.service.deadline;
+  const scene::SharedLog& shared_log = member.shared_log();
+  auto opened = fleet::RemoteAnswerer::open(
+      {member.connection(), front->board_, scenes, here}, front_options,
+      [&shared_log](const std::string& scene) {
+        return static_cast<std::int64_t>(shared_log.position_of(scene));
+      },
+      log);
+  if (!opened) {
+    log->error("planners cannot be asked", {{"reason", opened.error}});
+    return nullptr;
+  }
+  front->answerer_ = *std::move(opened);
+  return front;
+}
+
+void FleetFront::feed(service::Service& service) {
+  board_.on_change(
+      [this, &service](int capacity) { service.allow(capacity > 0 ? capacity : workers_); });
+}
+
+void FleetFront::add_to(status_t& status) const {
+  const scene::SharedLog& shared_log = member_.shared_log();
+  answerer_->add_to(status, static_cast<std::int64_t>(shared_log.followed()),
+                    shared_log.is_in_touch());
+}
+
+}  // namespace camway::process
