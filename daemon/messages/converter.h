@@ -152,6 +152,12 @@ class Converter {
     has = mine ? 1 : 0;
     if (mine) list(*this, *mine);
   }
+  template <class Mine, class List>
+  void optional(planning::FileName, std::optional<Mine>& mine, const List& list,
+                const std::int8_t& has) const requires(!kWrites) {
+    mine.reset();
+    if (has != 0) list(*this, mine.emplace());
+  }
 
  protected:
   /// Converts a value by `translate` where there is one for its types.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/messages/plan.h"
 
+#include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "daemon/messages/converter.h"
@@ -9,6 +11,31 @@
 namespace camway::messages {
 
 using planning::PlanResult;
+
+namespace {
+
+bool is_pose(const motion::Pose& pose) {
+  const double norm = pose.orientation.norm();
+  return pose.position.allFinite() && std::isfinite(norm) && norm > 0.0;
+}
+
+/// Zeroes each number of a message, and of the structs and lists in it, whose name ends in `_ms`.
+template <wire::Described Message>
+void blank_durations(Message& message) {
+  wire::for_each_member<Message>([&](const auto& described) {
+    auto& member = message.*described.member;
+    using Member = std::remove_reference_t<decltype(member)>;
+    if constexpr (std::is_arithmetic_v<Member>) {
+      if (described.name.ends_with("_ms")) member = 0;
+    } else if constexpr (wire::Described<Member>) {
+      blank_durations(member);
+    } else if constexpr (requires { blank_durations(member.front()); }) {
+      for (auto& element : member) blank_durations(element);
+    }
+  });
+}
+
+}  // namespace
 
 bounds_t to_wire(const geometry::Bounds& bounds) {
   bounds_t wire{};
@@ -47,6 +74,36 @@ plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
   clip_texts(wire);
   wire::set_counts(wire);
   return wire;
+}
+
+base::Result<PlanResult> watched_part_of(const plan_response_t& answer, std::size_t keyframes) {
+  base::Result<motion::Path> path = path_of(answer.segments);
+  if (!path) return base::Failure{std::move(path.error)};
+  PlanResult result;
+  result.path = *std::move(path);
+  result.certificate = {answer.certified != 0, answer.clearance_lower_bound_m};
+  result.near_scale = answer.near_scale;
+  for (const collision_interval_t& collision : answer.collisions) {
+    result.collisions.push_back({collision.t_begin_s, collision.t_end_s, {}});
+  }
+  for (const keyframe_fault_t& fault : answer.keyframe_faults) {
+    if (fault.keyframe < 0 || static_cast<std::size_t>(fault.keyframe) >= keyframes) {
+      return base::Failure{"keyframe_faults: no such keyframe"};
+    }
+    planning::KeyframeFault& mine = result.keyframe_faults.emplace_back();
+    FromWire{}(mine, fault);
+    if (mine.free_pose && !is_pose(*mine.free_pose)) {
+      return base::Failure{"keyframe_faults: a free pose is none"};
+    }
+  }
+  return result;
+}
+
+plan_response_t without_times(plan_response_t answer) {
+  answer.utime = 0;
+  answer.daemon_start = {};
+  blank_durations(answer);
+  return answer;
 }
 
 plan_response_t plain_answer(std::int32_t status, std::string_view message,

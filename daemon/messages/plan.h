@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -52,6 +53,17 @@ struct AnswerHeader {
 
 /// Returns the whole answer as one page, which may be too large for a message: see `encode_pages`.
 plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& header);
+
+/// Returns the part of an answer's result that `planning::WatchedPath` reads: the path, bit for
+/// bit, its certificate and near scale, the times of the collisions, and the keyframe faults with
+/// their free poses. `keyframes`: number of keyframes of the request. Fails for numbers that no
+/// result has.
+base::Result<planning::PlanResult> watched_part_of(const plan_response_t& answer,
+                                                   std::size_t keyframes);
+
+/// Returns the answer without all that may differ between two answers to one request on one scene:
+/// the durations, whose names end in `_ms`, `utime`, and the start of the daemon.
+plan_response_t without_times(plan_response_t answer);
 
 /// Returns an answer that holds only a status of `plan_response_t` and a message.
 plan_response_t plain_answer(std::int32_t status, std::string_view message,

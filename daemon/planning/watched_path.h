@@ -45,6 +45,9 @@ class WatchedPath {
                                                     const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
+  [[nodiscard]] const motion::Body& body() const { return body_; }
+  [[nodiscard]] const collision::DetectOptions& detect() const { return detect_; }
+  [[nodiscard]] const geometry::Bounds& bounds() const { return bounds_; }
 
   /// Returns whether the change can affect the path. If not, everything that was known of the path
   /// still holds.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -45,6 +46,42 @@ TEST(WireAnswer, APathIsReadBackBitForBit) {
     EXPECT_EQ(path->segments().size(), segments);
     EXPECT_EQ(wire::encode(to_wire(back, {kIds, "room", 7, "abc"})), wire::encode(wire));
   }
+}
+
+TEST(WireAnswer, WithoutTimesLeavesOutTimesAlone) {
+  Random random(kSeed);
+  const plan_response_t answer =
+      to_wire(sample_result(5, random), {{"tester", 7, 1'000'000}, "room", 7, "abc"});
+  plan_response_t other = answer;
+  other.utime = 5;
+  other.daemon_start = {3, 1};
+  for (double* member : {&other.motion_ms, &other.detect_ms, &other.correct_ms, &other.certify_ms,
+                         &other.total_ms}) {
+    *member += 1.0;
+  }
+  ASSERT_NE(wire::encode(other), wire::encode(answer));
+  EXPECT_EQ(wire::encode(without_times(other)), wire::encode(without_times(answer)));
+  other.time_scale = std::nextafter(other.time_scale, 2.0);
+  EXPECT_NE(wire::encode(without_times(other)), wire::encode(without_times(answer)));
+}
+
+TEST(WireAnswer, TheWatchedPartIsRefusedWhereItIsNoResult) {
+  Random random(kSeed);
+  plan_response_t answer = to_wire(sample_result(5, random), {kIds, "room", 7, "abc"});
+  answer.keyframe_faults.assign(1, keyframe_fault_t{});
+  answer.keyframe_faults[0].keyframe = 3;
+  answer.keyframe_faults[0].has_free_pose = 1;
+  answer.keyframe_faults[0].free_orientation_wxyz[0] = 2.0;
+  ASSERT_TRUE(watched_part_of(answer, 4)) << watched_part_of(answer, 4).error;
+  EXPECT_FALSE(watched_part_of(answer, 3)) << "no such keyframe";
+  answer.keyframe_faults[0].keyframe = -1;
+  EXPECT_FALSE(watched_part_of(answer, 4));
+  answer.keyframe_faults[0].keyframe = 0;
+  answer.keyframe_faults[0].free_orientation_wxyz[0] = 0.0;
+  EXPECT_FALSE(watched_part_of(answer, 4)) << "no orientation";
+  answer.keyframe_faults.clear();
+  answer.segments[1].t0_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(watched_part_of(answer, 4)) << "no path";
 }
 
 TEST(WireAnswer, APathHasItsNumbersWhereTheTypesSayTheyAre) {

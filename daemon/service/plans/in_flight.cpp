@@ -3,26 +3,11 @@
 
 #include <algorithm>
 
+#include "daemon/messages/progress.h"
 #include "daemon/service/core/core.h"
 
 namespace camway::service {
 namespace {
-
-std::int8_t wire_stage(base::Progress::Stage stage) {
-  switch (stage) {
-    case base::Progress::Stage::kWaiting:
-      return plan_progress_t::WAITING;
-    case base::Progress::Stage::kPreparing:
-      return plan_progress_t::PREPARING;
-    case base::Progress::Stage::kDetecting:
-      return plan_progress_t::DETECTING;
-    case base::Progress::Stage::kCorrecting:
-      return plan_progress_t::CORRECTING;
-    case base::Progress::Stage::kCertifying:
-      return plan_progress_t::CERTIFYING;
-  }
-  return plan_progress_t::WAITING;
-}
 
 /// A longer period is as good as none, and would overflow the clock.
 constexpr double kLongestPeriod_s = 1e6;
@@ -89,7 +74,7 @@ plan_progress_t InFlight::progress_of(const RequestKey& key, const Flight& fligh
   message.client_id = key.client_id;
   message.request_id = key.request_id;
   message.utime = utime_now();
-  message.stage = wire_stage(flight.progress->stage);
+  message.stage = messages::wire_stage(flight.progress->stage);
   message.num_collisions = flight.progress->collisions;
   message.num_corrected = flight.progress->corrected;
   message.since_receipt_s = 1e-3 * flight.deadline.elapsed_ms();

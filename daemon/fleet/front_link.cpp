@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/fleet/front_link.h"
+
+#include <exception>
+#include <random>
+#include <utility>
+
+namespace camway::fleet {
+namespace {
+
+/// Numbers of two starts of a front must not meet: an answer to the earlier start is none to the
+/// later one. 31 random bits above 32 bits that count do that but for one in two thousand million.
+std::int64_t first_job_number() {
+  constexpr std::uint32_t kPositive = 0x7fffffff;
+  std::random_device random;
+  return static_cast<std::int64_t>(random() & kPositive) << 32;
+}
+
+}  // namespace
+
+void JobInbox::put(JobEvent event) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (events_.size() >= kMostEvents) return;
+    events_.push_back(std::move(event));
+  }
+  changed_.notify_all();
+}
+
+std::optional<JobEvent> JobInbox::take() {
+  const std::lock_guard lock(mutex_);
+  if (events_.empty()) return std::nullopt;
+  JobEvent event = std::move(events_.front());
+  events_.pop_front();
+  return event;
+}
+
+void JobInbox::wait(std::chrono::milliseconds longest) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, longest, [this] { return !events_.empty(); });
+}
+
+FrontLink::FrontLink(nats::Bus& bus, PlannerBoard& board, Subjects subjects, std::string front_id,
+                     const std::shared_ptr<service::Log>& log)
+    : bus_(bus),
+      board_(board),
+      subjects_(std::move(subjects)),
+      front_id_(std::move(front_id)),
+      next_job_(first_job_number()),
+      trouble_(log, service::LogLevel::kWarn, "planners", {}),
+      alarms_(log, service::LogLevel::kError, "differing answers", {}) {}
+
+bool FrontLink::open() {
+  answers_ = bus_.subscribe(
+      subjects_.answer(front_id_),
+      [this](const std::string&, std::span<const std::uint8_t> bytes) { on_answer(bytes); });
+  statuses_ = bus_.subscribe(
+      subjects_.planner(),
+      [this](const std::string&, std::span<const std::uint8_t> bytes) { on_status(bytes); });
+  return answers_ && statuses_;
+}
+
+FrontLink::Job FrontLink::begin() {
+  const std::lock_guard lock(mutex_);
+  Job job{++next_job_, std::make_shared<JobInbox>()};
+  inboxes_.emplace(job.number, job.inbox);
+  return job;
+}
+
+void FrontLink::end(const Job& job, std::optional<AnswerMark> mark) {
+  {
+    const std::lock_guard lock(mutex_);
+    inboxes_.erase(job.number);
+    if (mark) memory_.keep(job.number, *mark, AnswerMemory::Clock::now());
+  }
+  if (!mark) return;
+  // What came in just before.
+  while (const std::optional<JobEvent> event = job.inbox->take()) {
+    if (event->kind == fleet_answer_t::ANSWER)
+      take_late(job.number, event->planner, event->payload);
+  }
+}
+
+bool FrontLink::send(const std::string& planner, const fleet_job_t& head,
+                     std::span<const std::uint8_t> payload) {
+  fleet_job_t message = head;
+  message.front_id = front_id_;
+  return publish_parts(bus_, subjects_.plan(planner), std::move(message), payload);
+}
+
+// Exceptions, which only a lack of memory causes, must not reach the bus.
+void FrontLink::on_answer(std::span<const std::uint8_t> bytes) try {
+  base::Result<fleet_answer_t> read = read_answer(bytes);
+  if (!read) {
+    warn("a message of a planner cannot be read", {{"reason", read.error}});
+    return;
+  }
+  std::shared_ptr<JobInbox> inbox;
+  std::optional<Bytes> payload;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = inboxes_.find(read->job);
+    if (found != inboxes_.end()) inbox = found->second;
+    const bool is_wanted = inbox || memory_.find(read->job, AnswerMemory::Clock::now()) != nullptr;
+    if (!is_wanted) return;
+    if (read->kind == fleet_answer_t::ANSWER) {
+      payload = joiner_.add({read->planner_id, read->job}, read->part, read->num_parts,
+                            std::move(read->payload));
+    } else if (read->num_parts == 1) {
+      payload = std::move(read->payload);
+    }
+  }
+  if (!payload) return;
+  if (inbox) {
+    inbox->put({read->planner_id, read->kind, *std::move(payload)});
+  } else if (read->kind == fleet_answer_t::ANSWER) {
+    take_late(read->job, read->planner_id, *payload);
+  }
+} catch (const std::exception& exception) {
+  warn("a message of a planner was not taken", {{"reason", exception.what()}});
+}
+
+void FrontLink::on_status(std::span<const std::uint8_t> bytes) try {
+  const base::Result<planner_status_t> status = read_status(bytes);
+  if (status) {
+    board_.note(*status);
+  } else {
+    warn("a status of a planner cannot be read", {{"reason", status.error}});
+  }
+} catch (const std::exception& exception) {
+  warn("a status of a planner was not taken", {{"reason", exception.what()}});
+}
+
+void FrontLink::take_late(std::int64_t job, const std::string& planner,
+                          std::span<const std::uint8_t> payload) {
+  std::optional<AnswerMark> given;
+  {
+    const std::lock_guard lock(mutex_);
+    const AnswerMark* const kept = memory_.find(job, AnswerMemory::Clock::now());
+    if (kept != nullptr) given = *kept;
+  }
+  // A planner that was asked twice sends its own answer twice.
+  if (!given || given->planner == planner) return;
+  const base::Result<plan_response_t> answer = read_response(payload);
+  if (!answer) {
+    warn("an answer of a planner cannot be read", {{"planner", planner}, {"reason", answer.error}});
+    return;
+  }
+  compare(*given, mark_of(*answer, planner));
+}
+
+void FrontLink::compare(const AnswerMark& given, const AnswerMark& other) {
+  if (!differ(given, other)) return;
+  const std::lock_guard lock(log_mutex_);
+  ++counts_.differing_answers;
+  alarms_.write("two planners answered a request differently",
+                {{"client", given.client_id},
+                 {"request", given.request_id},
+                 {"planner", given.planner},
+                 {"other_planner", other.planner},
+                 {"scene_revision", given.scene_revision},
+                 {"scene_digest", given.scene_digest}});
+}
+
+void FrontLink::count_sent_again() {
+  const std::lock_guard lock(log_mutex_);
+  ++counts_.jobs_sent_again;
+}
+
+void FrontLink::count_planned_here() {
+  const std::lock_guard lock(log_mutex_);
+  ++counts_.planned_here;
+}
+
+FrontCounts FrontLink::counts() const {
+  const std::lock_guard lock(log_mutex_);
+  return counts_;
+}
+
+void FrontLink::warn(std::string_view event, service::LogFields fields) {
+  const std::lock_guard lock(log_mutex_);
+  trouble_.write(event, fields);
+}
+
+void FrontLink::report_suppressed() {
+  const std::lock_guard lock(log_mutex_);
+  trouble_.report_suppressed();
+  alarms_.report_suppressed();
+}
+
+}  // namespace camway::fleet

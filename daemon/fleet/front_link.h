@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "daemon/fleet/answer_comparer.h"
+#include "daemon/fleet/fleet_messages.h"
+#include "daemon/fleet/fleet_parts.h"
+#include "daemon/fleet/planner_board.h"
+#include "daemon/fleet/subjects.h"
+#include "daemon/nats/bus.h"
+#include "daemon/service/log/limited_log.h"
+
+namespace camway::fleet {
+
+/// Counts of a front since its start.
+struct FrontCounts {
+  std::int64_t jobs_sent_again = 0;
+  std::int64_t differing_answers = 0;
+  std::int64_t planned_here = 0;
+};
+
+/// A message of a planner about a job, with the payload of all its parts.
+struct JobEvent {
+  std::string planner;
+  std::int8_t kind = 0;  ///< as of `fleet_answer_t`
+  Bytes payload;
+};
+
+/// What planners say of one job. The bus fills it, and the thread that waits for the job empties
+/// it. Thread-safe.
+class JobInbox {
+ public:
+  /// Messages beyond this number are dropped; a planner sends few.
+  static constexpr std::size_t kMostEvents = 256;
+
+  void put(JobEvent event);
+  std::optional<JobEvent> take();
+  /// Waits for a message, but for `longest` at most.
+  void wait(std::chrono::milliseconds longest);
+
+ private:
+  std::mutex mutex_;  ///< guards events_
+  std::condition_variable changed_;
+  std::deque<JobEvent> events_;
+};
+
+/// A front's side of the bus: sends jobs, and hands what planners say to the jobs and the board.
+/// Compares answers that come when another planner has answered already.
+/// Thread-safe.
+class FrontLink {
+ public:
+  /// `bus` and `board` must outlive it. Requires `is_id` of both names.
+  FrontLink(nats::Bus& bus, PlannerBoard& board, Subjects subjects, std::string front_id,
+            const std::shared_ptr<service::Log>& log);
+
+  /// Subscribes. Returns false if the bus refuses; then nothing arrives.
+  bool open();
+
+  struct Job {
+    std::int64_t number = 0;
+    std::shared_ptr<JobInbox> inbox;
+  };
+  /// Begins a job, with a number that no other job has.
+  Job begin();
+  /// Ends a job. `mark`: of the answer that was given, if another planner may still give one.
+  void end(const Job& job, std::optional<AnswerMark> mark);
+
+  /// Sends a job to a planner. Returns false if the bus did not take it.
+  bool send(const std::string& planner, const fleet_job_t& head,
+            std::span<const std::uint8_t> payload);
+
+  /// Compares an answer with the one that was given before, and raises the alarm if they differ.
+  void compare(const AnswerMark& given, const AnswerMark& other);
+
+  void count_sent_again();
+  void count_planned_here();
+  [[nodiscard]] FrontCounts counts() const;
+
+  /// Logs trouble with a planner. Limited, since planners can provoke it.
+  void warn(std::string_view event, service::LogFields fields);
+  /// Logs how many such lines were left out. To be called now and then.
+  void report_suppressed();
+
+ private:
+  void on_answer(std::span<const std::uint8_t> bytes);
+  void on_status(std::span<const std::uint8_t> bytes);
+  void take_late(std::int64_t job, const std::string& planner,
+                 std::span<const std::uint8_t> payload);
+
+  nats::Bus& bus_;
+  PlannerBoard& board_;
+  const Subjects subjects_;
+  const std::string front_id_;
+
+  mutable std::mutex mutex_;  ///< guards the members down to memory_
+  std::int64_t next_job_;
+  std::map<std::int64_t, std::shared_ptr<JobInbox>> inboxes_;
+  PartJoiner joiner_;
+  AnswerMemory memory_;
+
+  mutable std::mutex log_mutex_;  ///< guards the members down to counts_
+  service::LimitedLog trouble_;
+  service::LimitedLog alarms_;
+  FrontCounts counts_;
+
+  // Last: their handlers use all above.
+  std::unique_ptr<nats::Subscription> answers_;
+  std::unique_ptr<nats::Subscription> statuses_;
+};
+
+}  // namespace camway::fleet
