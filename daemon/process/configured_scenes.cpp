@@ -107,9 +107,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
     note_fault(name, reason);
     // Tried again the next time. An older scene of that name stays until it is no longer wanted.
-    for (Held& held : held_) {
-      if (held.scene.name == name) held.stamp = {};
-    }
+    held->stamp = {};
     all = false;
   }
   return all;

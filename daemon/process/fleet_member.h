@@ -37,9 +37,11 @@ class FleetMember {
       scene::SceneStore& store, scene::SceneFollower::Advanced advanced = {});
 
  private:
-  FleetMember(std::unique_ptr<nats::Connection> connection, std::unique_ptr<scene::SharedLog> log,
-              const FleetOptions& options, std::shared_ptr<service::Log> service_log);
+  FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
+              std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
+              std::shared_ptr<service::Log> service_log);
 
+  const std::string id_;
   const std::shared_ptr<service::Log> service_log_;
   const std::unique_ptr<nats::Connection> connection_;
   scene::SharedLog* const shared_log_;  ///< owned by `state_`

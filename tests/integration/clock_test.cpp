@@ -46,8 +46,7 @@ class ClockTest : public IntegrationTest {
 
   /// Sets how far the daemon's clock is ahead of the local one.
   void set_clock(long ahead_s) const {
-    std::ofstream(file("offset.next")) << ahead_s;
-    std::filesystem::rename(file("offset.next"), file("offset"));
+    write_file(file("offset"), std::to_string(ahead_s));
   }
 
   std::string doctor_says() const {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -67,6 +68,11 @@ std::optional<int> Process::wait() {
 }
 
 std::string Process::output() const { return read_file(output_); }
+
+void write_file(const std::string& path, const std::string& content) {
+  std::ofstream(path + ".next") << content;
+  std::filesystem::rename(path + ".next", path);
+}
 
 std::string read_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);

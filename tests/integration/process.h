@@ -46,5 +46,7 @@ class Process {
 
 /// Returns the content of a file; empty if there is none.
 std::string read_file(const std::string& path);
+/// Writes a file, or replaces it at once.
+void write_file(const std::string& path, const std::string& content);
 
 }  // namespace camway::integration

@@ -218,6 +218,53 @@ paths_of_a_client = 20
       << "who wants fewer requests than a client may usually have means them all";
 }
 
+TEST_F(DaemonOptionsFile, RolesOfAFleetNeedAndRefuseSettings) {
+  EXPECT_THAT(parse({"--role", "front"}).faults,
+              ElementsAre(HasSubstr("--role: needs the servers of NATS")));
+  EXPECT_THAT(parse({"--scene", "a=x.obj", "--fleet", "nats://a:4222"}).faults,
+              ElementsAre(HasSubstr("--fleet: has no effect without a role")));
+  EXPECT_THAT(parse({"--role", "front", "--fleet", "a:4222"}).faults,
+              ElementsAre(AllOf(HasSubstr("--fleet"), HasSubstr("'a:4222'"))));
+  EXPECT_THAT(parse({"--role", "planner", "--fleet", "nats://a", "--scene", "a=x.obj", "--state",
+                     "folder", "--prefix", "OTHER"})
+                  .faults,
+              ElementsAre(HasSubstr("--state: has no effect in a fleet"),
+                          HasSubstr("--prefix: has no effect on a planner"),
+                          HasSubstr("--scene: scene 'a': a planner has the scenes of its fleet")));
+  const std::string file = write("c.toml", R"([fleet]
+role = "front"
+servers = "nats://a:4222, tls://b"
+id = "front one"
+replicas = 2
+key_file = "key.pem"
+)");
+  EXPECT_THAT(parse({"--config", file.c_str()}).faults,
+              ElementsAre(AllOf(HasSubstr("c.toml:4: fleet.id"), HasSubstr("'front one'"))));
+  const std::string other = write("d.toml", R"([fleet]
+role = "front"
+servers = "nats://a:4222, tls://b"
+replicas = 2
+key_file = "key.pem"
+)");
+  EXPECT_THAT(parse({"--config", other.c_str()}).faults,
+              ElementsAre(HasSubstr("d.toml:5: fleet.key_file: a certificate and its key"),
+                          HasSubstr("d.toml:4: fleet.replicas: must be 1, 3 or 5")));
+}
+
+TEST(DaemonOptions, ServersOfAFleetAreAList) {
+  EXPECT_THAT(servers_of(" nats://a:1 ,,tls://b "), ElementsAre("nats://a:1", "tls://b"));
+  EXPECT_TRUE(servers_of(" , ").empty());
+  const DaemonOptions options =
+      *parse({"--role", "planner", "--fleet", "nats://a", "--fleet-name", "studio"}).options;
+  EXPECT_EQ(options.fleet.role, FleetRole::kPlanner);
+  EXPECT_EQ(options.fleet.name, "studio");
+}
+
+TEST(DaemonOptions, AStateThatIsNamedIsAFolder) {
+  EXPECT_THAT(parse({"--scene", "a=x.obj", "--state", ""}).faults,
+              ElementsAre("--state: must name a folder"));
+}
+
 TEST_F(DaemonOptionsFile, ChecksThatThisMachineHasWhatTheFileNames) {
   const std::string file = write("c.toml", R"([metrics]
 address = "192.0.2.1"
