@@ -26,7 +26,7 @@ struct NatsDeleter {
   void operator()(natsMsg* message) const { natsMsg_Destroy(message); }
   void operator()(natsOptions* options) const { natsOptions_Destroy(options); }
   void operator()(natsSubscription* subscription) const { natsSubscription_Destroy(subscription); }
-  void operator()(natsInbox* inbox) const { natsInbox_Destroy(inbox); }
+  void operator()(char* inbox) const { natsInbox_Destroy(inbox); }
 };
 template <class T>
 using NatsOwned = std::unique_ptr<T, NatsDeleter>;

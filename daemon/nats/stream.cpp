@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/nats/stream.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <thread>
+#include <utility>
+
+#include "daemon/nats/jetstream_api.h"
+
+namespace camway::nats {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+/// The server remembers ids of messages for so long. None has one.
+constexpr std::int64_t kDuplicates_ns = kNanosecondsPerSecond;
+
+constexpr milliseconds kEnsurePause{100};
+
+json config_of(const StreamConfig& config) {
+  json value{{"name", config.name},
+             {"subjects", {config.subject}},
+             {"retention", "limits"},
+             {"storage", "file"},
+             {"discard", "new"},
+             {"max_msgs", -1},
+             {"max_age", 0},
+             {"max_bytes", config.most_bytes == 0 ? json(-1) : json(config.most_bytes)},
+             {"max_msgs_per_subject", config.one_for_a_subject ? 1 : -1},
+             {"num_replicas", config.replicas},
+             {"duplicate_window", kDuplicates_ns},
+             {"allow_direct", true}};
+  if (!config.news.empty()) {
+    value["republish"] = {
+        {"src", config.subject}, {"dest", config.news + ".>"}, {"headers_only", true}};
+  }
+  return value;
+}
+
+/// Returns how a stream differs from how it should be, in what cannot be changed.
+std::string fault_of_config(const json& is, const json& wanted) {
+  for (const char* const key : {"subjects", "retention", "storage", "discard", "max_msgs",
+                                "max_age", "max_msgs_per_subject", "allow_direct", "republish"}) {
+    const json found = is.contains(key) ? is.at(key) : json();
+    const json other = wanted.contains(key) ? wanted.at(key) : json();
+    if (found != other) {
+      return std::string(key) + " is " + found.dump() + ", not " + other.dump();
+    }
+  }
+  return "";
+}
+
+std::string named(const std::string& stream, const std::string& error) {
+  return "stream " + stream + ": " + error;
+}
+
+/// Sets replicas and limit of a stream that is there. Returns why that failed.
+std::string adapt(Connection& connection, const StreamConfig& config, json is, milliseconds wait) {
+  json wanted = config_of(config);
+  std::string fault = fault_of_config(is, wanted);
+  if (!fault.empty()) {
+    return named(config.name, "was made for something else, or by another version: " + fault);
+  }
+  if (config.most_bytes == 0 && is.contains("max_bytes")) wanted["max_bytes"] = is["max_bytes"];
+  bool differs = false;
+  for (const char* const key : {"max_bytes", "num_replicas"}) {
+    differs = differs || !is.contains(key) || is[key] != wanted[key];
+    is[key] = wanted[key];
+  }
+  if (!differs) return "";
+  const auto answer = ask_api(connection, "STREAM.UPDATE." + config.name, is, wait);
+  if (!answer) return named(config.name, answer.error);
+  return answer->error_code == 0 ? "" : named(config.name, answer->error_text);
+}
+
+struct Ensured {
+  std::string error;  ///< empty if the stream is there
+  bool may_pass = false;
+};
+
+Ensured ensure_once(Connection& connection, const StreamConfig& config, milliseconds wait) {
+  const auto info = ask_api(connection, "STREAM.INFO." + config.name, nullptr, wait);
+  if (!info && info.error == kNobodyAnswers) {
+    return {connection.server() + " has no JetStream, or not for this user"};
+  }
+  if (!info) return {named(config.name, info.error), true};
+  if (info->error_code == 0 && info->value.contains("config")) {
+    return {adapt(connection, config, info->value["config"], wait)};
+  }
+  if (info->error_code != kStreamNotFoundError) {
+    return {named(config.name, info->error_text),
+            fault_of_error(info->error_code) == StreamFault::kUnreachable};
+  }
+  const auto made = ask_api(connection, "STREAM.CREATE." + config.name, config_of(config), wait);
+  if (!made) return {named(config.name, made.error), true};
+  if (made->error_code == 0) return {};
+  // If another process has just made it, the next try finds it.
+  return {named(config.name, made->error_text),
+          made->error_code == kStreamNameError || made->error_code == kNoPeersError ||
+              fault_of_error(made->error_code) == StreamFault::kUnreachable};
+}
+
+std::uint64_t number_in(const json& value, const char* key) {
+  const auto found = value.find(key);
+  return found != value.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+std::uint64_t number_from(const char* text) {
+  std::uint64_t number = 0;
+  if (text != nullptr) std::from_chars(text, text + std::char_traits<char>::length(text), number);
+  return number;
+}
+
+/// A subscription for replies, which come in any order.
+class Replies {
+ public:
+  explicit Replies(NatsHandle handle) : handle_(std::move(handle)) {
+    natsInbox* inbox = nullptr;
+    if (natsInbox_Create(&inbox) != NATS_OK) return;
+    inbox_.reset(inbox);
+    natsSubscription* made = nullptr;
+    if (natsConnection_SubscribeSync(&made, handle_.get(), inbox) != NATS_OK) return;
+    subscription_.reset(made);
+    natsSubscription_SetPendingLimits(made, -1, -1);
+  }
+
+  bool ask(const std::string& subject, const std::string& request) {
+    return subscription_ && natsConnection_PublishRequest(
+                                handle_.get(), subject.c_str(), inbox_.get(), request.data(),
+                                static_cast<int>(request.size())) == NATS_OK;
+  }
+  NatsOwned<natsMsg> next(milliseconds wait) {
+    natsMsg* message = nullptr;
+    natsSubscription_NextMsg(&message, subscription_.get(), wait.count());
+    return NatsOwned<natsMsg>(message);
+  }
+
+ private:
+  NatsHandle handle_;
+  NatsOwned<char> inbox_;
+  NatsOwned<natsSubscription> subscription_;
+};
+
+/// Reads a stretch of a stream by asking for each sequence the first message from there on, several
+/// at once. Where all are there, no two answers are the same.
+class StretchReader {
+ public:
+  StretchReader(Connection& connection, const std::string& stream, std::string filter,
+                milliseconds wait)
+      : replies_(connection.parts().connection()),
+        subject_("$JS.API.STREAM.MSG.GET." + stream),
+        filter_(std::move(filter)),
+        wait_(wait) {}
+
+  /// Reads the next messages. Returns them in order; none at the end of the stream.
+  StreamResult<std::vector<StoredMessage>> next(std::uint64_t from, std::uint64_t to) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(at_once_, to - from + 1));
+    for (std::size_t i = 0; i < count; ++i) {
+      const json request{{"seq", from + i}, {"next_by_subj", filter_}};
+      if (!replies_.ask(subject_, request.dump())) {
+        return {StreamFault::kUnreachable, "the connection to NATS was lost"};
+      }
+    }
+    std::map<std::uint64_t, StoredMessage> found;
+    for (std::size_t i = 0; i < count; ++i) {
+      const NatsOwned<natsMsg> reply = replies_.next(wait_);
+      if (reply == nullptr) return {StreamFault::kUnreachable, "NATS did not answer in time"};
+      const auto answer = api_answer_from(text_of(*reply));
+      if (!answer) return {answer.fault, answer.error};
+      StreamResult<Stream::Found> message = stored_message_from(*answer);
+      if (!message) return {message.fault, message.error};
+      if (*message) found.insert_or_assign((*message)->sequence, **std::move(message));
+    }
+    at_once_ = found.size() == count ? std::min(2 * at_once_, kMostAtOnce)
+                                     : std::max<std::size_t>(found.size(), 1);
+    std::vector<StoredMessage> messages;
+    for (auto& [sequence, message] : found) messages.push_back(std::move(message));
+    return messages;
+  }
+
+ private:
+  /// Messages have up to a megabyte.
+  static constexpr std::size_t kMostAtOnce = 32;
+
+  Replies replies_;
+  std::string subject_;
+  std::string filter_;
+  milliseconds wait_;
+  std::size_t at_once_ = 1;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Stream>> Stream::ensure(Connection& connection,
+                                                     const StreamConfig& config, Wait wait) {
+  const auto end = std::chrono::steady_clock::now() + wait;
+  for (;;) {
+    const Ensured tried = ensure_once(connection, config, wait);
+    if (tried.error.empty()) return std::unique_ptr<Stream>(new Stream(connection, config.name));
+    // The servers of a cluster that has just started have no leader yet.
+    if (!tried.may_pass || std::chrono::steady_clock::now() + kEnsurePause >= end) {
+      return base::Failure{tried.error};
+    }
+    std::this_thread::sleep_for(kEnsurePause);
+  }
+}
+
+StreamResult<std::uint64_t> Stream::publish(const std::string& subject,
+                                            std::span<const std::uint8_t> payload,
+                                            std::optional<std::uint64_t> expected, Wait wait) {
+  natsMsg* made = nullptr;
+  if (natsMsg_Create(&made, subject.c_str(), nullptr, reinterpret_cast<const char*>(payload.data()),
+                     static_cast<int>(payload.size())) != NATS_OK) {
+    return {StreamFault::kRefused, "'" + subject + "' cannot be sent"};
+  }
+  const NatsOwned<natsMsg> message(made);
+  natsStatus status = natsMsgHeader_Set(made, "Nats-Expected-Stream", name_.c_str());
+  if (status == NATS_OK && expected) {
+    status = natsMsgHeader_Set(made, "Nats-Expected-Last-Subject-Sequence",
+                               std::to_string(*expected).c_str());
+  }
+  if (status != NATS_OK) return {StreamFault::kRefused, "no memory for NATS"};
+  const auto reply = ask(connection_, *message, wait);
+  if (!reply) return {reply.fault, reply.error};
+  const auto answer = api_answer_from(text_of(**reply));
+  if (!answer) return {answer.fault, answer.error};
+  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
+  const std::uint64_t sequence = number_in(answer->value, "seq");
+  if (sequence == 0) return {StreamFault::kRefused, "NATS answered without a sequence"};
+  return sequence;
+}
+
+StreamResult<Stream::Found> Stream::last(const std::string& subject, Wait wait) {
+  const auto answer =
+      ask_api(connection_, "STREAM.MSG.GET." + name_, {{"last_by_subj", subject}}, wait);
+  if (!answer) return {answer.fault, answer.error};
+  return stored_message_from(*answer);
+}
+
+StreamResult<Stream::Found> Stream::last_of_any_server(const std::string& subject, Wait wait) {
+  const std::string request = json{{"last_by_subj", subject}}.dump();
+  natsMsg* made = nullptr;
+  if (natsMsg_Create(&made, ("$JS.API.DIRECT.GET." + name_).c_str(), nullptr, request.data(),
+                     static_cast<int>(request.size())) != NATS_OK) {
+    return {StreamFault::kRefused, "no memory for NATS"};
+  }
+  const NatsOwned<natsMsg> message(made);
+  const auto reply = ask(connection_, *message, wait);
+  if (!reply) return {reply.fault, reply.error};
+  natsMsg* const got = reply->get();
+  const char* sequence = nullptr;
+  const char* from = nullptr;
+  natsMsgHeader_Get(got, "Nats-Sequence", &sequence);
+  natsMsgHeader_Get(got, "Nats-Subject", &from);
+  // An error has a status, and no sequence.
+  if (sequence == nullptr || from == nullptr || from != subject) return Found{};
+  const std::string_view bytes = text_of(*got);
+  return Found(StoredMessage{subject, number_from(sequence), {bytes.begin(), bytes.end()}});
+}
+
+StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
+                                         const std::string& filter, const Handler& handler,
+                                         Wait wait) {
+  if (!connection_.is_connected()) {
+    return {StreamFault::kUnreachable, "there is no connection to NATS"};
+  }
+  StretchReader reader(connection_, name_, filter, wait);
+  std::uint64_t next = std::max<std::uint64_t>(from, 1);
+  while (next <= to) {
+    auto messages = reader.next(next, to);
+    if (!messages) return {messages.fault, messages.error};
+    if (messages->empty()) break;
+    for (StoredMessage& message : *messages.value) {
+      if (message.sequence < next) return {StreamFault::kRefused, "NATS answered out of order"};
+      if (message.sequence > to) return to;
+      next = message.sequence + 1;
+      handler(std::move(message));
+    }
+  }
+  return next - 1;
+}
+
+StreamResult<std::uint64_t> Stream::purge(const std::string& filter, std::uint64_t before,
+                                          Wait wait) {
+  const auto answer =
+      ask_api(connection_, "STREAM.PURGE." + name_, {{"filter", filter}, {"seq", before}}, wait);
+  if (!answer) return {answer.fault, answer.error};
+  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
+  return number_in(answer->value, "purged");
+}
+
+StreamResult<bool> Stream::remove(std::uint64_t sequence, Wait wait) {
+  const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_, {{"seq", sequence}}, wait);
+  if (!answer) return {answer.fault, answer.error};
+  if (answer->error_code == kSequenceNotFoundError || answer->error_code == kNoMessageError) {
+    return false;
+  }
+  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
+  return true;
+}
+
+StreamResult<StreamState> Stream::state(Wait wait) {
+  const auto answer = ask_api(connection_, "STREAM.INFO." + name_, nullptr, wait);
+  if (!answer) return {answer.fault, answer.error};
+  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
+  const auto state = answer->value.find("state");
+  if (state == answer->value.end() || !state->is_object()) {
+    return {StreamFault::kRefused, "NATS answered without a state"};
+  }
+  return StreamState{number_in(*state, "first_seq"), number_in(*state, "last_seq"),
+                     number_in(*state, "bytes")};
+}
+
+StreamResult<std::map<std::string, std::uint64_t>> Stream::subjects(const std::string& filter,
+                                                                    Wait wait) {
+  std::map<std::string, std::uint64_t> found;
+  for (;;) {
+    const auto answer = ask_api(connection_, "STREAM.INFO." + name_,
+                                {{"subjects_filter", filter}, {"offset", found.size()}}, wait);
+    if (!answer) return {answer.fault, answer.error};
+    if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
+    const auto state = answer->value.find("state");
+    if (state == answer->value.end() || !state->is_object()) {
+      return {StreamFault::kRefused, "NATS answered without a state"};
+    }
+    const std::size_t before = found.size();
+    if (const auto list = state->find("subjects"); list != state->end() && list->is_object()) {
+      for (const auto& [subject, count] : list->items()) {
+        found.emplace(subject, count.is_number_unsigned() ? count.get<std::uint64_t>() : 0);
+      }
+    }
+    // The server gives a hundred thousand at once.
+    if (found.size() == before || found.size() >= number_in(answer->value, "total")) return found;
+  }
+}
+
+}  // namespace camway::nats

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "daemon/scene/log/nats/nats_log_parts.h"
+
+namespace camway::scene {
+namespace {
+
+using Kind = LogMessage::Kind;
+using nats::StreamFault;
+
+/// Larger records are blobs.
+constexpr std::size_t kMostRecordInMessage = std::size_t{128} << 10U;
+/// What else a message holds, beside its record: ids of blobs, and of messages that it replaces.
+constexpr std::size_t kRoomBesideRecord = std::size_t{64} << 10U;
+/// Subjects have to fit into a line of the protocol.
+constexpr std::size_t kMostSceneNameBytes = 1000;
+
+std::span<const std::uint8_t> payload_of_message(const Bytes& bytes) {
+  return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+AppendResult NatsLog::Parts::conflict(std::string_view scene, std::uint64_t newest,
+                                      std::uint64_t expected) const {
+  const std::string name(scene);
+  if (expected == 0 && newest == 0) return {AppendFault::kConflict, "no scene has revision 0"};
+  if (newest == 0) return {AppendFault::kConflict, "there is no scene '" + name + "'"};
+  return {AppendFault::kConflict, "scene '" + name + "' is at revision " + std::to_string(newest) +
+                                      ", not at " + std::to_string(expected)};
+}
+
+AppendResult NatsLog::Parts::unclear(const std::string& reason) const {
+  return {AppendFault::kBroken, place() + " cannot be reached: " + reason +
+                                    ". The change may still take effect; send the same request "
+                                    "again to know"};
+}
+
+NatsLog::Parts::Head NatsLog::Parts::head_of(std::string_view scene, const MessageId& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = chains_.find(scene);
+  if (found == chains_.end()) return {};
+  const SceneChain& chain = found->second;
+  return {chain.newest_revision(), chain.last_sequence(), chain.removed(), chain.contains(id)};
+}
+
+std::vector<MessageId> NatsLog::Parts::known_ids(std::string_view scene) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = chains_.find(scene);
+  return found == chains_.end() ? std::vector<MessageId>{} : found->second.ids();
+}
+
+AppendResult NatsLog::Parts::missing_need(const std::vector<BlobId>& needs, PatienceEnd end) {
+  for (const BlobId& id : needs) {
+    NatsBlobs::HoldResult result = hold(id, end);
+    if (result.held == NatsBlobs::Held::kUnreachable) return std::move(result.fault);
+    if (result.held == NatsBlobs::Held::kMissing) {
+      return {AppendFault::kBroken, "a needed mesh or map is not in the log"};
+    }
+  }
+  return {};
+}
+
+AppendResult NatsLog::Parts::put_blob(const BlobId& id, const Blob& blob, PatienceEnd end) {
+  assert(blob_id_of(blob.bytes) == id);
+  NatsBlobs::HoldResult held = hold(id, end);
+  if (held.held == NatsBlobs::Held::kHeld) return {};
+  if (held.held == NatsBlobs::Held::kUnreachable) return std::move(held.fault);
+  AppendResult missing = missing_need(blob.needs, end);
+  if (missing.fault != AppendFault::kNone) return missing;
+  return blobs_.put(id, blob, end);
+}
+
+AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expected,
+                                     LogMessage& message, const Bytes& record, PatienceEnd end) {
+  if (scene.size() > kMostSceneNameBytes) {
+    return {AppendFault::kBroken, place() + " takes no scene with a name of that size"};
+  }
+  const std::string unchecked = check_tail(end);
+  if (!unchecked.empty()) {
+    return {AppendFault::kBroken, place() + " cannot be reached: " + unchecked};
+  }
+  // This process may not know yet that another one has changed the scene; then the server says so.
+  const std::uint64_t newest = head_of(scene, message.id).revision;
+  if (newest != expected) return conflict(scene, newest, expected);
+  AppendResult missing = missing_need(message.needs, end);
+  if (missing.fault != AppendFault::kNone) return missing;
+  const std::size_t room =
+      connection_.most_bytes() - std::min(connection_.most_bytes(), kRoomBesideRecord);
+  if (record.size() <= std::min(kMostRecordInMessage, room)) {
+    message.record = record;
+    return {};
+  }
+  message.blob = blob_id_of(record);
+  return put_blob(*message.blob, {record, {}}, end);
+}
+
+AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
+                                    LogMessage message, PatienceEnd end) {
+  bool is_unclear = false;
+  const auto give_up = [&](const std::string& reason) {
+    if (is_unclear) return unclear(reason);
+    return AppendResult{AppendFault::kBroken, place() + " cannot be reached: " + reason};
+  };
+  for (;;) {
+    const std::string unchecked = check_tail(end);
+    if (!unchecked.empty()) return give_up(unchecked);
+    const Head head = head_of(scene, message.id);
+    if (head.has_it) return {};
+    if (head.revision != expected) return conflict(scene, head.revision, expected);
+    message.removed = head.removed;
+    if (message.kind != Kind::kEntry) message.replaces = known_ids(scene);
+    const Bytes bytes = bytes_of(message);
+    const auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes),
+                                       head.sequence, rest_of(end));
+    if (done) {
+      const std::lock_guard lock(mutex_);
+      SceneChain& chain = chains_[std::string(scene)];
+      if (*done > chain.last_sequence()) chain.take(std::move(message), *done);
+      return {};
+    }
+    if (done.fault == StreamFault::kConflict) {
+      const std::string fault = refresh(std::string(scene), end);
+      if (!fault.empty()) return give_up(fault);
+      continue;
+    }
+    if (done.fault != StreamFault::kUnreachable) return append_fault(done.fault, done.error);
+    is_unclear = true;
+    if (!pause_before_retry(end)) return give_up(done.error);
+  }
+}
+
+std::string NatsLog::Parts::refresh(const std::string& scene, PatienceEnd end) {
+  std::uint64_t last = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    last = chains_[scene].last_sequence();
+  }
+  Chains read;
+  const auto done = read_chains(scene_subject(scene), last + 1, read, end);
+  if (!done) return done.error;
+  {
+    const std::lock_guard lock(mutex_);
+    SceneChain next = chains_[scene];
+    // The follower may have brought some of them meanwhile.
+    const std::uint64_t before = next.last_sequence();
+    for (ChainLink& link : read[scene].links()) {
+      if (link.sequence > before) next.take(std::move(link.message), link.sequence);
+    }
+    if (next.is_whole() && next.last_sequence() > last) {
+      chains_[scene] = std::move(next);
+      return "";
+    }
+  }
+  // The server has less than this process knows, or what it has does not continue that.
+  must_check_ = true;
+  return pause_before_retry(end) ? "" : "another change is being made";
+}
+
+void NatsLog::Parts::purge_before_last(std::string_view scene, const MessageId& id,
+                                       PatienceEnd end) {
+  std::uint64_t sequence = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = chains_.find(scene);
+    const ChainLink* const link = found == chains_.end() ? nullptr : found->second.find(id);
+    if (link != nullptr) sequence = link->sequence;
+  }
+  // What remains if this fails is purged with the next summary; readers leave it out.
+  if (sequence > 1) {
+    static_cast<void>(stream_->purge(scene_subject(scene), sequence, rest_of(end)));
+  }
+}
+
+AppendResult NatsLog::Parts::append(std::string_view scene, const LogEntry& entry) {
+  if (entry.revision <= entry.before) {
+    return {AppendFault::kBroken, "revision " + std::to_string(entry.revision) +
+                                      " cannot follow revision " + std::to_string(entry.before)};
+  }
+  const PatienceEnd end = patience_end();
+  LogMessage message;
+  message.id = new_message_id();
+  message.before = entry.before;
+  message.revision = entry.revision;
+  message.needs = entry.needs;
+  AppendResult fault = prepare(scene, entry.before, message, entry.record, end);
+  if (fault.fault != AppendFault::kNone) return fault;
+  return commit(scene, entry.before, std::move(message), end);
+}
+
+AppendResult NatsLog::Parts::replace_all(std::string_view scene, LogMessage message,
+                                         const Bytes& record) {
+  const std::uint64_t revision = message.revision;
+  if (revision == 0) return conflict(scene, 0, 0);
+  const PatienceEnd end = patience_end();
+  message.id = new_message_id();
+  const MessageId id = message.id;
+  AppendResult fault = prepare(scene, revision, message, record, end);
+  if (fault.fault == AppendFault::kNone) fault = commit(scene, revision, std::move(message), end);
+  if (fault.fault == AppendFault::kNone) purge_before_last(scene, id, end);
+  return fault;
+}
+
+AppendResult NatsLog::Parts::summarize(std::string_view scene, std::uint64_t revision,
+                                       const Bytes& summary, const std::vector<BlobId>& needs) {
+  LogMessage message;
+  message.kind = Kind::kSummary;
+  message.revision = revision;
+  message.needs = needs;
+  return replace_all(scene, std::move(message), summary);
+}
+
+AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revision) {
+  LogMessage message;
+  message.kind = Kind::kRemoval;
+  message.revision = revision;
+  return replace_all(scene, std::move(message), {});
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/log/nats/nats_log.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "daemon/scene/log/nats/nats_log_parts.h"
+
+namespace camway::scene {
+namespace {
+
+using nats::StreamFault;
+
+/// A process drops unused blobs no more often than this.
+constexpr std::chrono::minutes kDropPause{1};
+constexpr std::uint64_t kEndOfLog = std::numeric_limits<std::uint64_t>::max();
+/// Reads of a scene before a missing change counts as lost.
+constexpr int kMostReads = 3;
+/// Subjects have to fit into a line of the protocol.
+constexpr std::size_t kMostNameBytes = 1000;
+
+std::span<const std::uint8_t> payload_of_text(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+bool is_plain(const std::string& name) {
+  return !name.empty() && name.find_first_not_of(
+                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWX"
+                              "YZ0123456789_-") == std::string::npos;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<NatsLog>> NatsLog::open(nats::Connection& connection,
+                                                     const NatsLogOptions& options) {
+  if (!is_plain(options.fleet)) {
+    return base::Failure{"'" + options.fleet +
+                         "' is no name of a fleet: letters, digits, - and _ are possible"};
+  }
+  nats::StreamConfig log{
+      options.fleet + "_LOG", options.fleet + ".log.>", options.replicas, options.most_bytes, false,
+      options.fleet + ".news"};
+  nats::StreamConfig blobs{options.fleet + "_BLOBS",
+                           options.fleet + ".blob.>",
+                           options.replicas,
+                           options.most_bytes,
+                           true,
+                           ""};
+  auto stream = nats::Stream::ensure(connection, log, options.patience);
+  if (!stream) return base::Failure{std::move(stream.error)};
+  auto blob_stream = nats::Stream::ensure(connection, blobs, options.patience);
+  if (!blob_stream) return base::Failure{std::move(blob_stream.error)};
+  return std::unique_ptr<NatsLog>(new NatsLog(
+      std::make_unique<Parts>(connection, options, *std::move(stream), *std::move(blob_stream))));
+}
+
+NatsLog::NatsLog(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+NatsLog::~NatsLog() = default;
+
+AppendResult NatsLog::put_blob(const BlobId& id, const Blob& blob) {
+  return parts_->put_blob(id, blob, parts_->patience_end());
+}
+bool NatsLog::has_blob(const BlobId& id) {
+  return parts_->hold(id, parts_->patience_end()).held == NatsBlobs::Held::kHeld;
+}
+base::Result<Bytes> NatsLog::blob(const BlobId& id) {
+  return parts_->blobs().read(id, parts_->patience_end());
+}
+AppendResult NatsLog::append(std::string_view scene, const LogEntry& entry) {
+  return parts_->append(scene, entry);
+}
+AppendResult NatsLog::summarize(std::string_view scene, std::uint64_t revision,
+                                const Bytes& summary, const std::vector<BlobId>& needs) {
+  return parts_->summarize(scene, revision, summary, needs);
+}
+AppendResult NatsLog::remove(std::string_view scene, std::uint64_t revision) {
+  return parts_->remove(scene, revision);
+}
+std::uint64_t NatsLog::highest_removed() { return parts_->highest_removed(); }
+base::Result<std::vector<LoggedScene>> NatsLog::scenes() { return parts_->scenes(); }
+std::string NatsLog::note(std::string_view key) { return parts_->note(key); }
+AppendResult NatsLog::set_note(std::string_view key, std::string_view text) {
+  return parts_->set_note(key, text);
+}
+AppendResult NatsLog::drop_unused_blobs() { return parts_->drop_unused_blobs(); }
+void NatsLog::follow(Take take) { parts_->follow(std::move(take)); }
+void NatsLog::stop_following() { parts_->stop_following(); }
+std::uint64_t NatsLog::followed() const { return parts_->followed(); }
+std::uint64_t NatsLog::position_of(std::string_view scene) const {
+  return parts_->position_of(scene);
+}
+bool NatsLog::is_in_touch() const { return parts_->is_in_touch(); }
+
+NatsLog::Parts::Parts(nats::Connection& connection, NatsLogOptions options,
+                      std::unique_ptr<nats::Stream> stream,
+                      std::unique_ptr<nats::Stream> blob_stream)
+    : connection_(connection),
+      options_(std::move(options)),
+      stream_(std::move(stream)),
+      blobs_(connection, std::move(blob_stream),
+             {options_.fleet + ".blob", options_.blob_grace, options_.warn}),
+      checked_generation_(connection.generation()) {}
+
+NatsLog::Parts::~Parts() { stop_following(); }
+
+std::string NatsLog::Parts::place() const { return "the log of fleet '" + options_.fleet + "'"; }
+
+std::string NatsLog::Parts::scene_subject(std::string_view scene) const {
+  return options_.fleet + ".log.scene." + token_of(scene);
+}
+
+std::string NatsLog::Parts::scene_filter() const { return options_.fleet + ".log.scene.>"; }
+
+std::string NatsLog::Parts::note_subject(std::string_view key) const {
+  return options_.fleet + ".log.note." + token_of(key);
+}
+
+void NatsLog::Parts::warn(const std::string& sentence) const {
+  if (options_.warn) options_.warn(sentence);
+}
+
+nats::StreamResult<std::uint64_t> NatsLog::Parts::read_chains(const std::string& filter,
+                                                              std::uint64_t from, Chains& chains,
+                                                              PatienceEnd end) {
+  for (;;) {
+    chains.clear();
+    std::string fault;
+    const auto take = [&](const nats::StoredMessage& stored) {
+      const std::size_t dot = stored.subject.rfind('.');
+      const auto scene = text_from_token(std::string_view(stored.subject).substr(dot + 1));
+      auto message = log_message_from(std::as_bytes(std::span(stored.payload)));
+      if (scene && message) {
+        chains[*scene].take(*std::move(message), stored.sequence);
+      } else if (fault.empty()) {
+        fault = scene ? "scene '" + *scene + "', message " + std::to_string(stored.sequence) +
+                            ": " + message.error
+                      : "message " + std::to_string(stored.sequence) + " has no scene";
+      }
+    };
+    const auto read = stream_->read(from, kEndOfLog, filter, take, rest_of(end));
+    if (read && !fault.empty()) return {StreamFault::kRefused, fault};
+    if (read.fault != StreamFault::kUnreachable || !pause_before_retry(end)) return read;
+  }
+}
+
+nats::StreamResult<SceneChain> NatsLog::Parts::read_scene(const std::string& scene,
+                                                          PatienceEnd end) {
+  for (int reads = 1;; ++reads) {
+    Chains chains;
+    const auto read = read_chains(scene_subject(scene), 1, chains, end);
+    if (!read) return {read.fault, read.error};
+    SceneChain& chain = chains[scene];
+    if (chain.is_whole() || reads == kMostReads || !pause_before_retry(end)) {
+      return std::move(chain);
+    }
+  }
+}
+
+nats::StreamResult<std::uint64_t> NatsLog::Parts::read_all(Chains& chains, PatienceEnd end) {
+  const auto read = read_chains(scene_filter(), 1, chains, end);
+  if (!read) return read;
+  for (auto& [scene, chain] : chains) {
+    if (chain.is_whole()) continue;
+    // A summary may have come while its entries were read, so that the last ones were gone.
+    auto again = read_scene(scene, end);
+    if (!again) return {again.fault, again.error};
+    chain = *std::move(again);
+  }
+  return read;
+}
+
+bool NatsLog::Parts::adopt(const std::string& scene, const MessageId& newest, SceneChain chain) {
+  const std::lock_guard lock(mutex_);
+  SceneChain& known = chains_[scene];
+  if (known.newest_id() != newest) return false;
+  chain.mark_as_taken_in(known);
+  known = std::move(chain);
+  return true;
+}
+
+base::Result<std::vector<LoggedScene>> NatsLog::Parts::scenes() {
+  const PatienceEnd end = patience_end();
+  const std::string unchecked = check_tail(end);
+  if (!unchecked.empty()) return base::Failure{place() + " cannot be read: " + unchecked};
+  Chains known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = chains_;
+  }
+  Chains chains;
+  const auto read = read_all(chains, end);
+  if (!read && read.fault == StreamFault::kRefused) return damaged(read.error);
+  if (!read) return base::Failure{place() + " cannot be read: " + read.error};
+  std::vector<LoggedScene> list;
+  for (auto& [name, chain] : chains) {
+    if (!chain.is_whole()) return damaged("scene '" + name + "' " + chain.fault());
+    if (chain.newest_revision() > 0) {
+      base::Result<LoggedScene> scene = logged(name, chain, end);
+      if (!scene) return base::Failure{std::move(scene.error)};
+      list.push_back(*std::move(scene));
+    }
+    if (!follower_.joinable()) chain.mark_all_as_taken();
+    adopt(name, known[name].newest_id(), std::move(chain));
+  }
+  if (!follower_.joinable()) {
+    followed_ = *read;
+    has_read_all_ = true;
+  }
+  return list;
+}
+
+base::Failure NatsLog::Parts::damaged(const std::string& what) const {
+  return {place() + " is damaged: " + what + ". Restore backups of the streams " + options_.fleet +
+          "_LOG and " + options_.fleet + "_BLOBS in NATS, or delete both to begin anew"};
+}
+
+base::Result<Bytes> NatsLog::Parts::record_of(const LogMessage& message, PatienceEnd end) {
+  if (!message.blob) return message.record;
+  return blobs_.read(*message.blob, end);
+}
+
+base::Result<LoggedScene> NatsLog::Parts::logged(const std::string& name, const SceneChain& chain,
+                                                 PatienceEnd end) {
+  LoggedScene scene{name, 0, {}, {}};
+  for (const ChainLink& link : chain.links()) {
+    const LogMessage& message = link.message;
+    if (message.kind == LogMessage::Kind::kRemoval) continue;
+    base::Result<Bytes> record = record_of(message, end);
+    if (!record) {
+      return damaged("scene '" + name + "', message " + std::to_string(link.sequence) + ": " +
+                     record.error);
+    }
+    if (message.kind == LogMessage::Kind::kSummary) {
+      scene.summary_revision = message.revision;
+      scene.summary = *std::move(record);
+    } else {
+      scene.entries.push_back(
+          {message.before, message.revision, *std::move(record), message.needs});
+    }
+  }
+  return scene;
+}
+
+std::string NatsLog::Parts::note(std::string_view key) {
+  if (key.size() > kMostNameBytes) return "";
+  const PatienceEnd end = patience_end();
+  for (;;) {
+    const auto found = stream_->last(note_subject(key), rest_of(end));
+    if (found && *found) return {(*found)->payload.begin(), (*found)->payload.end()};
+    if (found || found.fault != StreamFault::kUnreachable || !pause_before_retry(end)) return "";
+  }
+}
+
+AppendResult NatsLog::Parts::set_note(std::string_view key, std::string_view text) {
+  if (key.size() > kMostNameBytes) {
+    return {AppendFault::kBroken, place() + " takes no note with a key of that size"};
+  }
+  const PatienceEnd end = patience_end();
+  for (;;) {
+    const auto done =
+        stream_->publish(note_subject(key), payload_of_text(text), std::nullopt, rest_of(end));
+    if (done) {
+      // The notes before it are of no use; they are purged with the next one if this fails.
+      static_cast<void>(stream_->purge(note_subject(key), *done, rest_of(end)));
+      return {};
+    }
+    if (done.fault != StreamFault::kUnreachable || !pause_before_retry(end)) {
+      return append_fault(done.fault, done.error);
+    }
+  }
+}
+
+bool NatsLog::Parts::is_needed(const BlobId& id) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, chain] : chains_) {
+    for (const ChainLink& link : chain.links()) {
+      if (link.message.blob == id || std::ranges::count(link.message.needs, id) > 0) return true;
+    }
+  }
+  return false;
+}
+
+NatsBlobs::HoldResult NatsLog::Parts::hold(const BlobId& id, PatienceEnd end) {
+  return blobs_.hold(
+      id, [this](const BlobId& each) { return is_needed(each); }, end);
+}
+
+AppendResult NatsLog::Parts::drop_unused_blobs() {
+  const auto now = std::chrono::steady_clock::now();
+  {
+    const std::lock_guard lock(mutex_);
+    const auto pause = std::min<std::chrono::milliseconds>(kDropPause, options_.blob_grace);
+    if (last_drop_ && now < *last_drop_ + pause) return {};
+    last_drop_ = now;
+  }
+  const PatienceEnd end = patience_end();
+  // What other processes have just appended may need blobs, too.
+  Chains chains;
+  const auto read = read_all(chains, end);
+  if (!read) return append_fault(read.fault, read.error);
+  std::set<BlobId> roots;
+  for (const auto& [name, chain] : chains) {
+    if (!chain.is_whole()) {
+      return {AppendFault::kBroken, damaged("scene '" + name + "' " + chain.fault()).error};
+    }
+    for (const ChainLink& link : chain.links()) {
+      roots.insert(link.message.needs.begin(), link.message.needs.end());
+      if (link.message.blob) roots.insert(*link.message.blob);
+    }
+  }
+  return blobs_.drop_unused(roots, end);
+}
+
+std::uint64_t NatsLog::Parts::highest_removed() const {
+  const std::lock_guard lock(mutex_);
+  std::uint64_t highest = 0;
+  for (const auto& [name, chain] : chains_) highest = std::max(highest, chain.removed());
+  return highest;
+}
+
+std::uint64_t NatsLog::Parts::position_of(std::string_view scene) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = chains_.find(scene);
+  return found == chains_.end() ? 0 : found->second.last_sequence();
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/log/nats/scene_chain.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace camway::scene {
+namespace {
+
+using Kind = LogMessage::Kind;
+
+/// The revision of a scene after a message.
+std::uint64_t revision_after(const LogMessage& message) {
+  return message.kind == Kind::kRemoval ? 0 : message.revision;
+}
+
+}  // namespace
+
+void SceneChain::take(LogMessage message, std::uint64_t sequence) {
+  last_sequence_ = std::max(last_sequence_, sequence);
+  removed_ = std::max(removed_, message.removed);
+  if (message.kind == Kind::kRemoval) removed_ = std::max(removed_, message.revision);
+  if (ChainLink* const known = find(message.id)) {
+    known->sequence = sequence;
+    return;
+  }
+  if (message.kind != Kind::kEntry) {
+    links_.clear();
+    is_whole_ = true;
+  } else if (message.before != newest_revision()) {
+    is_whole_ = false;
+  }
+  links_.push_back({std::move(message), sequence, false});
+}
+
+bool SceneChain::fits(const LogMessage& message) const {
+  return message.kind != Kind::kEntry ||
+         (is_whole_ && (message.before == newest_revision() || find(message.id) != nullptr));
+}
+
+std::string SceneChain::fault() const {
+  if (is_whole_) return "";
+  std::uint64_t revision = 0;
+  for (const ChainLink& link : links_) {
+    if (link.message.kind == Kind::kEntry && link.message.before != revision) {
+      return "lost its changes after revision " + std::to_string(revision) + " until revision " +
+             std::to_string(link.message.before) + ", before message " +
+             std::to_string(link.sequence);
+    }
+    revision = revision_after(link.message);
+  }
+  return "lost changes";
+}
+
+std::uint64_t SceneChain::newest_revision() const {
+  return links_.empty() ? 0 : revision_after(links_.back().message);
+}
+
+bool SceneChain::contains(const MessageId& id) const {
+  if (find(id) != nullptr) return true;
+  return !links_.empty() && std::ranges::count(links_.front().message.replaces, id) > 0;
+}
+
+ChainLink* SceneChain::find(const MessageId& id) {
+  return const_cast<ChainLink*>(std::as_const(*this).find(id));
+}
+
+const ChainLink* SceneChain::find(const MessageId& id) const {
+  const auto found =
+      std::ranges::find_if(links_, [&](const ChainLink& link) { return link.message.id == id; });
+  return found == links_.end() ? nullptr : &*found;
+}
+
+std::vector<MessageId> SceneChain::ids() const {
+  std::vector<MessageId> ids;
+  if (!links_.empty()) ids = links_.front().message.replaces;
+  for (const ChainLink& link : links_) ids.push_back(link.message.id);
+  const std::size_t too_many = ids.size() - std::min(ids.size(), kMostReplaced);
+  ids.erase(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(too_many));
+  return ids;
+}
+
+void SceneChain::mark_as_taken_in(const SceneChain& other) {
+  std::set<MessageId> taken;
+  for (const ChainLink& link : other.links_) {
+    if (link.is_taken) taken.insert(link.message.id);
+  }
+  for (ChainLink& link : links_) link.is_taken = link.is_taken || taken.contains(link.message.id);
+}
+
+void SceneChain::mark_all_as_taken() {
+  for (ChainLink& link : links_) link.is_taken = true;
+}
+
+ChainRepair repair_of(const SceneChain& known, const SceneChain& found) {
+  using Repair = ChainRepair::Kind;
+  const std::vector<ChainLink>& links = known.links();
+  if (links.empty() || !known.is_whole()) return {};
+  if (found.is_whole() && found.contains(links.back().message.id)) return {};
+  if (found.links().empty()) return {Repair::kAppend, 0};
+  if (!found.is_whole()) return {Repair::kRewrite, 0};
+  const MessageId& head = found.links().back().message.id;
+  const auto at =
+      std::ranges::find_if(links, [&](const ChainLink& link) { return link.message.id == head; });
+  if (at != links.end()) {
+    return {Repair::kAppend, static_cast<std::size_t>(at - links.begin()) + 1};
+  }
+  // The server has lost all that is known, back to what a summary or removal has replaced.
+  if (known.contains(head)) return {Repair::kAppend, 0};
+  return {Repair::kDiverged, 0};
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "daemon/scene/log/nats/log_message.h"
+
+namespace camway::scene {
+
+/// A message of a scene, and where it stands in the log.
+struct ChainLink {
+  LogMessage message;
+  std::uint64_t sequence = 0;
+  bool is_taken = false;  ///< `follow` has passed it on, or `scenes` has returned it
+};
+
+/// The messages of one scene that count: from the last summary, removal or beginning on. A value
+/// type. Not thread-safe.
+class SceneChain {
+ public:
+  /// Adds the next message of the log. Messages that a summary or removal replaces may come before
+  /// it, in part only, since the server may have purged them or lost that it did.
+  void take(LogMessage message, std::uint64_t sequence);
+
+  /// Whether the chain stays whole when this message is added.
+  [[nodiscard]] bool fits(const LogMessage& message) const;
+  /// Where a change does not follow the one before; empty if the chain is whole.
+  [[nodiscard]] std::string fault() const;
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
+  /// The newest revision; 0 if there is no scene, because there is no message or it was removed.
+  [[nodiscard]] std::uint64_t newest_revision() const;
+  /// Sequence of the last message; 0 if there is none.
+  [[nodiscard]] std::uint64_t last_sequence() const { return last_sequence_; }
+  /// Highest revision at which the scene was removed; 0: never.
+  [[nodiscard]] std::uint64_t removed() const { return removed_; }
+
+  [[nodiscard]] const std::vector<ChainLink>& links() const { return links_; }
+  [[nodiscard]] std::vector<ChainLink>& links() { return links_; }
+  /// Id of the last message that counts; zeros if there is none.
+  [[nodiscard]] MessageId newest_id() const {
+    return links_.empty() ? MessageId{} : links_.back().message.id;
+  }
+  /// Whether a message is there, or was replaced by the first one.
+  [[nodiscard]] bool contains(const MessageId& id) const;
+  [[nodiscard]] ChainLink* find(const MessageId& id);
+  [[nodiscard]] const ChainLink* find(const MessageId& id) const;
+  /// The ids of all messages, and of those that the first one has replaced, for the message that
+  /// replaces them. At most `kMostReplaced`.
+  [[nodiscard]] std::vector<MessageId> ids() const;
+  /// Marks the messages that `other` has marked, too.
+  void mark_as_taken_in(const SceneChain& other);
+  void mark_all_as_taken();
+
+ private:
+  std::vector<ChainLink> links_;
+  bool is_whole_ = true;
+  std::uint64_t last_sequence_ = 0;
+  std::uint64_t removed_ = 0;
+};
+
+/// What to do where the log of a server has something else than this process knows to be kept.
+struct ChainRepair {
+  enum class Kind : std::uint8_t {
+    kNone,     ///< all that is known is there
+    kAppend,   ///< the server lost the links from `first` on
+    kRewrite,  ///< the same, and what it has of the scene is of no use
+    kDiverged  ///< another change was made in the place of a lost one
+  };
+  Kind kind = Kind::kNone;
+  std::size_t first = 0;  ///< number of a link
+};
+ChainRepair repair_of(const SceneChain& known, const SceneChain& found);
+
+}  // namespace camway::scene
