@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "daemon/messages/plan.h"
 #include "tests/messages/plan_samples.h"
 

@@ -2,10 +2,14 @@
 #include "daemon/fleet/planner_server.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
-#include <deque>
+#include <limits>
 #include <mutex>
+#include <thread>
+
+#include <camway/plan_progress_t.hpp>
 
 #include "daemon/messages/plan.h"
 #include "tests/fleet/test_fleet.h"

@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <deque>
-#include <set>
+#include <limits>
+#include <thread>
+#include <tuple>
+#include <utility>
 
 #include "daemon/messages/plan.h"
 #include "daemon/service/heartbeat.h"
