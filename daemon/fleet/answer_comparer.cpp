@@ -48,6 +48,14 @@ const AnswerMark* AnswerMemory::find(std::int64_t job, Clock::time_point now) {
   return found == by_job_.end() ? nullptr : &found->second->mark;
 }
 
+bool AnswerMemory::forget(std::int64_t job) {
+  const auto found = by_job_.find(job);
+  if (found == by_job_.end()) return false;
+  by_age_.erase(found->second);
+  by_job_.erase(found);
+  return true;
+}
+
 void AnswerMemory::drop_oldest() {
   by_job_.erase(by_age_.front().job);
   by_age_.pop_front();

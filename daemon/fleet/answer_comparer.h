@@ -48,6 +48,9 @@ class AnswerMemory {
   /// Returns what is kept of the job; null if nothing is. Valid until the next call of `keep`.
   [[nodiscard]] const AnswerMark* find(std::int64_t job, Clock::time_point now);
 
+  /// Forgets the job. Returns false if nothing was kept of it.
+  bool forget(std::int64_t job);
+
   [[nodiscard]] std::size_t size() const { return by_age_.size(); }
 
  private:

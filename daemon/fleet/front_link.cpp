@@ -146,11 +146,17 @@ void FrontLink::take_late(std::int64_t job, const std::string& planner,
     warn("an answer of a planner cannot be read", {{"planner", planner}, {"reason", answer.error}});
     return;
   }
-  compare(*given, mark_of(*answer, planner));
+  const AnswerMark other = mark_of(*answer, planner);
+  if (!differ(*given, other)) return;
+  {
+    // One alarm for a request, though an answer may come twice.
+    const std::lock_guard lock(mutex_);
+    if (!memory_.forget(job)) return;
+  }
+  raise_alarm(*given, other);
 }
 
-void FrontLink::compare(const AnswerMark& given, const AnswerMark& other) {
-  if (!differ(given, other)) return;
+void FrontLink::raise_alarm(const AnswerMark& given, const AnswerMark& other) {
   const std::lock_guard lock(log_mutex_);
   ++counts_.differing_answers;
   alarms_.write("two planners answered a request differently",

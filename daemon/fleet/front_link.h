@@ -81,9 +81,6 @@ class FrontLink {
   bool send(const std::string& planner, const fleet_job_t& head,
             std::span<const std::uint8_t> payload);
 
-  /// Compares an answer with the one that was given before, and raises the alarm if they differ.
-  void compare(const AnswerMark& given, const AnswerMark& other);
-
   void count_sent_again();
   void count_planned_here();
   [[nodiscard]] FrontCounts counts() const;
@@ -94,6 +91,7 @@ class FrontLink {
   void report_suppressed();
 
  private:
+  void raise_alarm(const AnswerMark& given, const AnswerMark& other);
   void on_answer(std::span<const std::uint8_t> bytes);
   void on_status(std::span<const std::uint8_t> bytes);
   void take_late(std::int64_t job, const std::string& planner,

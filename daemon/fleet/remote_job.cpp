@@ -12,6 +12,7 @@
 #include "daemon/messages/progress.h"
 #include "daemon/planning/watched_path.h"
 #include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/path_fault.h"
 
 namespace camway::fleet {
 namespace {
@@ -71,9 +72,9 @@ Answered RemoteJob::run() {
     if (deadline_.stopped()) return cancelled();
     if (std::optional<Answered> answered = take_messages()) return *std::move(answered);
     if (is_time_up()) {
-      return plain(
-          plan_response_t::STATUS_TIMEOUT,
-          fmt::format("no planner answered within {:g} s, when the deadline passed", deadline_s_));
+      return plain(plan_response_t::STATUS_TIMEOUT,
+                   fmt::format("no planner answered within {:.4g} s, when the deadline passed",
+                               deadline_s_));
     }
     if (planner_) {
       look_after_planner();
@@ -143,6 +144,8 @@ base::Result<Answered> RemoteJob::checked(const JobEvent& event) const {
   if (response->scene_revision == revision && response->scene_digest != snapshot_->digest) {
     return base::Failure{"its scene has another digest"};
   }
+  std::string path_fault = wire::path_fault(response->segments);
+  if (!path_fault.empty()) return base::Failure{std::move(path_fault)};
   Answered answered{*std::move(response)};
   if (request_.watch_lease_s > 0.0) {
     std::string fault = add_paths(request_, front_.options_.deadline, answered);
@@ -209,11 +212,16 @@ std::optional<Answered> RemoteJob::plan_here() {
 void RemoteJob::ask(const PlannerBoard::Planner& planner) {
   planner_ = planner;
   repeats_ = 0;
-  if (has_lost_one_) link_.count_sent_again();
+  if (has_lost_one_) count_sent_again();
   asked_.insert(planner.id);
   if (send()) return;
   avoided_.insert(planner);
   lose_planner("the bus did not take the job");
+}
+
+void RemoteJob::count_sent_again() {
+  if (!is_counted_) link_.count_sent_again();
+  is_counted_ = true;
 }
 
 bool RemoteJob::send() {
@@ -241,7 +249,7 @@ void RemoteJob::look_after_planner() {
     return;
   }
   ++repeats_;
-  link_.count_sent_again();
+  count_sent_again();
   if (!send()) lose_planner("the bus did not take the job");
 }
 

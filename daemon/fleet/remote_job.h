@@ -42,6 +42,7 @@ class RemoteJob {
   std::optional<service::Answered> plan_here();
   void ask(const PlannerBoard::Planner& planner);
   bool send();
+  void count_sent_again();
   /// Looks whether the planner that has the job still works at it.
   void look_after_planner();
   void lose_planner(std::string_view why);
@@ -74,6 +75,7 @@ class RemoteJob {
   Clock::time_point heard_;  ///< last word of the planner about the job
   int repeats_ = 0;          ///< how often the job was sent again since
   bool has_lost_one_ = false;
+  bool is_counted_ = false;         ///< whether it was counted as sent again
   std::optional<AnswerMark> mark_;  ///< of the answer, if another one may follow
 };
 

@@ -53,6 +53,8 @@ inline std::string_view as_text(std::span<const std::uint8_t> bytes) {
 // The targets, in the order of their source files.
 extern const FuzzTarget kWireTarget;
 extern const FuzzTarget kEnvelopeTarget;
+extern const FuzzTarget kFleetTarget;
+extern const FuzzTarget kFleetPartsTarget;
 extern const FuzzTarget kMeshTarget;
 extern const FuzzTarget kRequestJsonTarget;
 extern const FuzzTarget kResponseJsonTarget;

@@ -105,7 +105,7 @@ endfunction()
 
 # The folders of tests whose code starts threads. The thread sanitizer can find nothing in the others, so
 # they are not built with it.
-set(threaded_tests base client integration nats process scene service tools wire)
+set(threaded_tests base client fleet integration nats process scene service tools wire)
 
 # camway_test(NAME [NETWORK] [QUICK] [COMPUTING] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest
 # program per folder of tests/, whose name is the label of its tests (`ctest -L service`). COMPUTING is for
