@@ -23,7 +23,7 @@
 namespace camway::process {
 namespace {
 
-constexpr int kExitFleet = 1;
+constexpr int kExitNoFleet = 1;
 
 /// Lets the main thread wait for the stop of the process. Thread-safe.
 class StopWait {
@@ -81,11 +81,11 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
   block_reload_signal();
   block_stop_signals();
   const std::unique_ptr<FleetMember> member = FleetMember::open_or_log(options, log);
-  if (!member) return kExitFleet;
+  if (!member) return kExitNoFleet;
   scene::SceneStore scenes(options.store);
   if (const std::string fault = member->state().load_into(scenes, *log); !fault.empty()) {
     log->error("the scenes of the fleet cannot be read", {{"reason", fault}});
-    return kExitFleet;
+    return kExitNoFleet;
   }
   service::LocalAnswerer answerer(
       [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
@@ -97,7 +97,7 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
       [&position] { return static_cast<std::int64_t>(position.load()); }, log);
   if (!server) {
     log->error("no jobs can be taken", {{"reason", server.error}});
-    return kExitFleet;
+    return kExitNoFleet;
   }
   const auto follower = member->follow(scenes, [&](std::uint64_t followed) {
     position.store(followed);

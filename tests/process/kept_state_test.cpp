@@ -37,7 +37,7 @@ scene::SceneChange crate() {
 /// A daemon's scenes, as its main function puts them together.
 struct Started {
   Started(const std::string& folder, const CapturedLog& log)
-      : state(*KeptState::open({.folder = folder})), store({}, &state->journal()) {
+      : state(*KeptState::open({.folder = folder})), store({}, &state->scenes()) {
     EXPECT_EQ(state->load_into(store, *log.log()), "");
     configured.emplace(store, log.log(), std::nullopt, &state->log());
   }

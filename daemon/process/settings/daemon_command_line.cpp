@@ -204,11 +204,11 @@ std::string open_roots(const std::string& folders, service::SceneRoots& roots) {
 std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
+  const std::string fault_of_scenes = add_scenes(raw.scenes, options.scenes);
   std::vector<std::string> faults = contradictions(options);
   const auto add = [&faults](std::string fault) {
     if (!fault.empty()) faults.push_back(std::move(fault));
   };
-  const std::string fault_of_scenes = add_scenes(raw.scenes, options.scenes);
   add(fault_of_scenes);
   if (fault_of_scenes.empty() && options.scenes.empty() && options.scene_roots.empty() &&
       options.state.folder.empty() && options.fleet.role == FleetRole::kAlone) {

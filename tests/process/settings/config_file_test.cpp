@@ -116,7 +116,7 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\noccupancy_resolution_m = 1e-10\n",
        ":4: scene.occupancy_resolution_m: must be from 1e-9"},
       {"\nqueue = 1\n", ":2: 'queue' must be a table"},
-      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, lcm, "},
+      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, fleet, lcm, "},
       {"[queue]\nlenght = 5\n",
        ":2: 'queue.lenght' is no setting; [queue] has answer_bytes, answer_pages, answers, "
        "answers_of_a_client, malformed_answers_per_s, newcomers_count_as, refusals, "
