@@ -91,7 +91,7 @@ NatsCluster::NatsCluster() {
   std::string routes;
   for (int i = 0; i < 3; ++i) {
     ports.push_back(free_port());
-    routes += " \"nats://127.0.0.1:" + std::to_string(ports.back()) + "\"";
+    routes += std::string(routes.empty() ? "" : ", ") + "\"nats://127.0.0.1:" + std::to_string(ports.back()) + "\"";
   }
   for (const int port : ports) {
     const std::string number = std::to_string(port);
