@@ -20,6 +20,8 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kDuplicates_ns = kNanosecondsPerSecond;
 
 constexpr milliseconds kEnsurePause{100};
+/// A cluster without a leader does not answer.
+constexpr milliseconds kEnsureWait{1000};
 
 json config_of(const StreamConfig& config) {
   json value{{"name", config.name},
@@ -199,14 +201,22 @@ base::Result<std::unique_ptr<Stream>> Stream::ensure(Connection& connection,
                                                      const StreamConfig& config, Wait wait) {
   const auto end = std::chrono::steady_clock::now() + wait;
   for (;;) {
-    const Ensured tried = ensure_once(connection, config, wait);
-    if (tried.error.empty()) return std::unique_ptr<Stream>(new Stream(connection, config.name));
+    const Ensured tried = ensure_once(connection, config, std::min(wait, kEnsureWait));
+    if (tried.error.empty()) return std::unique_ptr<Stream>(new Stream(connection, config));
     // The servers of a cluster that has just started have no leader yet.
     if (!tried.may_pass || std::chrono::steady_clock::now() + kEnsurePause >= end) {
       return base::Failure{tried.error};
     }
     std::this_thread::sleep_for(kEnsurePause);
   }
+}
+
+std::string Stream::ensure_again(Wait wait) {
+  const auto info = ask_api(connection_, "STREAM.INFO." + name_, nullptr, wait);
+  if (!info) return named(name_, info.error);
+  // Another process may have changed its limits since.
+  if (info->error_code == 0) return "";
+  return ensure_once(connection_, config_, wait).error;
 }
 
 StreamResult<std::uint64_t> Stream::publish(const std::string& subject,
@@ -219,7 +229,10 @@ StreamResult<std::uint64_t> Stream::publish(const std::string& subject,
   }
   const NatsOwned<natsMsg> message(made);
   natsStatus status = natsMsgHeader_Set(made, "Nats-Expected-Stream", name_.c_str());
-  if (status == NATS_OK && expected) {
+  // Clusters of NATS 2.9 compare 0 when the message is stored, each server for itself, after which
+  // they may differ (nats-server issue 5644); other numbers are compared before.
+  const bool is_sent = expected && (*expected > 0 || config_.replicas == 1);
+  if (status == NATS_OK && is_sent) {
     status = natsMsgHeader_Set(made, "Nats-Expected-Last-Subject-Sequence",
                                std::to_string(*expected).c_str());
   }

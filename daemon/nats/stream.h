@@ -78,8 +78,12 @@ class Stream {
   static base::Result<std::unique_ptr<Stream>> ensure(Connection& connection,
                                                       const StreamConfig& config, Wait wait);
 
+  /// Makes the stream again if the server has lost it. Returns why that failed; empty otherwise.
+  std::string ensure_again(Wait wait);
+
   /// Appends a message, and returns its sequence. `expected`: the sequence of the last message of
-  /// the subject, 0 for none; without it, nothing is expected.
+  /// the subject, 0 for none; without it, nothing is expected. With replicas, a message may be
+  /// appended although another one came sooner: if 0 is expected, or if both came at once.
   StreamResult<std::uint64_t> publish(const std::string& subject,
                                       std::span<const std::uint8_t> payload,
                                       std::optional<std::uint64_t> expected, Wait wait);
@@ -106,11 +110,12 @@ class Stream {
   StreamResult<std::map<std::string, std::uint64_t>> subjects(const std::string& filter, Wait wait);
 
  private:
-  Stream(Connection& connection, std::string name)
-      : connection_(connection), name_(std::move(name)) {}
+  Stream(Connection& connection, StreamConfig config)
+      : connection_(connection), config_(std::move(config)), name_(config_.name) {}
 
   Connection& connection_;
-  std::string name_;
+  const StreamConfig config_;
+  const std::string& name_;
 };
 
 }  // namespace camway::nats

@@ -91,12 +91,14 @@ NatsCluster::NatsCluster() {
   std::string routes;
   for (int i = 0; i < 3; ++i) {
     ports.push_back(free_port());
-    routes += " \"nats://127.0.0.1:" + std::to_string(ports.back()) + "\"";
+    routes += std::string(routes.empty() ? "" : ", ") +
+              "\"nats://127.0.0.1:" + std::to_string(ports.back()) + "\"";
   }
   for (const int port : ports) {
     const std::string number = std::to_string(port);
+    names_.push_back("s" + number);
     servers_.push_back(std::make_unique<NatsServer>(
-        std::string(NatsServer::kJetStream) + "server_name: \"s" + number +
+        std::string(NatsServer::kJetStream) + "server_name: \"" + names_.back() +
         "\"\ncluster { name: \"test\", listen: \"127.0.0.1:" + number + "\", routes: [" + routes +
         " ] }\n"));
   }
@@ -108,11 +110,11 @@ std::vector<std::string> NatsCluster::urls() const {
   return urls;
 }
 
-NatsServer& NatsCluster::server(const std::string& url) {
-  for (const auto& server : servers_) {
-    if (server->url() == url) return *server;
+NatsServer& NatsCluster::server(const std::string& name) {
+  for (std::size_t i = 0; i < servers_.size(); ++i) {
+    if (names_[i] == name) return *servers_[i];
   }
-  throw std::runtime_error("no server at " + url);
+  throw std::runtime_error("no server has the name " + name);
 }
 
 TestCertificates::TestCertificates() {

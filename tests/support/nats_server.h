@@ -59,11 +59,10 @@ class NatsCluster {
   NatsCluster();
 
   [[nodiscard]] std::vector<std::string> urls() const;
-  /// The server that a client is connected to.
-  NatsServer& server(const std::string& url);
-  std::vector<std::unique_ptr<NatsServer>>& servers() { return servers_; }
+  NatsServer& server(const std::string& name);
 
  private:
+  std::vector<std::string> names_;
   std::vector<std::unique_ptr<NatsServer>> servers_;
 };
 

@@ -57,6 +57,7 @@ Bytes get_bytes(ByteReader& reader) {
 /// Returns whether the members of a message fit together.
 bool is_sound(const LogMessage& message) {
   const bool is_entry = message.kind == LogMessage::Kind::kEntry;
+  if (message.id == MessageId{} || message.id == message.after) return false;
   if (message.revision == 0 || message.replaces.size() > kMostReplaced) return false;
   if (is_entry ? message.before >= message.revision : message.before != 0) return false;
   return !message.blob || message.record.empty();
@@ -107,6 +108,7 @@ Bytes bytes_of(const LogMessage& message) {
   writer.put(kMessageLayout);
   writer.put(static_cast<std::uint8_t>(message.kind));
   writer.put_array(std::span<const std::byte>(message.id));
+  writer.put_array(std::span<const std::byte>(message.after));
   writer.put(message.before);
   writer.put(message.revision);
   writer.put(message.removed);
@@ -129,6 +131,7 @@ base::Result<LogMessage> log_message_from(std::span<const std::byte> bytes) {
   if (kind > static_cast<std::uint8_t>(LogMessage::Kind::kRemoval)) reader.fail();
   message.kind = static_cast<LogMessage::Kind>(kind);
   message.id = get_id<MessageId>(reader);
+  message.after = get_id<MessageId>(reader);
   message.before = reader.get<std::uint64_t>();
   message.revision = reader.get<std::uint64_t>();
   message.removed = reader.get<std::uint64_t>();

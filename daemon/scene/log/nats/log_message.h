@@ -29,6 +29,7 @@ struct LogMessage {
   };
   Kind kind = Kind::kEntry;
   MessageId id{};
+  MessageId after{};                ///< the message of the scene that it follows; zeros: none
   std::uint64_t before = 0;         ///< as in `LogEntry`; of an entry only
   std::uint64_t revision = 0;       ///< that is made, summarised or removed
   std::uint64_t removed = 0;        ///< highest revision at which this scene was removed; 0: never

@@ -45,7 +45,8 @@ NatsLog::Parts::Head NatsLog::Parts::head_of(std::string_view scene, const Messa
   const auto found = chains_.find(scene);
   if (found == chains_.end()) return {};
   const SceneChain& chain = found->second;
-  return {chain.newest_revision(), chain.last_sequence(), chain.removed(), chain.contains(id)};
+  return {chain.newest_revision(), chain.last_sequence(), chain.removed(), chain.newest_id(),
+          chain.contains(id)};
 }
 
 std::vector<MessageId> NatsLog::Parts::known_ids(std::string_view scene) const {
@@ -112,18 +113,20 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
+    message.after = head.newest;
     message.removed = head.removed;
     if (message.kind != Kind::kEntry) message.replaces = known_ids(scene);
     const Bytes bytes = bytes_of(message);
     const auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes),
                                        head.sequence, rest_of(end));
-    if (done) {
+    if (done && options_.replicas == 1) {
       const std::lock_guard lock(mutex_);
       SceneChain& chain = chains_[std::string(scene)];
       if (*done > chain.last_sequence()) chain.take(std::move(message), *done);
       return {};
     }
-    if (done.fault == StreamFault::kConflict) {
+    // A cluster may have accepted two at once, of which the first one counts: see which that is.
+    if (done || done.fault == StreamFault::kConflict) {
       const std::string fault = refresh(std::string(scene), end);
       if (!fault.empty()) return give_up(fault);
       continue;

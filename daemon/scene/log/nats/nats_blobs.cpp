@@ -305,14 +305,15 @@ AppendResult NatsBlobs::drop(const BlobId& id, std::uint32_t last_part, bool is_
   const auto [mark, is_new] = marks_.try_emplace(id, Mark{sequence, Clock::now()});
   if (mark->second.sequence != sequence) mark->second = {sequence, Clock::now()};
   if (Clock::now() < mark->second.since + options_.grace) return {};
-  if (is_whole) {
-    // By its sequence: if another process has just written part 0 again, it is another message.
-    const auto removed = stream_->remove(sequence, rest_of(end));
-    if (!removed) return append_fault(removed.fault, removed.error);
-    if (!*removed) return {};
-  }
   forget(id);
   marks_.erase(mark);
+  if (is_whole) {
+    // By its sequence: if another process has just written part 0 again, it is another message. The
+    // other parts are dropped later, as those of a blob without part 0: a cluster may accept a part
+    // 0 that another process has sent before it knows that this one is gone.
+    const auto removed = stream_->remove(sequence, rest_of(end));
+    return removed ? AppendResult{} : append_fault(removed.fault, removed.error);
+  }
   // Parts that another process writes meanwhile come later.
   const auto purged =
       stream_->purge(options_.prefix + "." + token_of(id) + ".>", sequence + 1, rest_of(end));
@@ -320,6 +321,8 @@ AppendResult NatsBlobs::drop(const BlobId& id, std::uint32_t last_part, bool is_
 }
 
 std::string NatsBlobs::repair(PatienceEnd end) {
+  std::string fault = stream_->ensure_again(rest_of(end));
+  if (!fault.empty()) return fault;
   std::vector<Recent> recent;
   {
     const std::lock_guard lock(mutex_);
@@ -360,9 +363,10 @@ bool NatsBlobs::has_parts(const Recent& recent, PatienceEnd end) {
   const auto subjects =
       stream_->subjects(options_.prefix + "." + token_of(recent.id) + ".>", rest_of(end));
   if (!subjects) return false;
-  const auto parts = std::ranges::count_if(
-      *subjects, [](const auto& each) { return !each.first.ends_with(".0"); });
-  return parts == std::ptrdiff_t{head->parts};
+  for (std::uint32_t part = 1; part <= head->parts; ++part) {
+    if (!subjects->contains(subject(recent.id, part))) return false;
+  }
+  return true;
 }
 
 }  // namespace camway::scene

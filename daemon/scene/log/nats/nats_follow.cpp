@@ -131,7 +131,7 @@ bool NatsLog::Parts::pass_on(const std::string& scene, LogMessage message, std::
     const std::lock_guard lock(mutex_);
     SceneChain& chain = chains_[scene];
     if (sequence > chain.last_sequence()) {
-      if (!chain.fits(message)) {
+      if (chain.fit_of(message) == ChainFit::kGap) {
         // A summary or removal follows, which has replaced the change that is missing; else the
         // server has lost something, or the log is damaged.
         gaps_.insert(scene);
@@ -140,7 +140,8 @@ bool NatsLog::Parts::pass_on(const std::string& scene, LogMessage message, std::
       if (message.kind != LogMessage::Kind::kEntry) gaps_.erase(scene);
       chain.take(message, sequence);
     }
-    // A change that a summary or removal has replaced is not there, and comes with that.
+    // A message that does not count is not there; one that a summary or removal has replaced comes
+    // with that.
     const ChainLink* const link = chain.find(message.id);
     if (link == nullptr || link->is_taken || !chain.is_whole()) return true;
   }

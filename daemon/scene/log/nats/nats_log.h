@@ -15,7 +15,8 @@ namespace camway::scene {
 
 struct NatsLogOptions {
   std::string fleet = "camway";  ///< begins the names of streams and subjects [Limit: a plain name]
-  int replicas = 1;              ///< servers of a cluster that keep each message [Limit: 1, 3 or 5]
+  /// Servers of a cluster that keep each message; the same in all processes. [Limit: 1, 3 or 5]
+  int replicas = 1;
   std::uint64_t most_bytes = 0;  ///< of each of the two streams; 0: as the server allows
   /// How long an append waits for the server, through lost connections, before it gives up.
   std::chrono::milliseconds patience{5'000};

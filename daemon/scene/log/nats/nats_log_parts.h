@@ -94,6 +94,7 @@ class NatsLog::Parts {
     std::uint64_t revision = 0;
     std::uint64_t sequence = 0;
     std::uint64_t removed = 0;
+    MessageId newest{};
     bool has_it = false;  ///< the message is there already
   };
   Head head_of(std::string_view scene, const MessageId& id) const;

@@ -48,7 +48,8 @@ std::string NatsLog::Parts::check_now(PatienceEnd end) {
   // Set anew if this fails, or by anyone who finds a reason meanwhile.
   must_check_ = false;
   const std::uint64_t generation = connection_.generation();
-  std::string fault = blobs_.repair(end);
+  std::string fault = stream_->ensure_again(rest_of(end));
+  if (fault.empty()) fault = blobs_.repair(end);
   Chains known;
   {
     const std::lock_guard lock(mutex_);
@@ -129,6 +130,8 @@ std::string NatsLog::Parts::append_again(const std::string& scene, const ChainRe
     }
     found.take(links[i].message, *done);
   }
+  // A cluster may have accepted what another process has appended at once.
+  is_done = options_.replicas == 1;
   warn("NATS had lost " + changes_words(links.size() - repair.first) + " of scene '" + scene +
        "', up to revision " + std::to_string(known.newest_revision()) + ", kept again now");
   return "";

@@ -18,36 +18,47 @@ std::uint64_t revision_after(const LogMessage& message) {
 
 void SceneChain::take(LogMessage message, std::uint64_t sequence) {
   last_sequence_ = std::max(last_sequence_, sequence);
-  removed_ = std::max(removed_, message.removed);
-  if (message.kind == Kind::kRemoval) removed_ = std::max(removed_, message.revision);
+  const ChainFit fit = fit_of(message);
+  if (fit == ChainFit::kVoid) return;
   if (ChainLink* const known = find(message.id)) {
     known->sequence = sequence;
     return;
   }
+  removed_ = std::max(removed_, message.removed);
+  if (message.kind == Kind::kRemoval) removed_ = std::max(removed_, message.revision);
   if (message.kind != Kind::kEntry) {
     links_.clear();
     is_whole_ = true;
-  } else if (message.before != newest_revision()) {
-    is_whole_ = false;
   }
+  if (fit == ChainFit::kGap) is_whole_ = false;
   links_.push_back({std::move(message), sequence, false});
 }
 
-bool SceneChain::fits(const LogMessage& message) const {
-  return message.kind != Kind::kEntry ||
-         (is_whole_ && (message.before == newest_revision() || find(message.id) != nullptr));
+ChainFit SceneChain::fit_of(const LogMessage& message) const {
+  if (find(message.id) != nullptr) return ChainFit::kFollows;
+  const bool is_entry = message.kind == Kind::kEntry;
+  if (message.after == newest_id()) {
+    return !is_entry || message.before == newest_revision() ? ChainFit::kFollows : ChainFit::kGap;
+  }
+  // The beginning has been followed if there is anything.
+  if (contains(message.after) || (message.after == MessageId{} && !links_.empty())) {
+    return ChainFit::kVoid;
+  }
+  return is_entry ? ChainFit::kGap : ChainFit::kFollows;
 }
 
 std::string SceneChain::fault() const {
   if (is_whole_) return "";
-  std::uint64_t revision = 0;
+  const LogMessage* last = nullptr;
   for (const ChainLink& link : links_) {
-    if (link.message.kind == Kind::kEntry && link.message.before != revision) {
+    const LogMessage& message = link.message;
+    const std::uint64_t revision = last == nullptr ? 0 : revision_after(*last);
+    const MessageId id = last == nullptr ? MessageId{} : last->id;
+    if (message.kind == Kind::kEntry && (message.after != id || message.before != revision)) {
       return "lost its changes after revision " + std::to_string(revision) + " until revision " +
-             std::to_string(link.message.before) + ", before message " +
-             std::to_string(link.sequence);
+             std::to_string(message.before) + ", before message " + std::to_string(link.sequence);
     }
-    revision = revision_after(link.message);
+    last = &message;
   }
   return "lost changes";
 }

@@ -18,22 +18,31 @@ struct ChainLink {
   bool is_taken = false;  ///< `follow` has passed it on, or `scenes` has returned it
 };
 
-/// The messages of one scene that count: from the last summary, removal or beginning on. A value
-/// type. Not thread-safe.
+/// How a message stands to those before it.
+enum class ChainFit : std::uint8_t {
+  kFollows,  ///< it follows the newest one, or takes the place of messages that are not there
+  kVoid,     ///< another message has followed the same one sooner, so this one does not count
+  kGap       ///< one that is not there has to come before
+};
+
+/// The messages of one scene that count: from the last summary, removal or beginning on.
+///
+/// Each message names the one that it follows; of several that follow the same one, the first in
+/// the log counts. A server alone would not accept the others, but a cluster of NATS 2.9 does now
+/// and then, if they come at once (nats-server issue 4320). A value type. Not thread-safe.
 class SceneChain {
  public:
-  /// Adds the next message of the log. Messages that a summary or removal replaces may come before
-  /// it, in part only, since the server may have purged them or lost that it did.
+  /// Adds the next message of the log, if it counts. Messages that a summary or removal replaces
+  /// may come before it, in part only, since the server may have purged them or lost that it did.
   void take(LogMessage message, std::uint64_t sequence);
+  [[nodiscard]] ChainFit fit_of(const LogMessage& message) const;
 
-  /// Whether the chain stays whole when this message is added.
-  [[nodiscard]] bool fits(const LogMessage& message) const;
   /// Where a change does not follow the one before; empty if the chain is whole.
   [[nodiscard]] std::string fault() const;
   [[nodiscard]] bool is_whole() const { return is_whole_; }
   /// The newest revision; 0 if there is no scene, because there is no message or it was removed.
   [[nodiscard]] std::uint64_t newest_revision() const;
-  /// Sequence of the last message; 0 if there is none.
+  /// Sequence of the last message, also of one that does not count; 0 if there is none.
   [[nodiscard]] std::uint64_t last_sequence() const { return last_sequence_; }
   /// Highest revision at which the scene was removed; 0: never.
   [[nodiscard]] std::uint64_t removed() const { return removed_; }

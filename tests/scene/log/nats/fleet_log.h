@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,14 +28,14 @@ class FleetLog {
     nats::ConnectOptions connect;
     connect.servers = urls;
     auto connection = nats::Connection::open(connect);
-    EXPECT_TRUE(connection) << connection.error;
+    if (!connection) throw std::runtime_error(connection.error);
     connection_ = *std::move(connection);
     options.warn = [this](const std::string& sentence) {
       const std::lock_guard lock(mutex_);
       warnings_ += sentence + "\n";
     };
     auto log = NatsLog::open(*connection_, options);
-    EXPECT_TRUE(log) << log.error;
+    if (!log) throw std::runtime_error(log.error);
     log_ = *std::move(log);
     const auto scenes = log_->scenes();
     EXPECT_TRUE(scenes) << scenes.error;
