@@ -21,6 +21,12 @@ std::int64_t first_job_number() {
 void JobInbox::put(JobEvent event) {
   {
     const std::lock_guard lock(mutex_);
+    // Of progress, the newest alone counts.
+    if (event.kind == fleet_answer_t::PROGRESS) {
+      std::erase_if(events_, [&](const JobEvent& other) {
+        return other.kind == event.kind && other.planner == event.planner;
+      });
+    }
     if (events_.size() >= kMostEvents) return;
     events_.push_back(std::move(event));
   }

@@ -85,7 +85,8 @@ class PlannerBoard {
   void wait(std::chrono::milliseconds longest);
 
   /// Sets the listener, which is called with the capacity at once and whenever it has changed, on
-  /// any thread but never on two at a time. It must not call `on_change`. Empty: none.
+  /// any thread but never on two at a time. It must not call `on_change`. Empty: none. When this
+  /// returns, the old listener is not called any more.
   void on_change(std::function<void(int capacity)> listener);
   /// Looks which planners have become silent. To be called several times a second.
   void tick();

@@ -229,6 +229,9 @@ void print_reloads(const DaemonStatus& status) {
       status.failed_reload);
 }
 
+/// A planner that was silent for longer counts as lost.
+constexpr double kPlannerSilence_s = 1.0;
+
 /// Prints the lines about the planners of a front.
 void print_fleet(const DaemonStatus& status) {
   if (status.role != "front") return;
@@ -241,9 +244,12 @@ void print_fleet(const DaemonStatus& status) {
                status.differing_answers);
   }
   for (const FleetPlanner& planner : status.planners) {
-    fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}, heard {:.1f} s ago\n", planner.id,
-               planner.running, planner.workers, planner.host, planner.pid, planner.version,
-               planner.is_behind ? ", behind the log" : "", planner.silent_s);
+    fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}, {}\n", planner.id, planner.running,
+               planner.workers, planner.host, planner.pid, planner.version,
+               planner.is_behind ? ", behind the log" : "",
+               planner.silent_s < kPlannerSilence_s
+                   ? std::string("heard just now")
+                   : fmt::format("LOST: silent for {:.0f} s", planner.silent_s));
   }
 }
 

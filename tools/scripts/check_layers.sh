@@ -57,7 +57,7 @@ LC_ALL=C exec awk '
   }
 
   function speaks_lcm(layer) {
-    return layer ~ /^(daemon\/(messages|service|process)|client|tools|tests|lcmtypes)(\/|$)/
+    return layer ~ /^(daemon\/(messages|service|fleet|process)|client|tools|tests|lcmtypes)(\/|$)/
   }
 
   function fault(why) {
@@ -78,7 +78,7 @@ LC_ALL=C exec awk '
     sub(/^[^<"]*[<"]/, "", file)
     sub(/[>"].*$/, "", file)
     if (file ~ /^(lcm\/|camway\/([a-z_]+_t\.hpp|(max_bytes|members)\.h)$)/ && !speaks_lcm(here)) {
-      fault("LCM is for daemon/messages, daemon/service, daemon/process, client and tools")
+      fault("LCM is for daemon/messages, daemon/service, daemon/fleet, daemon/process, client and tools")
     } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
       fault("assimp is for daemon/scene/import/child")
     } else if (file ~ /^octo(map|math)\// &&

@@ -98,7 +98,7 @@ struct DaemonStatus {
   std::int64_t jobs_sent_again = 0;    ///< requests that were sent to planners again
   std::int64_t differing_answers = 0;  ///< requests to which two planners gave different answers
   std::int64_t planned_here = 0;       ///< requests that a front planned by itself
-  std::vector<FleetPlanner> planners;  ///< of a front: planners that it heard lately, by id
+  std::vector<FleetPlanner> planners;  ///< of a front: heard within a minute, by id
 
   /// Number of scenes of the daemon. `scenes` may list fewer, because the list must fit one
   /// message.

@@ -168,14 +168,20 @@ void add_scenes(const status_t& status, Page& page) {
   }
 }
 
+/// A planner that was silent for longer counts as lost (`fleet::PlannerBoard::kSilence`).
+constexpr double kPlannerSilence_s = 1.0;
+
 void add_fleet(const status_t& status, Page& page) {
+  std::int64_t heard = 0;
   std::int64_t slots = 0;
   std::int64_t taken = 0;
   for (const fleet_planner_t& planner : status.planners) {
+    if (planner.silent_s >= kPlannerSilence_s) continue;
+    ++heard;
     slots += planner.workers;
     taken += std::min(planner.running, planner.workers);
   }
-  page.gauge("planners", status.planners.size(), "Planners of the fleet that are heard.");
+  page.gauge("planners", heard, "Planners of the fleet that are heard.");
   page.head("planner_slots", "gauge", "Requests that the planners can plan at the same time.");
   page.sample("planner_slots", "state=\"free\"", slots - taken);
   page.sample("planner_slots", "state=\"taken\"", taken);

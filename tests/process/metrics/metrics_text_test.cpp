@@ -112,11 +112,13 @@ TEST(MetricsText, AFrontTellsOfItsPlanners) {
   status.jobs_sent_again = 3;
   status.differing_answers = 4;
   status.planned_here = 5;
-  status.planners.resize(2);
+  status.planners.resize(3);
   status.planners[0].workers = 8;
   status.planners[0].running = 3;
   status.planners[1].workers = 1;
   status.planners[1].running = 2;  // a planner that lies
+  status.planners[2].workers = 9;
+  status.planners[2].silent_s = 1.0;  // one that is lost
   const PrometheusChecker page(metrics_text(status));
   EXPECT_EQ(page.faults(), "");
   EXPECT_EQ(page.value("camway_planners"), 2);
