@@ -36,13 +36,13 @@ ClientOptions FleetTest::of_prefix(const std::string& prefix) {
 
 void FleetTest::start_front(const std::string& prefix) {
   const std::vector<std::string> arguments{
-      CAMWAYD_BINARY, "--role",   "front", "--fleet", server_.url(),
-      "--prefix",     prefix,     "--scene", "office=" + scene_file("office")};
+      CAMWAYD_BINARY, "--role",      "front",
+      "--fleet",      server_.url(), "--prefix",
+      prefix,         "--scene",     "office=" + scene_file("office")};
   fronts_[prefix] = std::make_unique<Process>(
       arguments, file("front-" + prefix + std::to_string(++started_) + ".log"));
   Client listener(of_prefix(prefix));
-  ASSERT_TRUE(
-      eventually([&] { return !front(prefix).running() || listener.status(0.5).ok(); }));
+  ASSERT_TRUE(eventually([&] { return !front(prefix).running() || listener.status(0.5).ok(); }));
   ASSERT_TRUE(front(prefix).running()) << front(prefix).output();
 }
 

@@ -83,8 +83,8 @@ void TcpRelay::pass(int from, int to) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     for (ssize_t sent = 0; sent < got;) {
-      const ssize_t now = ::send(to, bytes.data() + sent, static_cast<std::size_t>(got - sent),
-                                 MSG_NOSIGNAL);
+      const ssize_t now =
+          ::send(to, bytes.data() + sent, static_cast<std::size_t>(got - sent), MSG_NOSIGNAL);
       if (now <= 0) break;
       sent += now;
     }
