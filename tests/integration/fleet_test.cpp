@@ -8,6 +8,8 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <random>
@@ -261,12 +263,18 @@ TEST_F(FleetFaultsTest, TwoFrontsChangeOneScene) {
   EXPECT_EQ(two.plan(walk).scene_digest, of_one.scene.digest);
 }
 
+/// Beyond two summaries, or as CAMWAY_CHANGES says.
+int many_changes() {
+  const char* const said = std::getenv("CAMWAY_CHANGES");
+  return said == nullptr ? 700 : std::atoi(said);
+}
+
 TEST_F(FleetFaultsTest, AFreshPlannerHasWhatManyChangesMade) {
   start_front();
   Client client(patient());
   ASSERT_TRUE(client.load_scene("yard", {}).ok());
   SceneAnswer put;
-  for (int i = 0; i < 700; ++i) {
+  for (int i = 0; i < many_changes(); ++i) {
     put = client.put_object("yard", "crate", SceneBox{{1, 1, 1 + 0.001 * i}}, beside(0.01 * i));
     ASSERT_TRUE(put.ok()) << put.error;
   }
@@ -342,13 +350,37 @@ TEST_F(FleetFaultsTest, AWatchedPathIsPlannedAgainByPlanners) {
   EXPECT_EQ(client.status(5.0).planned_here, 0);
 }
 
+TEST_F(FleetTest, TheExampleScriptRunsAFleetAndStartsAPlannerAgain) {
+  Process script(
+      {FLEET_SCRIPT, "--folder", file("fleet"), "--port", std::to_string(testing::free_port()),
+       "--bin", std::filesystem::path(CAMWAYD_BINARY).parent_path().string(), "--", "--scene",
+       "office=" + scene_file("office")},
+      file("fleet.log"));
+  ASSERT_TRUE(eventually([&] {
+    return !script.running() || script.output().find("fleet: ready") != std::string::npos;
+  }));
+  ASSERT_TRUE(script.running()) << script.output();
+  await_planners(3);
+  Client client(patient());
+  EXPECT_EQ(client.plan(request_of("office-graze-column", "office")).status, Status::kOk);
+  const std::int32_t victim = client.status(5.0).planners.front().pid;
+  ::kill(victim, SIGKILL);
+  ASSERT_TRUE(eventually([&] { return script.output().find("again") != std::string::npos; }));
+  await_planners(3);
+  EXPECT_EQ(client.status(5.0).planned_here, 0);
+  script.signal(SIGTERM);
+  EXPECT_EQ(script.wait(), 0) << script.output();
+}
+
 TEST_F(FleetTest, SaysWhyThereIsNoWayIntoTheFleet) {
   server_.kill();
-  Process front({CAMWAYD_BINARY, "--role", "planner", "--fleet", server_.url()},
-                file("planner.log"));
-  EXPECT_EQ(front.wait(), 1);
-  EXPECT_THAT(front.output(), HasSubstr(server_.url()));
-  EXPECT_THAT(front.output(), HasSubstr("refused"));
+  write_file(file("planner.toml"), "[fleet]\npatience_s = 0.5\n");
+  Process planner({CAMWAYD_BINARY, "--config", file("planner.toml"), "--role", "planner", "--fleet",
+                   server_.url()},
+                  file("planner.log"));
+  EXPECT_EQ(planner.wait(), 1);
+  EXPECT_THAT(planner.output(), HasSubstr(server_.url()));
+  EXPECT_THAT(planner.output(), HasSubstr("refused"));
   server_.start();
 }
 

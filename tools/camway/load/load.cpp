@@ -98,6 +98,8 @@ OrderedJson result_json(const LoadFlags& flags, const LoadResult& result) {
   json["lost"] = tally.lost;
   json["retries"] = tally.retries;
   json["answers_per_s"] = static_cast<double>(tally.answered) / result.elapsed_s;
+  json["planners"] = result.planners;
+  json["planner_slots"] = result.planner_slots;
   json["by_status"] = tally.by_status;
   json["invalid"] = tally.invalid;
   json["latency_ms"] = percentiles_json(tally.latency_ms);
@@ -149,6 +151,12 @@ std::string summary(const LoadFlags& flags, const LoadResult& result) {
       tally.asked, flags.run.clients, result.elapsed_s, tally.answered,
       static_cast<double>(tally.answered) / result.elapsed_s, tally.refused, tally.wrong,
       tally.lost, tally.retries);
+  if (result.planners > 0) {
+    text +=
+        fmt::format("fleet of {} planners with {} slots: {:.1f} answers a second for each slot\n",
+                    result.planners, result.planner_slots,
+                    static_cast<double>(tally.answered) / result.elapsed_s / result.planner_slots);
+  }
   text += fmt::format("by status: {}\n", status_list(tally));
   text += fmt::format("latency, ms:              p50 {:.3f}  p99 {:.3f}  p999 {:.3f}  max {:.3f}\n",
                       all.p50, all.p99, all.p999, all.max);

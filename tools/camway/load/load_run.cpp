@@ -53,6 +53,17 @@ class MemoryWatch {
 /// ones.
 double memory_period_s(double seconds) { return std::clamp(seconds / 200.0, 0.05, 5.0); }
 
+/// A planner that was not heard for so long has none of the load.
+constexpr double kSilentPlanner_s = 1.0;
+
+void count_planners(const DaemonStatus& status, LoadResult& result) {
+  for (const FleetPlanner& planner : status.planners) {
+    if (planner.silent_s > kSilentPlanner_s) continue;
+    ++result.planners;
+    result.planner_slots += planner.workers;
+  }
+}
+
 }  // namespace
 
 base::Result<Clients> make_clients(const LoadOptions& options) {
@@ -114,6 +125,7 @@ LoadResult run_load(const LoadScene& scene, const std::vector<LoadRequest>& requ
   result.elapsed_s = seconds_since(start);
   result.memory = memory.finish();
   for (const LoadTally& tally : tallies) result.tally.add(tally);
+  count_planners(clients.front()->status(), result);
   return result;
 }
 

@@ -48,6 +48,10 @@ struct LoadResult {
   LoadTally tally;
   double elapsed_s = 0.0;
   std::vector<MemorySample> memory;
+  /// Planners of the fleet after the run, and the requests that they can plan at a time; 0 if there
+  /// is none.
+  int planners = 0;
+  int planner_slots = 0;
 };
 
 /// Runs `options.clients` clients, each on a thread of its own. Each sends the requests in turn,
