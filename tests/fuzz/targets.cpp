@@ -7,11 +7,11 @@
 namespace camway::testing {
 
 std::span<const FuzzTarget> fuzz_targets() {
-  static const std::array all{kWireTarget,        kEnvelopeTarget,     kMeshTarget,
-                              kRequestJsonTarget, kResponseJsonTarget, kPathJsonTarget,
-                              kSessionTarget,     kImportRecordTarget, kMapFileTarget,
-                              kCacheFileTarget,   kChangeRecordTarget, kSourceRecordTarget,
-                              kConfigTarget,      kKeyFileTarget};
+  static const std::array all{
+      kWireTarget,         kEnvelopeTarget,     kMeshTarget,         kRequestJsonTarget,
+      kResponseJsonTarget, kPathJsonTarget,     kSessionTarget,      kImportRecordTarget,
+      kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kFleetMessageTarget,
+      kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget};
   return all;
 }
 
