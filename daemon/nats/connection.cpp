@@ -14,6 +14,8 @@ namespace {
 /// Between tries of the first connection, and of one that takes the place of a refused one.
 constexpr std::chrono::milliseconds kFirstRetry{100};
 constexpr std::chrono::milliseconds kRefusedRetry{1000};
+/// Much longer than the library's thread needs from finding a subscription to locking it.
+constexpr std::chrono::seconds kRetirement{10};
 constexpr std::size_t kMostUrlBytes = 1024;
 
 using ReceiverClosure = std::shared_ptr<Receiver>;
@@ -35,8 +37,7 @@ class NatsSubscription final : public Subscription {
     {
       const std::lock_guard lock(parts_.mutex);
       parts_.subscribed.erase(&subscribed_);
-      if (subscribed_.subscription) natsSubscription_Unsubscribe(subscribed_.subscription.get());
-      subscribed_.subscription.reset();
+      parts_.retire(std::move(subscribed_.subscription));
     }
     subscribed_.receiver->end();
   }
@@ -140,6 +141,14 @@ NatsHandle Connection::Parts::connection() {
   return handle;
 }
 
+void Connection::Parts::retire(NatsOwned<natsSubscription> subscription) {
+  const auto now = std::chrono::steady_clock::now();
+  while (!retired.empty() && retired.front().when + kRetirement < now) retired.pop_front();
+  if (subscription == nullptr) return;
+  natsSubscription_Unsubscribe(subscription.get());
+  retired.push_back({std::move(subscription), now});
+}
+
 bool Connection::Parts::subscribe(Subscribed& wanted) {
   auto closure = std::make_unique<ReceiverClosure>(wanted.receiver);
   natsSubscription* made = nullptr;
@@ -150,7 +159,7 @@ bool Connection::Parts::subscribe(Subscribed& wanted) {
   // Messages may come before this, but the subscription is not complete before it has ended.
   natsSubscription_SetOnCompleteCB(made, on_complete, closure.release());
   natsSubscription_SetPendingLimits(made, -1, std::numeric_limits<int>::max());
-  wanted.subscription.reset(made);
+  retire(std::exchange(wanted.subscription, NatsOwned<natsSubscription>(made)));
   return true;
 }
 
@@ -199,6 +208,8 @@ Connection::~Connection() {
   parts_->events->listen({});
   parts_->events->stop();
   parts_->reviver.join();
+  // The reading thread has ended when the connection is closed.
+  natsConnection_Close(parts_->handle.get());
   assert(parts_->subscribed.empty());
 }
 

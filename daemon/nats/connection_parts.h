@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -30,6 +31,13 @@ struct NatsDeleter {
 };
 template <class T>
 using NatsOwned = std::unique_ptr<T, NatsDeleter>;
+
+/// A subscription that was ended. Version 3.4 of the library must not free it at once: its reading
+/// thread may have just found it for a message (nats.c pull request 638).
+struct RetiredSubscription {
+  NatsOwned<natsSubscription> subscription;
+  std::chrono::steady_clock::time_point when;
+};
 
 /// A connection of the library, closed when nobody uses it any more.
 using NatsHandle = std::shared_ptr<natsConnection>;
@@ -113,9 +121,12 @@ struct Connection::Parts {
   std::mutex mutex;  ///< guards what follows; never held while a handler runs
   NatsHandle handle;
   std::set<Subscribed*> subscribed;
+  std::deque<RetiredSubscription> retired;
   std::thread reviver;  ///< replaces the library's connection when it has been given up
 
   [[nodiscard]] NatsHandle connection();
+  /// Ends a subscription, and frees it later. Requires that the mutex is held.
+  void retire(NatsOwned<natsSubscription> subscription);
   /// Subscribes; requires that the mutex is held. Returns whether that was possible.
   bool subscribe(Subscribed& subscribed);
   void revive_until_stopped();

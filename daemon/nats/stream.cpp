@@ -10,10 +10,56 @@
 #include "daemon/nats/jetstream_api.h"
 
 namespace camway::nats {
-namespace {
 
 using nlohmann::json;
 using std::chrono::milliseconds;
+
+/// A subscription for replies, which come in any order. Not thread-safe.
+class ReplyInbox {
+ public:
+  explicit ReplyInbox(Connection& connection)
+      : parts_(connection.parts()), handle_(parts_.connection()) {
+    natsInbox* inbox = nullptr;
+    if (natsInbox_Create(&inbox) != NATS_OK) return;
+    inbox_.reset(inbox);
+    natsSubscription* made = nullptr;
+    if (natsConnection_SubscribeSync(&made, handle_.get(), inbox) != NATS_OK) return;
+    subscription_.reset(made);
+    natsSubscription_SetPendingLimits(made, -1, -1);
+  }
+  ~ReplyInbox() {
+    const std::lock_guard lock(parts_.mutex);
+    parts_.retire(std::move(subscription_));
+  }
+  ReplyInbox(const ReplyInbox&) = delete;
+  ReplyInbox& operator=(const ReplyInbox&) = delete;
+
+  /// Whether it belongs to this connection, and all replies have come: then it can be used again.
+  [[nodiscard]] bool is_idle(const NatsHandle& handle) const {
+    return subscription_ != nullptr && handle == handle_ && awaited_ == 0;
+  }
+  bool ask(const std::string& subject, const std::string& request) {
+    ++awaited_;
+    return subscription_ && natsConnection_PublishRequest(
+                                handle_.get(), subject.c_str(), inbox_.get(), request.data(),
+                                static_cast<int>(request.size())) == NATS_OK;
+  }
+  NatsOwned<natsMsg> next(milliseconds wait) {
+    natsMsg* message = nullptr;
+    natsSubscription_NextMsg(&message, subscription_.get(), wait.count());
+    if (message != nullptr) --awaited_;
+    return NatsOwned<natsMsg>(message);
+  }
+
+ private:
+  Connection::Parts& parts_;
+  NatsHandle handle_;
+  NatsOwned<char> inbox_;
+  NatsOwned<natsSubscription> subscription_;
+  std::size_t awaited_ = 0;
+};
+
+namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 /// The server remembers ids of messages for so long. None has one.
@@ -117,43 +163,13 @@ std::uint64_t number_from(const char* text) {
   return number;
 }
 
-/// A subscription for replies, which come in any order.
-class Replies {
- public:
-  explicit Replies(NatsHandle handle) : handle_(std::move(handle)) {
-    natsInbox* inbox = nullptr;
-    if (natsInbox_Create(&inbox) != NATS_OK) return;
-    inbox_.reset(inbox);
-    natsSubscription* made = nullptr;
-    if (natsConnection_SubscribeSync(&made, handle_.get(), inbox) != NATS_OK) return;
-    subscription_.reset(made);
-    natsSubscription_SetPendingLimits(made, -1, -1);
-  }
-
-  bool ask(const std::string& subject, const std::string& request) {
-    return subscription_ && natsConnection_PublishRequest(
-                                handle_.get(), subject.c_str(), inbox_.get(), request.data(),
-                                static_cast<int>(request.size())) == NATS_OK;
-  }
-  NatsOwned<natsMsg> next(milliseconds wait) {
-    natsMsg* message = nullptr;
-    natsSubscription_NextMsg(&message, subscription_.get(), wait.count());
-    return NatsOwned<natsMsg>(message);
-  }
-
- private:
-  NatsHandle handle_;
-  NatsOwned<char> inbox_;
-  NatsOwned<natsSubscription> subscription_;
-};
-
 /// Reads a stretch of a stream by asking for each sequence the first message from there on, several
 /// at once. Where all are there, no two answers are the same.
 class StretchReader {
  public:
-  StretchReader(Connection& connection, const std::string& stream, std::string filter,
+  StretchReader(ReplyInbox& replies, const std::string& stream, std::string filter,
                 milliseconds wait)
-      : replies_(connection.parts().connection()),
+      : replies_(replies),
         subject_("$JS.API.STREAM.MSG.GET." + stream),
         filter_(std::move(filter)),
         wait_(wait) {}
@@ -188,7 +204,7 @@ class StretchReader {
   /// Messages have up to a megabyte.
   static constexpr std::size_t kMostAtOnce = 32;
 
-  Replies replies_;
+  ReplyInbox& replies_;
   std::string subject_;
   std::string filter_;
   milliseconds wait_;
@@ -275,13 +291,32 @@ StreamResult<Stream::Found> Stream::last_of_any_server(const std::string& subjec
   return Found(StoredMessage{subject, number_from(sequence), {bytes.begin(), bytes.end()}});
 }
 
+std::shared_ptr<ReplyInbox> Stream::take_inbox() {
+  {
+    const std::lock_guard lock(mutex_);
+    const NatsHandle handle = connection_.parts().connection();
+    while (!inboxes_.empty()) {
+      const std::shared_ptr<ReplyInbox> inbox = std::move(inboxes_.back());
+      inboxes_.pop_back();
+      if (inbox->is_idle(handle)) return inbox;
+    }
+  }
+  return std::make_shared<ReplyInbox>(connection_);
+}
+
+void Stream::give_back(const std::shared_ptr<ReplyInbox>& inbox) {
+  const std::lock_guard lock(mutex_);
+  inboxes_.push_back(inbox);
+}
+
 StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
                                          const std::string& filter, const Handler& handler,
                                          Wait wait) {
   if (!connection_.is_connected()) {
     return {StreamFault::kUnreachable, "there is no connection to NATS"};
   }
-  StretchReader reader(connection_, name_, filter, wait);
+  const std::shared_ptr<ReplyInbox> replies = take_inbox();
+  StretchReader reader(*replies, name_, filter, wait);
   std::uint64_t next = std::max<std::uint64_t>(from, 1);
   while (next <= to) {
     auto messages = reader.next(next, to);
@@ -289,11 +324,15 @@ StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
     if (messages->empty()) break;
     for (StoredMessage& message : *messages.value) {
       if (message.sequence < next) return {StreamFault::kRefused, "NATS answered out of order"};
-      if (message.sequence > to) return to;
+      if (message.sequence > to) {
+        give_back(replies);
+        return to;
+      }
       next = message.sequence + 1;
       handler(std::move(message));
     }
   }
+  give_back(replies);
   return next - 1;
 }
 

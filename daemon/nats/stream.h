@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,6 +68,8 @@ struct StreamConfig {
   std::string news;
 };
 
+class ReplyInbox;
+
 /// A stream of JetStream: messages that servers keep. It is asked without consumers, because those
 /// of the server 2.9 skip messages of all subjects when one subject is purged. Thread-safe.
 class Stream {
@@ -113,9 +116,15 @@ class Stream {
   Stream(Connection& connection, StreamConfig config)
       : connection_(connection), config_(std::move(config)), name_(config_.name) {}
 
+  /// Subscriptions are dear, so reads use them again.
+  std::shared_ptr<ReplyInbox> take_inbox();
+  void give_back(const std::shared_ptr<ReplyInbox>& inbox);
+
   Connection& connection_;
   const StreamConfig config_;
   const std::string& name_;
+  std::mutex mutex_;  ///< guards inboxes_
+  std::vector<std::shared_ptr<ReplyInbox>> inboxes_;
 };
 
 }  // namespace camway::nats

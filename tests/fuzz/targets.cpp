@@ -7,11 +7,12 @@
 namespace camway::testing {
 
 std::span<const FuzzTarget> fuzz_targets() {
-  static const std::array all{
-      kWireTarget,         kEnvelopeTarget,  kMeshTarget,         kRequestJsonTarget,
-      kResponseJsonTarget, kPathJsonTarget,  kSessionTarget,      kImportRecordTarget,
-      kMapFileTarget,      kCacheFileTarget, kChangeRecordTarget, kSourceRecordTarget,
-      kConfigTarget,       kKeyFileTarget,   kFleetTarget,        kFleetPartsTarget};
+  static const std::array all{kWireTarget,         kEnvelopeTarget,     kMeshTarget,
+                              kRequestJsonTarget,  kResponseJsonTarget, kPathJsonTarget,
+                              kSessionTarget,      kImportRecordTarget, kMapFileTarget,
+                              kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
+                              kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,
+                              kKeyFileTarget,      kFleetTarget,        kFleetPartsTarget};
   return all;
 }
 

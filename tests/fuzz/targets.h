@@ -64,6 +64,8 @@ extern const FuzzTarget kImportRecordTarget;
 extern const FuzzTarget kMapFileTarget;
 extern const FuzzTarget kCacheFileTarget;
 extern const FuzzTarget kChangeRecordTarget;
+extern const FuzzTarget kLogMessageTarget;
+extern const FuzzTarget kStreamAnswerTarget;
 extern const FuzzTarget kSourceRecordTarget;
 extern const FuzzTarget kConfigTarget;
 extern const FuzzTarget kKeyFileTarget;

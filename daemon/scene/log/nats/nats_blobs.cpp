@@ -193,8 +193,11 @@ NatsBlobs::HoldResult NatsBlobs::hold(const BlobId& id, const IsNeeded& is_neede
     const Bytes head(bytes.begin(), bytes.end());
     if (!is_needed(id)) {
       // A server that crashed may have dropped the parts, but have part 0 again.
+      const auto there =
+          stream_->subjects(options_.prefix + "." + token_of(id) + ".>", rest_of(end));
+      if (!there) return {Held::kUnreachable, append_fault(there.fault, there.error)};
       const Recent recent{id, Clock::now(), head, nullptr};
-      if (!has_parts(recent, end)) return {Held::kMissing, {}};
+      if (!has_parts(recent, *there)) return {Held::kMissing, {}};
       const Published done = publish(id, 0, head, message.sequence, end);
       const bool is_unclear = done.fault == StreamFault::kUnreachable && pause_before_retry(end);
       if (is_unclear || done.fault == StreamFault::kConflict) continue;
@@ -331,12 +334,15 @@ std::string NatsBlobs::repair(PatienceEnd end) {
       if (each.when + kRecentTime >= Clock::now()) recent.push_back(each);
     }
   }
+  if (recent.empty()) return "";
+  const auto there = stream_->subjects(options_.prefix + ".>", rest_of(end));
+  if (!there) return there.error;
   std::size_t repaired = 0;
   std::string lost;
   for (const Recent& each : recent) {
-    const auto found = last(subject(each.id, 0), end);
-    if (!found) return found.error;
-    if (*found || (each.content == nullptr && !has_parts(each, end))) continue;
+    const bool has_rest = has_parts(each, *there);
+    const bool can_repair = each.content != nullptr || has_rest;
+    if (!can_repair || (has_rest && there->contains(subject(each.id, 0)))) continue;
     const Published done = write(each, end);
     if (done.fault == StreamFault::kUnreachable) return done.error;
     if (done) {
@@ -356,15 +362,11 @@ void NatsBlobs::warn(const std::string& sentence) const {
   if (options_.warn) options_.warn(sentence);
 }
 
-bool NatsBlobs::has_parts(const Recent& recent, PatienceEnd end) {
+bool NatsBlobs::has_parts(const Recent& recent, const Subjects& there) const {
   const base::Result<BlobHead> head = blob_head_from(recent.head);
   if (!head) return false;
-  if (head->parts == 0) return true;
-  const auto subjects =
-      stream_->subjects(options_.prefix + "." + token_of(recent.id) + ".>", rest_of(end));
-  if (!subjects) return false;
   for (std::uint32_t part = 1; part <= head->parts; ++part) {
-    if (!subjects->contains(subject(recent.id, part))) return false;
+    if (!there.contains(subject(recent.id, part))) return false;
   }
   return true;
 }

@@ -101,7 +101,8 @@ class NatsBlobs {
   std::string use(const BlobId& id, std::set<BlobId>& used, PatienceEnd end);
   AppendResult drop(const BlobId& id, std::uint32_t last_part, bool is_whole, PatienceEnd end);
   /// Whether the server has all parts but part 0.
-  bool has_parts(const Recent& recent, PatienceEnd end);
+  using Subjects = std::map<std::string, std::uint64_t>;
+  [[nodiscard]] bool has_parts(const Recent& recent, const Subjects& there) const;
   void warn(const std::string& sentence) const;
 
   nats::Connection& connection_;

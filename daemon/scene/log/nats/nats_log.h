@@ -28,21 +28,22 @@ struct NatsLogOptions {
   std::function<void(const std::string&)> warn;
 };
 
-/// The log of a fleet, in two streams of NATS JetStream.
+/// The log of a fleet, in two streams of NATS JetStream (docs/design/scenes.md).
 ///
 /// Stream `<fleet>_LOG`, subjects `<fleet>.log.scene.<hex of the name>`: the entries, summaries and
-/// removals of a scene, in order. An append expects the last sequence of its subject, so two
-/// processes cannot both append to one revision. A summary is appended, and what stands before it
-/// is purged. `<fleet>.log.note.<hex of the key>`: notes, the last one counts.
+/// removals of a scene, in order. An append expects the last sequence of its subject, and names the
+/// message that it follows, so two processes cannot both append to one revision. A summary is
+/// appended, and what stands before it is purged. `<fleet>.log.note.<hex of the key>`: notes, the
+/// last one counts. `<fleet>.news.>` tells that a message was stored.
 ///
 /// Stream `<fleet>_BLOBS`, one message for each subject: `<fleet>.blob.<SHA-256>.<part>`. Part 0
-/// says what the blob needs and how many parts follow; it is written last, so a blob with part 0 is
-/// whole. Records that do not fit into a message are blobs, too.
+/// says what the blob needs and how many parts there are, or holds a small blob; it is written
+/// last, so a blob with part 0 is whole. Records that do not fit into a message are blobs, too.
 ///
 /// A server that syncs its files every two minutes only (NATS 2.9) loses the last changes if its
 /// machine loses power. So each process keeps the entries since the last summary, and the blobs of
 /// the last five minutes that it put; when it finds that the log has lost some, it appends them
-/// again.
+/// again. Then positions may be lower than before. Notes are not repaired.
 class NatsLog final : public SharedLog {
  public:
   /// Makes the streams, or uses those that are there. `connection` must outlive it. Fails if the

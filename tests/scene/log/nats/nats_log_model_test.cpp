@@ -33,7 +33,7 @@ TEST(NatsLogModel, KeepsWhatAModelInMemoryKeeps) {
                               return *std::move(log);
                             },
                             true});
-  for (int i = 0; i < testing::runs(1200); ++i) {
+  for (int i = 0; i < testing::runs(800); ++i) {
     SCOPED_TRACE("step " + std::to_string(i));
     comparison.step();
     if (i % 10 == 0) comparison.compare();

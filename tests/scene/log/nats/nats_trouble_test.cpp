@@ -100,9 +100,9 @@ TEST(NatsTrouble, LosesNothingWhenTheServerIsKilled) {
   writers.push_back(std::make_unique<SteadyWriter>(one, "office", "one"));
   writers.push_back(std::make_unique<SteadyWriter>(one, "office", "other"));
   writers.push_back(std::make_unique<SteadyWriter>(two, "office", "two"));
-  for (int kills = 0; kills < 6; ++kills) {
+  for (int kills = 0; kills < 4; ++kills) {
     std::this_thread::sleep_for(kBetweenCrashes);
-    if (kills == 3) {
+    if (kills == 2) {
       const std::uint64_t revision = one.revision("office");
       static_cast<void>(one->summarize("other", revision, log_bytes("none"), {}));
     }
