@@ -170,7 +170,7 @@ std::vector<FuzzBytes> source_record_seeds() {
 
 constinit const FuzzTarget kChangeRecordTarget{"change_record", exercise_change_record,
                                                change_record_seeds, 20'000};
-constinit const FuzzTarget kLogMessageTarget{"fleet_message", exercise_fleet_message,
+constinit const FuzzTarget kLogMessageTarget{"log_message", exercise_fleet_message,
                                                fleet_message_seeds, 100'000};
 constinit const FuzzTarget kStreamAnswerTarget{"stream_answer", exercise_stream_answer,
                                                stream_answer_seeds, 100'000};
