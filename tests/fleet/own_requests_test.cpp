@@ -7,6 +7,8 @@
 #include <cstring>
 #include <deque>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,8 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fleet/test_fleet.h"
 #include "tests/messages/request_on_wire.h"
+#include "tests/service/running_service.h"
+#include "tests/support/watched_scenes.h"
 #include "tools/json/json_document.h"
 #include "tools/json/json_request.h"
 
@@ -89,6 +93,34 @@ void expect_same(const std::shared_ptr<const WatchedPath>& a,
   EXPECT_TRUE(is_same(a->detect(), b->detect()));
   EXPECT_TRUE(is_same(a->bounds(), b->bounds()));
   EXPECT_EQ(a->memory_bytes(), b->memory_bytes());
+}
+
+// Few requests end with a smaller near distance, or repaired keyframes, so the results are made up.
+TEST(WatchedPart, HasTheNearScaleAndTheFreePoses) {
+  testing::Random random(20261130);
+  const planning::PlanRequest request = testing::random_path_request(4, random);
+  planning::PlanResult result = testing::echo_result(request);
+  result.certificate.certified = true;
+  result.near_scale = 0.6;
+  result.collisions = {{0.25, 0.5, {}}};
+  const motion::Pose free{request.keyframes[1].pose.position + random.in_cube(0.1),
+                          random.rotation()};
+  result.keyframe_faults = {{1, 0.1, free}, {2, 0.1, std::nullopt}};
+  const plan_response_t wire = messages::to_wire(result, {{"client", 1, 0}, "room", 1, "digest"});
+  const auto part = messages::watched_part_of(wire, request.keyframes.size());
+  ASSERT_TRUE(part) << part.error;
+  const auto shared = [](std::optional<WatchedPath> path) {
+    return path ? std::make_shared<const WatchedPath>(*std::move(path)) : nullptr;
+  };
+  const auto of = [&](const planning::PlanResult& from) {
+    return std::pair{shared(WatchedPath::of(request, from)),
+                     shared(WatchedPath::as_interpolated(request, from))};
+  };
+  const auto mine = of(result);
+  const auto read = of(*part);
+  ASSERT_TRUE(mine.first && mine.second);
+  expect_same(mine.first, read.first);
+  expect_same(mine.second, read.second);
 }
 
 TEST(OwnRequests, AFleetOfThreeGivesTheAnswersAndWatchedPathsOfOneProcess) {

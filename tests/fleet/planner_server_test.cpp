@@ -248,6 +248,33 @@ TEST_F(PlannerServerTest, AStopDrains) {
   EXPECT_EQ(last_status().is_leaving, 1);
 }
 
+TEST_F(PlannerServerTest, APlannerThatLeavesTakesNoJobThoughASlotIsFree) {
+  TestPlanner other(network_, "q", 2);
+  other.follow(rooms_[1]);
+  other.start();
+  other.held.hold();
+  const auto ask = [&](std::int64_t number) {
+    fleet_job_t job{};
+    job.front_id = "front";
+    job.job = number;
+    job.deadline_s = 30.0;
+    publish_parts(bus_, "camway.plan.q", job,
+                  wire::encode(room_request("client", number, random_)));
+  };
+  ask(1);
+  ASSERT_TRUE(other.held.wait_for_calls(1));
+  std::thread end([&] { other.end(std::chrono::seconds(30)); });
+  ASSERT_TRUE(eventually([&] {
+    const planner_status_t status = last_status();
+    return status.planner_id == "q" && status.is_leaving != 0;
+  }));
+  ask(2);
+  EXPECT_TRUE(wait_for(fleet_answer_t::BUSY, 1));
+  other.held.release();
+  end.join();
+  EXPECT_EQ(other.held.calls(), 1);
+}
+
 TEST_F(PlannerServerTest, MalformedJobsHarmNothing) {
   Random random(kServerSeed + 1);
   fleet_job_t job{};
