@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <string_view>
 
 #include "daemon/process/metrics/http_page.h"
+#include "daemon/process/settings/daemon_settings.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 
 namespace camway::process {
@@ -50,12 +52,13 @@ void check_shares(const DaemonOptions& options, std::vector<std::string>& faults
               service.watches.paths, faults);
 }
 
-/// Reports settings that are set although the role gives them no effect.
+/// Reports settings that do not have their defaults although the role gives them no effect. What
+/// the environment says counts as a default.
 void check_effect(const DaemonOptions& options, std::initializer_list<std::string_view> keys,
                   std::string_view why, std::vector<std::string>& faults) {
-  for (const std::string_view key : keys) {
-    if (options.set_at.contains(key) && options.where(key) != "LCM_DEFAULT_URL") {
-      faults.push_back(fmt::format("{}: {}", options.where(key), why));
+  for (const SettingChange& change : changes_between(default_options(), options)) {
+    if (std::ranges::find(keys, change.key) != keys.end()) {
+      faults.push_back(fmt::format("{}: {}", options.where(change.key), why));
     }
   }
 }
