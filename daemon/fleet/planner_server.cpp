@@ -297,7 +297,7 @@ void PlannerServer::send(const JobTable::Key& key, std::int8_t kind,
   }
 }
 
-// The position is read in each round, since it may change without a word.
+// The position is read in each round, since it may change before `position_changed` is called.
 void PlannerServer::tell_fronts(const std::stop_token& stop) {
   Clock::time_point status_at = Clock::now();
   std::int64_t told_position = -1;
@@ -316,10 +316,20 @@ void PlannerServer::tell_fronts(const std::stop_token& stop) {
       status_at = now + options_.status_period;
     }
     for (const auto& job : due_progress(now)) publish_progress(*job);
-    // At first not even a change ends the wait, so that statuses keep their distance.
     std::unique_lock lock(mutex_);
+    // At first not even a change ends the wait, so that statuses keep their distance.
     to_tell_.wait_for(lock, stop, kLeastPause, [] { return false; });
+    to_tell_.wait_until(lock, stop, std::min(status_at, next_progress()),
+                        [this] { return is_changed_; });
   }
+}
+
+PlannerServer::Clock::time_point PlannerServer::next_progress() const {
+  Clock::time_point next = Clock::time_point::max();
+  for (const auto& job : jobs_.all_running()) {
+    next = std::min(next, job->told + options_.progress_period);
+  }
+  return next;
 }
 
 void PlannerServer::publish_status() {

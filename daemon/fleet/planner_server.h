@@ -112,6 +112,8 @@ class PlannerServer {
   void publish_status();
   void publish_progress(const RunningJob& job);
   [[nodiscard]] std::vector<std::shared_ptr<RunningJob>> due_progress(Clock::time_point now);
+  /// Returns the time of the next progress report. Requires that mutex_ is held.
+  [[nodiscard]] Clock::time_point next_progress() const;
   void warn(std::string_view event, service::LogFields fields);
 
   const Parts parts_;
