@@ -130,11 +130,22 @@ void FrontLink::on_status(std::span<const std::uint8_t> bytes) try {
   const base::Result<planner_status_t> status = read_status(bytes);
   if (status) {
     board_.note(*status);
+    if (!board_.takes_version(status->version)) warn_of_version(*status);
   } else {
     warn("a status of a planner cannot be read", {{"reason", status.error}});
   }
 } catch (const std::exception& exception) {
   warn("a status of a planner was not taken", {{"reason", exception.what()}});
+}
+
+void FrontLink::warn_of_version(const planner_status_t& status) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (warned_of_version_.size() >= PlannerBoard::kMostPlanners) warned_of_version_.clear();
+    if (!warned_of_version_.insert({status.planner_id, status.start_id}).second) return;
+  }
+  warn("a planner of another version gets no jobs",
+       {{"planner", status.planner_id}, {"host", status.host}, {"version", status.version}});
 }
 
 void FrontLink::take_late(std::int64_t job, const std::string& planner,

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -94,6 +95,8 @@ class FrontLink {
   void raise_alarm(const AnswerMark& given, const AnswerMark& other);
   void on_answer(std::span<const std::uint8_t> bytes);
   void on_status(std::span<const std::uint8_t> bytes);
+  /// Warns once of each start of a planner that gets no jobs because of its version.
+  void warn_of_version(const planner_status_t& status);
   void take_late(std::int64_t job, const std::string& planner,
                  std::span<const std::uint8_t> payload);
 
@@ -102,11 +105,12 @@ class FrontLink {
   const Subjects subjects_;
   const std::string front_id_;
 
-  mutable std::mutex mutex_;  ///< guards the members down to memory_
+  mutable std::mutex mutex_;  ///< guards the members down to warned_of_version_
   std::int64_t next_job_;
   std::map<std::int64_t, std::shared_ptr<JobInbox>> inboxes_;
   PartJoiner joiner_;
   AnswerMemory memory_;
+  std::set<PlannerBoard::Planner> warned_of_version_;
 
   mutable std::mutex log_mutex_;  ///< guards the members down to counts_
   service::LimitedLog trouble_;

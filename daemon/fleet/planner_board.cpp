@@ -136,6 +136,7 @@ std::vector<fleet_planner_t> PlannerBoard::planners(std::int64_t newest) const {
     planner.workers = known.status.workers;
     planner.running = std::max(known.status.running, known.own);
     planner.is_behind = known.status.log_position < newest ? 1 : 0;
+    planner.is_other_version = takes_version(known.status.version) ? 0 : 1;
     planner.silent_s = std::chrono::duration<double>(now - known.heard).count();
     list.push_back(std::move(planner));
   }

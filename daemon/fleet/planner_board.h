@@ -32,8 +32,10 @@ class PlannerBoard {
   static constexpr std::chrono::seconds kForgotten{60};
   static constexpr std::size_t kMostPlanners = 1024;
 
-  /// `now`: the clock, or a substitute in tests.
-  explicit PlannerBoard(Now now = Clock::now) : now_(std::move(now)) {}
+  /// `version`: planners of another version get no jobs, since other programs may plan differently;
+  /// empty: all get some. `now`: the clock, or a substitute in tests.
+  explicit PlannerBoard(std::string version = {}, Now now = Clock::now)
+      : version_(std::move(version)), now_(std::move(now)) {}
 
   /// A start of a planner.
   struct Planner {
@@ -45,6 +47,10 @@ class PlannerBoard {
 
   /// Takes in a status. One that is older than the newest of its planner counts for nothing.
   void note(const planner_status_t& status);
+  /// Returns whether planners of this version get jobs.
+  [[nodiscard]] bool takes_version(const std::string& version) const {
+    return version_.empty() || version == version_;
+  }
 
   enum class Outlook : std::uint8_t {
     kTaken,   ///< `Choice::planner` has a slot for the job
@@ -105,7 +111,8 @@ class PlannerBoard {
     return now - known.heard < kSilence;
   }
   [[nodiscard]] bool takes_jobs(const Known& known, Clock::time_point now) const {
-    return is_alive(known, now) && known.status.is_leaving == 0;
+    return is_alive(known, now) && known.status.is_leaving == 0 &&
+           takes_version(known.status.version);
   }
   [[nodiscard]] int free_of(const Known& known) const;
   [[nodiscard]] bool is_newer(const Known& known, const planner_status_t& status,
@@ -115,6 +122,7 @@ class PlannerBoard {
   [[nodiscard]] int capacity_locked() const;
   void tell();
 
+  const std::string version_;
   const Now now_;
   mutable std::mutex mutex_;  ///< guards planners_ and changes_
   std::condition_variable changed_;

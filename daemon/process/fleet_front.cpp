@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "daemon/version/build_info.h"
+
 namespace camway::process {
 
 std::unique_ptr<FleetFront> FleetFront::open_or_log(const DaemonOptions& options,
@@ -32,6 +34,9 @@ std::unique_ptr<FleetFront> FleetFront::open_or_log(const DaemonOptions& options
   front->answerer_ = *std::move(opened);
   return front;
 }
+
+FleetFront::FleetFront(FleetMember& member, int workers)
+    : member_(member), workers_(workers), board_(service::version_text()) {}
 
 void FleetFront::feed(service::Service& service) {
   board_.on_change(

@@ -37,7 +37,7 @@ class FleetFront {
   void add_to(status_t& status) const;
 
  private:
-  FleetFront(FleetMember& member, int workers) : member_(member), workers_(workers) {}
+  FleetFront(FleetMember& member, int workers);
 
   FleetMember& member_;
   const int workers_;

@@ -14,6 +14,7 @@
 #include "daemon/process/kept_state.h"
 #include "daemon/process/planner_run.h"
 #include "daemon/process/process_signals.h"
+#include "daemon/process/warning_journal.h"
 #include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
@@ -78,7 +79,9 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
   Keeper keeper;
   if (const std::optional<int> code = open(options, log, keeper)) return *code;
   process::KeptState* const state = keeper.state();
-  scene::SceneStore scenes(options.store, state != nullptr ? &state->scenes() : nullptr);
+  std::optional<process::WarningJournal> journal;
+  if (state != nullptr) journal.emplace(state->scenes(), log);
+  scene::SceneStore scenes(options.store, journal ? &*journal : nullptr);
   if (const std::string fault = state != nullptr ? state->load_into(scenes, *log) : "";
       !fault.empty()) {
     return state_fault(options, fault, *log);

@@ -25,7 +25,7 @@ class PlannerBoardTest : public ::testing::Test {
     status.serial = ++serial_;
     status.host = "host";
     status.pid = 42;
-    status.version = "v";
+    status.version = version_;
     status.workers = workers;
     status.running = running;
     status.log_position = position;
@@ -40,8 +40,9 @@ class PlannerBoardTest : public ::testing::Test {
   void pass(milliseconds time) { now_ += time; }
 
   PlannerBoard::Clock::time_point now_ = PlannerBoard::Clock::now();
-  PlannerBoard board_{[this] { return now_; }};
+  PlannerBoard board_{"v", [this] { return now_; }};
   planner_status_t last_{};
+  std::string version_ = "v";
   bool is_leaving_ = false;
   std::int64_t utime_ = 0;
   std::int64_t serial_ = 0;
@@ -65,6 +66,19 @@ TEST_F(PlannerBoardTest, TakesTheOneWithTheMostFreeSlots) {
   EXPECT_EQ(board_.capacity(), 7) << "own jobs take nothing away";
   board_.give_back({"b", 1}, Return::kEnded);
   EXPECT_EQ(taken(), "b");
+}
+
+TEST_F(PlannerBoardTest, GivesPlannersOfAnotherVersionNoJobs) {
+  version_ = "w";
+  say("new", 4, 0);
+  EXPECT_EQ(board_.take(0).outlook, Outlook::kNone) << "the front plans by itself";
+  EXPECT_EQ(board_.capacity(), 0);
+  ASSERT_EQ(board_.planners(0).size(), 1U);
+  EXPECT_EQ(board_.planners(0)[0].is_other_version, 1);
+  version_ = "v";
+  say("old", 1, 0);
+  EXPECT_EQ(taken(), "old");
+  EXPECT_EQ(board_.take(0).outlook, Outlook::kBusy);
 }
 
 TEST_F(PlannerBoardTest, CountsItsOwnJobsBetweenStatusesAndThoseOfOthers) {

@@ -123,6 +123,7 @@ OrderedJson planner_json(const FleetPlanner& planner) {
           {"workers", planner.workers},
           {"running", planner.running},
           {"behind", planner.is_behind},
+          {"other_version", planner.is_other_version},
           {"silent_s", planner.silent_s}};
 }
 
@@ -235,17 +236,21 @@ constexpr double kPlannerSilence_s = 1.0;
 /// Prints the lines about the planners of a front.
 void print_fleet(const DaemonStatus& status) {
   if (status.role != "front") return;
+  const auto heard = std::ranges::count_if(status.planners, [](const FleetPlanner& planner) {
+    return planner.silent_s < kPlannerSilence_s;
+  });
   fmt::print(
-      "fleet        {} planners; {} requests were sent again, {} planned by the front; {}\n",
-      status.planners.size(), status.jobs_sent_again, status.planned_here,
+      "fleet        {} planners; {} requests were sent again, {} planned by the front; {}\n", heard,
+      status.jobs_sent_again, status.planned_here,
       status.log_in_touch ? "the log of scenes is in touch" : "the log of scenes is OUT OF REACH");
   if (status.differing_answers > 0) {
     fmt::print("differing    {} requests had DIFFERENT ANSWERS of two planners; see the log\n",
                status.differing_answers);
   }
   for (const FleetPlanner& planner : status.planners) {
-    fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}, {}\n", planner.id, planner.running,
-               planner.workers, planner.host, planner.pid, planner.version,
+    fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}{}, {}\n", planner.id,
+               planner.running, planner.workers, planner.host, planner.pid, planner.version,
+               planner.is_other_version ? " (ANOTHER VERSION: gets no jobs)" : "",
                planner.is_behind ? ", behind the log" : "",
                planner.silent_s < kPlannerSilence_s
                    ? std::string("heard just now")

@@ -37,6 +37,8 @@ struct FleetPlanner {
   std::int32_t workers = 0;  ///< jobs that it can run at the same time
   std::int32_t running = 0;  ///< jobs that it runs
   bool is_behind = false;    ///< whether it has not read all of the log that the front has read
+  /// Whether it gets no jobs, because its version is not that of the front.
+  bool is_other_version = false;
   double silent_s = 0.0;     ///< time since the front last heard it
 };
 
