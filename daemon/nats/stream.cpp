@@ -2,62 +2,16 @@
 #include "daemon/nats/stream.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <thread>
 #include <utility>
 
 #include "daemon/nats/jetstream_api.h"
+#include "daemon/nats/stretch_reader.h"
 
 namespace camway::nats {
 
 using nlohmann::json;
 using std::chrono::milliseconds;
-
-/// A subscription for replies, which come in any order. Not thread-safe.
-class ReplyInbox {
- public:
-  explicit ReplyInbox(Connection& connection)
-      : parts_(connection.parts()), handle_(parts_.connection()) {
-    natsInbox* inbox = nullptr;
-    if (natsInbox_Create(&inbox) != NATS_OK) return;
-    inbox_.reset(inbox);
-    natsSubscription* made = nullptr;
-    if (natsConnection_SubscribeSync(&made, handle_.get(), inbox) != NATS_OK) return;
-    subscription_.reset(made);
-    natsSubscription_SetPendingLimits(made, -1, -1);
-  }
-  ~ReplyInbox() {
-    const std::lock_guard lock(parts_.mutex);
-    parts_.retire(std::move(subscription_));
-  }
-  ReplyInbox(const ReplyInbox&) = delete;
-  ReplyInbox& operator=(const ReplyInbox&) = delete;
-
-  /// Whether it belongs to this connection, and all replies have come: then it can be used again.
-  [[nodiscard]] bool is_idle(const NatsHandle& handle) const {
-    return subscription_ != nullptr && handle == handle_ && awaited_ == 0;
-  }
-  bool ask(const std::string& subject, const std::string& request) {
-    ++awaited_;
-    return subscription_ && natsConnection_PublishRequest(
-                                handle_.get(), subject.c_str(), inbox_.get(), request.data(),
-                                static_cast<int>(request.size())) == NATS_OK;
-  }
-  NatsOwned<natsMsg> next(milliseconds wait) {
-    natsMsg* message = nullptr;
-    natsSubscription_NextMsg(&message, subscription_.get(), wait.count());
-    if (message != nullptr) --awaited_;
-    return NatsOwned<natsMsg>(message);
-  }
-
- private:
-  Connection::Parts& parts_;
-  NatsHandle handle_;
-  NatsOwned<char> inbox_;
-  NatsOwned<natsSubscription> subscription_;
-  std::size_t awaited_ = 0;
-};
 
 namespace {
 
@@ -65,7 +19,6 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 /// The server remembers ids of messages for so long. None has one.
 constexpr std::int64_t kDuplicates_ns = kNanosecondsPerSecond;
 
-constexpr std::string_view kNotFoundStatus = "404";
 constexpr milliseconds kEnsurePause{100};
 /// A cluster without a leader does not answer.
 constexpr milliseconds kEnsureWait{1000};
@@ -157,85 +110,6 @@ std::uint64_t number_in(const json& value, const char* key) {
   const auto found = value.find(key);
   return found != value.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
-
-std::uint64_t number_from(const char* text) {
-  std::uint64_t number = 0;
-  if (text != nullptr) std::from_chars(text, text + std::char_traits<char>::length(text), number);
-  return number;
-}
-
-/// Reads the reply to a direct request: a message as it is, with its place in headers, or a status.
-StreamResult<Stream::Found> direct_message_from(natsMsg& reply) {
-  const char* status = nullptr;
-  const char* sequence = nullptr;
-  const char* subject = nullptr;
-  natsMsgHeader_Get(&reply, "Status", &status);
-  natsMsgHeader_Get(&reply, "Nats-Sequence", &sequence);
-  natsMsgHeader_Get(&reply, "Nats-Subject", &subject);
-  if (sequence != nullptr && subject != nullptr) {
-    const std::string_view bytes = text_of(reply);
-    return Stream::Found(
-        StoredMessage{subject, number_from(sequence), {bytes.begin(), bytes.end()}});
-  }
-  if (status != nullptr && std::string_view(status) == kNotFoundStatus) return Stream::Found{};
-  return {StreamFault::kUnreachable, kNobodyAnswers};
-}
-
-/// Reads a stretch of a stream by asking for each sequence the first message from there on, several
-/// at once. Where all are there, no two answers are the same.
-class StretchReader {
- public:
-  /// `is_direct`: asks any server that keeps the stream, which costs it half as much.
-  StretchReader(ReplyInbox& replies, const std::string& stream, std::string filter, bool is_direct,
-                milliseconds wait)
-      : replies_(replies),
-        is_direct_(is_direct),
-        subject_((is_direct ? "$JS.API.DIRECT.GET." : "$JS.API.STREAM.MSG.GET.") + stream),
-        filter_(std::move(filter)),
-        wait_(wait) {}
-
-  /// Reads the next messages. Returns them in order; none at the end of the stream.
-  StreamResult<std::vector<StoredMessage>> next(std::uint64_t from, std::uint64_t to) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(at_once_, to - from + 1));
-    for (std::size_t i = 0; i < count; ++i) {
-      const json request{{"seq", from + i}, {"next_by_subj", filter_}};
-      if (!replies_.ask(subject_, request.dump())) {
-        return {StreamFault::kUnreachable, "the connection to NATS was lost"};
-      }
-    }
-    std::map<std::uint64_t, StoredMessage> found;
-    for (std::size_t i = 0; i < count; ++i) {
-      const NatsOwned<natsMsg> reply = replies_.next(wait_);
-      if (reply == nullptr) return {StreamFault::kUnreachable, "NATS did not answer in time"};
-      StreamResult<Stream::Found> message = message_from(*reply);
-      if (!message) return {message.fault, message.error};
-      if (*message) found.insert_or_assign((*message)->sequence, **std::move(message));
-    }
-    at_once_ = found.size() == count ? std::min(2 * at_once_, kMostAtOnce)
-                                     : std::max<std::size_t>(found.size(), 1);
-    std::vector<StoredMessage> messages;
-    for (auto& [sequence, message] : found) messages.push_back(std::move(message));
-    return messages;
-  }
-
- private:
-  [[nodiscard]] StreamResult<Stream::Found> message_from(natsMsg& reply) const {
-    if (is_direct_) return direct_message_from(reply);
-    const auto answer = api_answer_from(text_of(reply));
-    if (!answer) return {answer.fault, answer.error};
-    return stored_message_from(*answer);
-  }
-
-  /// Messages have up to a megabyte.
-  static constexpr std::size_t kMostAtOnce = 32;
-
-  ReplyInbox& replies_;
-  bool is_direct_;
-  std::string subject_;
-  std::string filter_;
-  milliseconds wait_;
-  std::size_t at_once_ = 1;
-};
 
 }  // namespace
 

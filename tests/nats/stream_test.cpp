@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "daemon/nats/jetstream_api.h"
@@ -134,6 +135,31 @@ TEST_F(NatsStream, ReadsAcrossWhatIsDeleted) {
     return text.find("t.a") != std::string::npos && std::stoi(text) < 150;
   });
   EXPECT_EQ(all(*stream), kept);
+}
+
+TEST_F(NatsStream, ReadsAllThatIsAppendedMeanwhile) {
+  constexpr std::uint64_t kMessages = 3000;
+  const auto stream = make(config_);
+  std::vector<std::thread> writers;
+  for (int i = 0; i < 3; ++i) {
+    writers.emplace_back([&, i] {
+      for (std::uint64_t k = 0; k < kMessages / 3; ++k) put(*stream, "t." + std::to_string(i), "");
+    });
+  }
+  std::uint64_t last = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  while (last < kMessages && std::chrono::steady_clock::now() - begin < std::chrono::minutes(1)) {
+    const auto read = stream->read(
+        last + 1, kToTheEnd, "t.>",
+        [&](const StoredMessage& message) {
+          EXPECT_EQ(message.sequence, last + 1);
+          last = message.sequence;
+        },
+        kStreamWait);
+    EXPECT_TRUE(read) << read.error;
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(last, kMessages);
 }
 
 TEST_F(NatsStream, KeepsOneMessageForASubject) {
