@@ -147,10 +147,10 @@ TEST_F(FleetFaultsTest, APlannerThatIsCutOffIsNotWaitedFor) {
   EXPECT_TRUE(gets_answers(load, 3));
   relay.cut();
   EXPECT_TRUE(gets_answers(load, 10)) << "the front plans by itself";
+  load.stop();
   // The planner has to read what it missed before it plans again.
   const SceneAnswer crate = client.put_object("office", "crate", SceneBox{{1, 1, 1}}, beside(1.0));
   ASSERT_TRUE(crate.ok()) << crate.error;
-  load.stop();
   relay.mend();
   await_planners(1);
   const PlanResponse answer = client.plan(request_of("office-free-door", "office"));

@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <stdexcept>
@@ -70,7 +71,18 @@ void NatsServer::kill() {
   process_->wait();
 }
 
-void NatsServer::pause() const { process_->signal(SIGSTOP); }
+// The signal alone does not stop a thread that runs on another processor at once.
+void NatsServer::pause() const {
+  process_->signal(SIGSTOP);
+  const fs::path threads = "/proc/" + std::to_string(process_->pid()) + "/task";
+  const bool is_stopped = integration::eventually([&] {
+    return std::ranges::all_of(fs::directory_iterator(threads), [](const auto& thread) {
+      const std::string stat = integration::read_file((thread.path() / "stat").string());
+      return stat.substr(stat.rfind(')') + 1).starts_with(" T");
+    });
+  });
+  if (!is_stopped) throw std::runtime_error("nats-server does not stop");
+}
 
 void NatsServer::resume() const { process_->signal(SIGCONT); }
 
