@@ -4,6 +4,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 
 #include <csignal>
 #include <cstdint>
@@ -70,7 +71,12 @@ void NatsServer::kill() {
   process_->wait();
 }
 
-void NatsServer::pause() const { process_->signal(SIGSTOP); }
+void NatsServer::pause() const {
+  process_->signal(SIGSTOP);
+  // Its threads run on until the kernel has stopped the last one.
+  siginfo_t stopped{};
+  ::waitid(P_PID, static_cast<id_t>(process_->pid()), &stopped, WSTOPPED);
+}
 
 void NatsServer::resume() const { process_->signal(SIGCONT); }
 
