@@ -29,7 +29,7 @@ class NatsServer {
   void start();
   /// As if the process had crashed: nothing that the kernel has is lost.
   void kill();
-  /// Stops the process where it is; connections stay open.
+  /// Stops the process where it is, and returns when it has stopped; connections stay open.
   void pause() const;
   void resume() const;
 
