@@ -66,6 +66,12 @@ install() {
   apt install --yes --no-install-recommends "$@"
 }
 
+# Debian starts a service at its installation. Tests start servers of their own, on the loopback.
+stop_service_of_nats() {
+  [[ " $* " == *" nats-server "* ]] && command -v systemctl >/dev/null || return 0
+  "${as_root[@]}" systemctl disable --now nats-server.service >/dev/null 2>&1 || true
+}
+
 main() {
   if [[ ${1:-} == --list ]]; then
     printf '%s\n' "${kPackages[@]}"
@@ -90,6 +96,7 @@ main() {
       exit 1
     fi
   fi
+  stop_service_of_nats "${missing[@]}"
 }
 
 main "$@"
