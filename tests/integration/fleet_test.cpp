@@ -127,7 +127,7 @@ TEST_F(FleetFaultsTest, AStalledPlannerIsReplacedAndItsLateAnswersAreTheSame) {
   EXPECT_TRUE(gets_answers(load, 4));
   planner("p1").signal(SIGSTOP);
   EXPECT_TRUE(gets_answers(load, 30));
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  std::this_thread::sleep_for(std::chrono::seconds(10));
   planner("p1").signal(SIGCONT);
   EXPECT_TRUE(gets_answers(load, 10));
   load.stop();
