@@ -32,6 +32,29 @@ Pose beside(double x_m) {
   return pose;
 }
 
+/// A mesh of about a megabyte, which is several messages to NATS.
+SceneMesh large_mesh() {
+  constexpr int kSide = 120;
+  std::string text;
+  for (int x = 0; x <= kSide; ++x) {
+    for (int y = 0; y <= kSide; ++y) {
+      text += "v " + std::to_string(0.1 * x) + " " + std::to_string(0.1 * y) + " " +
+              std::to_string(0.01 * ((x * y) % 7)) + "\n";
+    }
+  }
+  for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSide; ++y) {
+      const int first = x * (kSide + 1) + y + 1;
+      text += "f " + std::to_string(first) + " " + std::to_string(first + kSide + 1) + " " +
+              std::to_string(first + kSide + 2) + " " + std::to_string(first + 1) + "\n";
+    }
+  }
+  SceneMesh mesh;
+  mesh.bytes.assign(text.begin(), text.end());
+  mesh.format = "obj";
+  return mesh;
+}
+
 /// Clients that ask a front without a pause, until they are told to stop, and compare each answer
 /// with what is expected.
 class Load {
@@ -166,12 +189,15 @@ TEST_F(FleetFaultsTest, AKilledServerLosesNothingAndStopsNoPlan) {
   ASSERT_TRUE(client.load_scene("yard", {}).ok());
   Load load(2, expected);
   std::int64_t acknowledged = client.describe_scene("yard").scene.revision;
+  const SceneMesh large = large_mesh();
   for (int round = 0; round < 3; ++round) {
     EXPECT_TRUE(gets_answers(load, 3));
     std::jthread changes([&] {
       for (int i = 0; i < 30; ++i) {
         const SceneAnswer put =
-            client.put_object("yard", "crate", SceneBox{{1, 1, 1 + 0.01 * i}}, beside(0.1 * i));
+            i % 10 == 0
+                ? client.put_object("yard", "ground" + std::to_string(i), large, beside(0.1 * i))
+                : client.put_object("yard", "crate", SceneBox{{1, 1, 1 + 0.01 * i}}, beside(0.0));
         ASSERT_TRUE(put.ok()) << put.error;
         ASSERT_EQ(put.scene.revision, acknowledged + 1) << "none is lost, none is made twice";
         acknowledged = put.scene.revision;
