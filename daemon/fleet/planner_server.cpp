@@ -24,6 +24,8 @@ namespace {
 constexpr std::chrono::milliseconds kSceneLook{2};
 /// Least time between two statuses.
 constexpr std::chrono::milliseconds kLeastPause{10};
+/// For a status that is late.
+constexpr std::chrono::milliseconds kLateness{100};
 constexpr double kMillisecond_s = 1e-3;
 
 std::string name_of_host() {
@@ -40,6 +42,24 @@ std::int64_t random_start_id() {
 JobTable::Key key_of(const RunningJob& job) { return {job.front, job.number}; }
 
 }  // namespace
+
+bool is_planner_alive(nats::Bus& bus, const PlannerOptions& options) {
+  std::mutex mutex;  // guards is_heard
+  std::condition_variable heard;
+  bool is_heard = false;
+  const auto subscription = bus.subscribe(
+      Subjects{options.fleet}.planner(),
+      [&](const std::string&, std::span<const std::uint8_t> bytes) {
+        const base::Result<planner_status_t> status = read_status(bytes);
+        if (!status || status->planner_id != options.planner_id || status->workers == 0) return;
+        const std::lock_guard lock(mutex);
+        is_heard = true;
+        heard.notify_all();
+      });
+  if (subscription == nullptr) return false;
+  std::unique_lock lock(mutex);
+  return heard.wait_for(lock, 2 * options.status_period + kLateness, [&] { return is_heard; });
+}
 
 base::Result<std::unique_ptr<PlannerServer>> PlannerServer::open(
     const Parts& parts, const PlannerOptions& options, Position position,

@@ -42,6 +42,10 @@ struct PlannerOptions {
   std::chrono::milliseconds progress_period{100};
 };
 
+/// Returns whether a planner of this id is alive, by listening for its statuses, two periods long.
+/// Two of one id would both get each job of theirs.
+bool is_planner_alive(nats::Bus& bus, const PlannerOptions& options);
+
 /// Plans for the fronts of a fleet. Each slot is a thread. Answers are those of `answerer` on the
 /// newest snapshot of the request's scene. A job that is sent again runs once, and is answered
 /// again.

@@ -82,6 +82,13 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
   block_stop_signals();
   const std::unique_ptr<FleetMember> member = FleetMember::open_or_log(options, log);
   if (!member) return kExitNoFleet;
+  const fleet::PlannerOptions planner = planner_options(options, member->id());
+  // An id that was not set is one of this process alone.
+  if (!options.fleet.id.empty() && fleet::is_planner_alive(member->connection(), planner)) {
+    log->error("another planner of the fleet has this id",
+               {{"setting", options.where("fleet.id")}, {"id", planner.planner_id}});
+    return kExitNoFleet;
+  }
   scene::SceneStore scenes(options.store);
   if (const std::string fault = member->state().load_into(scenes, *log); !fault.empty()) {
     log->error("the scenes of the fleet cannot be read", {{"reason", fault}});
@@ -93,7 +100,7 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
       options.service.deadline);
   std::atomic<std::uint64_t> position = member->shared_log().followed();
   auto server = fleet::PlannerServer::open(
-      {member->connection(), scenes, answerer}, planner_options(options, member->id()),
+      {member->connection(), scenes, answerer}, planner,
       [&position] { return static_cast<std::int64_t>(position.load()); }, log);
   if (!server) {
     log->error("no jobs can be taken", {{"reason", server.error}});

@@ -115,6 +115,17 @@ TEST_F(PlannerServerTest, TellsItsStatus) {
   EXPECT_LE(in_a_second, 5) << "four times a second where nothing happens";
 }
 
+TEST_F(PlannerServerTest, ASecondOneOfItsIdHearsThatItIsAlive) {
+  fleet::PlannerOptions options;
+  options.planner_id = "p";
+  EXPECT_TRUE(is_planner_alive(bus_, options));
+  options.planner_id = "q";
+  EXPECT_FALSE(is_planner_alive(bus_, options));
+  options.planner_id = "p";
+  planner_.server->stop(milliseconds(1000));
+  EXPECT_FALSE(is_planner_alive(bus_, options));
+}
+
 TEST_F(PlannerServerTest, StatusesKeepTheirDistance) {
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 2000; ++i) {
