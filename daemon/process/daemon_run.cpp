@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -127,7 +128,7 @@ class ServingDaemon {
 
   /// Serves until a signal ends it. Returns the exit code. Requires that all is open.
   int run(Reloader::Read read_again, scene::SceneStore& scenes, ConfiguredScenes& configured,
-          FleetMember* fleet) {
+          FleetMember* fleet, const std::function<bool()>& read_scenes) {
     if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
       log_->info("removed uploads that a daemon left behind", {{"files", files}});
     }
@@ -141,7 +142,13 @@ class ServingDaemon {
     }
     service::Service service(transport(), scenes, service_config(),
                              front_ ? front_->answerer() : here_, log_, hooks());
-    if (front_) front_->feed(service);
+    if (front_) {
+      if (const auto end = service.look_for_rival()) {
+        return exit_code_of(*end, options_.lcm_url, *log_);
+      }
+      if (!read_scenes()) return kExitBadInput;
+      front_->feed(service);
+    }
     const int code = serve(service, std::move(read_again), configured);
     if (front_) front_->stop_feeding();
     return code;
@@ -266,10 +273,10 @@ class ServingDaemon {
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
           ConfiguredScenes& configured, FleetMember* fleet,
-          const std::shared_ptr<service::Log>& log) {
+          const std::function<bool()>& read_scenes, const std::shared_ptr<service::Log>& log) {
   ServingDaemon daemon(options, log);
   if (const std::optional<int> code = daemon.open()) return *code;
-  return daemon.run(std::move(read_again), scenes, configured, fleet);
+  return daemon.run(std::move(read_again), scenes, configured, fleet, read_scenes);
 }
 
 }  // namespace camway::process

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <string_view>
 #include <utility>
 
@@ -71,6 +72,9 @@ std::unique_ptr<FleetMember> FleetMember::open_or_log(const DaemonOptions& optio
                {{"setting", options.where("fleet.servers")}, {"reason", reason}});
     return nullptr;
   };
+  log->info("connecting to the fleet",
+            {{"setting", options.where("fleet.servers")},
+             {"patience_s", std::chrono::duration<double>(fleet.patience).count()}});
   auto connection = nats::Connection::open(connect_options(fleet, id));
   if (!connection) return fail(connection.error);
   auto opened = scene::NatsLog::open(**connection, log_options(fleet, log));

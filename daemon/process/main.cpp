@@ -14,8 +14,8 @@
 #include "daemon/process/kept_state.h"
 #include "daemon/process/planner_run.h"
 #include "daemon/process/process_signals.h"
-#include "daemon/process/warning_journal.h"
 #include "daemon/process/settings/daemon_command_line.h"
+#include "daemon/process/warning_journal.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 #include "daemon/version/build_info.h"
@@ -90,11 +90,13 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
   process::ConfiguredScenes configured(scenes, log, open_cache(options, *log),
                                        state != nullptr ? &state->log() : nullptr,
                                        keeper.fleet ? process::member_id(options) : "");
+  const auto read_scenes = [&] { return configured.update(options.scenes); };
   // A stop signal while scenes are being read ends the process at once: no client depends on it
-  // yet.
-  if (!configured.update(options.scenes)) return kExitBadInput;
+  // yet. A front reads them later.
+  if (!keeper.fleet && !read_scenes()) return kExitBadInput;
   process::block_stop_signals();
-  return process::serve(options, read_again, scenes, configured, keeper.fleet.get(), log);
+  return process::serve(options, read_again, scenes, configured, keeper.fleet.get(), read_scenes,
+                        log);
 }
 
 int run(int argc, char** argv) {

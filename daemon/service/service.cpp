@@ -53,10 +53,18 @@ Service::~Service() {
   core_.workers.stop();
 }
 
-RunOutcome Service::run() {
-  if (!claim_prefix() || !subscribe()) return RunOutcome::kNotSubscribed;
+std::optional<RunOutcome> Service::look_for_rival() {
+  // Before all other subscriptions: no request is taken before it is clear which daemon answers.
+  if (!listen_for_claims()) return RunOutcome::kNotSubscribed;
+  ask_for_rivals();
   if (broken_) return RunOutcome::kTransportBroken;
   if (claim_.rival()) return yield();
+  return std::nullopt;
+}
+
+RunOutcome Service::run() {
+  if (const std::optional<RunOutcome> end = look_for_rival()) return *end;
+  if (!subscribe()) return RunOutcome::kNotSubscribed;
   claim_.serve(Clock::now());
   heartbeat(Clock::now());
   core_.log->info("ready");
@@ -77,27 +85,27 @@ void Service::request_stop() noexcept {
   core_.transport.wake();
 }
 
-// Comes before all other subscriptions: no request is taken before it is clear which daemon
-// answers.
-bool Service::claim_prefix() {
+bool Service::listen_for_claims() {
+  if (hears_claims_) return true;
   const auto take = [this](std::span<const std::uint8_t> message) { claim_.on_message(message); };
   const std::string channel = core_.channels.claim();
-  if (!core_.transport.subscribe(channel, core_.config.subscription_capacity,
-                                 guarded(take, channel))) {
-    return false;
-  }
+  hears_claims_ = core_.transport.subscribe(channel, core_.config.subscription_capacity,
+                                            guarded(take, channel));
+  return hears_claims_;
+}
+
+void Service::ask_for_rivals() {
   const Clock::time_point end = Clock::now() + core_.config.claim_window;
   Clock::time_point next = Clock::now();
   while (!stop_.load() && !broken_ && !claim_.rival()) {
     const Clock::time_point now = Clock::now();
-    if (now >= end) break;
+    if (now >= end) return;
     if (now >= next) {
       claim_.ask();
       next = now + kAskPause;
     }
     if (!core_.transport.poll(in_milliseconds(std::min(next, end) - now))) broken_ = true;
   }
-  return true;
 }
 
 RunOutcome Service::yield() {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <camway/status_t.hpp>
@@ -62,6 +63,11 @@ class Service {
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
+  /// Asks whether another daemon has the prefix, as `run` does again: to be called before anything
+  /// is changed that daemons share. Returns the outcome of a run that cannot begin; nothing if none
+  /// has it.
+  std::optional<RunOutcome> look_for_rival();
+
   /// Serves until `request_stop`, unless another daemon has the prefix
   /// (`CoreConfig::claim_window`). Logs "ready" and publishes a first status when subscriptions are
   /// in place. Call it once only.
@@ -81,7 +87,8 @@ class Service {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool claim_prefix();
+  bool listen_for_claims();
+  void ask_for_rivals();
   RunOutcome yield();
   bool subscribe();
   void turn(Clock::duration longest_wait);
@@ -104,6 +111,7 @@ class Service {
   Clock::time_point next_heartbeat_ = started_;
   Clock::time_point next_alive_ = started_;
   std::atomic<bool> stop_ = false;
+  bool hears_claims_ = false;
   bool broken_ = false;
 };
 

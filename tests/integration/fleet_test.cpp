@@ -398,6 +398,19 @@ TEST_F(FleetTest, TheExampleScriptRunsAFleetAndStartsAPlannerAgain) {
   EXPECT_EQ(script.wait(), 0) << script.output();
 }
 
+TEST_F(FleetTest, AFrontThatIsRefusedChangesNoScene) {
+  start_front();
+  Process second({CAMWAYD_BINARY, "--role", "front", "--fleet", server_.url(), "--scene",
+                  "office=" + scene_file("office") + ",occupancy=0.5", "--scene",
+                  "maze=" + scene_file("maze")},
+                 file("second.log"));
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_THAT(second.output(), HasSubstr("another daemon serves with this prefix"));
+  Client client(patient());
+  EXPECT_EQ(client.describe_scene("office").scene.revision, 1);
+  EXPECT_EQ(client.describe_scene("maze").status, Status::kUnknownScene);
+}
+
 TEST_F(FleetTest, SaysWhyThereIsNoWayIntoTheFleet) {
   server_.kill();
   write_file(file("planner.toml"), "[fleet]\npatience_s = 0.5\n");
