@@ -90,6 +90,7 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
     return kExitNoFleet;
   }
   scene::SceneStore scenes(options.store);
+  member->state().scenes().leave_out_mirrors();  // occupancy is asked of fronts
   if (const std::string fault = member->state().load_into(scenes, *log); !fault.empty()) {
     log->error("the scenes of the fleet cannot be read", {{"reason", fault}});
     return kExitNoFleet;

@@ -43,6 +43,7 @@ base::Result<SceneHistory> DurableScenes::load_scene(const LoggedScene& logged,
                                                      const SceneHistory::Limits& limits) {
   base::Result<RecordedScene> scene = recorded_scene_of(logged);
   if (!scene) return base::Failure{std::move(scene.error)};
+  if (!has_mirrors_) scene->options.occupancy_resolution_m.reset();
   base::Result<SceneHistory> history = history_of(logged.name, *scene, limits);
   if (!history) return damaged_scene(logged.name, history.error);
   note_newest(logged.name, scene->newest_revision());
@@ -230,6 +231,7 @@ base::Result<SceneStore::OthersWork> DurableScenes::read_scene(const LogUpdate& 
   if (revision != update.entry.revision) {
     return damaged_scene(update.scene, "a record is of another revision");
   }
+  if (!has_mirrors_) scene.options.occupancy_resolution_m.reset();
   std::optional<SceneHistory> history;
   if (revision > known) {
     base::Result<SceneHistory> made = history_of(update.scene, scene, limits);

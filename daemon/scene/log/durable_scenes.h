@@ -34,6 +34,11 @@ class DurableScenes : public SceneJournal {
                          std::chrono::milliseconds patience = std::chrono::milliseconds(0))
       : log_(log), patience_(patience), sources_(log) {}
 
+  /// Leaves the occupancy mirrors out of all scenes that are read from now on, which saves time and
+  /// memory where nobody asks for occupancy. Digests are the same. Requires that nothing is kept by
+  /// this object.
+  void leave_out_mirrors() { has_mirrors_ = false; }
+
   /// Returns the scenes of the log with their histories, in order of name. Fails if anything is
   /// damaged, with the reason. Must be called once, before any change.
   base::Result<std::vector<SceneHistory>> load(const SceneHistory::Limits& limits);
@@ -77,6 +82,7 @@ class DurableScenes : public SceneJournal {
 
   SceneLog& log_;
   const std::chrono::milliseconds patience_;
+  bool has_mirrors_ = true;
   SourceBlobs sources_;
   /// Held shared from the putting of blobs to the entry that names them, and alone while unused
   /// blobs are dropped.

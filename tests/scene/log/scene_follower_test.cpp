@@ -32,8 +32,11 @@ constexpr std::chrono::seconds kPatience{30};
 class Member {
  public:
   explicit Member(std::shared_ptr<SharedMemory> shared, const SceneStoreLimits& limits = {},
-                  std::chrono::milliseconds patience = kPatience)
-      : log_(std::move(shared)), scenes_(log_, patience), store_(limits, &scenes_) {
+                  std::chrono::milliseconds patience = kPatience, bool has_mirrors = true)
+      : log_(std::move(shared)),
+        scenes_(log_, patience),
+        store_(limits, has_mirrors ? &scenes_ : nullptr) {
+    if (!has_mirrors) scenes_.leave_out_mirrors();
     auto histories = scenes_.load(limits.history);
     EXPECT_TRUE(histories) << histories.error;
     store_.begin_above(log_.highest_removed());
@@ -178,6 +181,27 @@ TEST(SceneFollower, FindsASceneAfterItsEntriesWereReplaced) {
   const StoreResult again = slow.store().put(assemble("attic", 1, {}, {}));
   ASSERT_EQ(again.error, "");
   EXPECT_GT(again.snapshot->revision, 1U);
+}
+
+TEST(SceneFollower, LeavesOutMirrorsAndHasTheSameDigests) {
+  const auto shared = std::make_shared<SharedMemory>();
+  Member front(shared);
+  front.begin();
+  testing::Random random(7);
+  ObjectOptions options;
+  options.occupancy_resolution_m = 0.1;
+  front.store().put(assemble("room", 1, {}, options));
+  front.store().change("room", put("crate", testing::random_box(random)));
+  Member planner(shared, {}, kPatience, /*has_mirrors=*/false);
+  planner.begin();
+  front.store().put(assemble("attic", 1, {}, options));
+  front.store().change("attic", put("crate", testing::random_box(random)));
+  planner.catch_up(*shared);
+  EXPECT_EQ(digests_of(planner.store()), digests_of(front.store()));
+  for (const char* const name : {"room", "attic"}) {
+    EXPECT_TRUE(front.store().find(name)->occupancy) << name;
+    EXPECT_FALSE(planner.store().find(name)->occupancy) << name;
+  }
 }
 
 TEST(SceneFollower, SaysWhatItCannotMakeAndStaysOnAnOlderRevision) {
