@@ -15,7 +15,7 @@
 
 namespace camway::fleet {
 
-/// What is kept of an answer to compare it with another one to the same request.
+/// The mark of an answer, by which it is compared with another one to the same request.
 struct AnswerMark {
   std::string planner;    ///< who gave it
   std::string client_id;  ///< of the request

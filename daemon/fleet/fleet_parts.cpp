@@ -6,7 +6,7 @@
 namespace camway::fleet {
 namespace {
 
-/// What keeping a part takes beside its bytes, so that many empty parts have a limit as well.
+/// Memory that a part takes beside its bytes. It counts, so that many empty parts are limited too.
 constexpr std::size_t kPartOverhead = 128;
 
 }  // namespace

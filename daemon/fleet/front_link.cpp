@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/fleet/front_link.h"
 
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <random>
 #include <utility>
 
@@ -16,12 +18,30 @@ std::int64_t first_job_number() {
   return static_cast<std::int64_t>(random() & kPositive) << 32;
 }
 
+/// More than two words of a front that is alive, which come every tenth of a second.
+constexpr std::chrono::milliseconds kFrontWait{350};
+
 }  // namespace
+
+bool is_front_alive(nats::Bus& bus, const Subjects& subjects, const std::string& front_id) {
+  std::mutex mutex;  // guards is_heard
+  std::condition_variable heard;
+  bool is_heard = false;
+  const auto subscription = bus.subscribe(subjects.front(front_id),
+                                          [&](const std::string&, std::span<const std::uint8_t>) {
+                                            const std::lock_guard lock(mutex);
+                                            is_heard = true;
+                                            heard.notify_all();
+                                          });
+  if (subscription == nullptr) return false;
+  std::unique_lock lock(mutex);
+  return heard.wait_for(lock, kFrontWait, [&] { return is_heard; });
+}
 
 void JobInbox::put(JobEvent event) {
   {
     const std::lock_guard lock(mutex_);
-    // Of progress, the newest alone counts.
+    // Only the newest progress counts.
     if (event.kind == fleet_answer_t::PROGRESS) {
       std::erase_if(events_, [&](const JobEvent& other) {
         return other.kind == event.kind && other.planner == event.planner;
@@ -80,7 +100,7 @@ void FrontLink::end(const Job& job, std::optional<AnswerMark> mark) {
     if (mark) memory_.keep(job.number, *mark, AnswerMemory::Clock::now());
   }
   if (!mark) return;
-  // What came in just before.
+  // An answer may have come in just before.
   while (const std::optional<JobEvent> event = job.inbox->take()) {
     if (event->kind == fleet_answer_t::ANSWER)
       take_late(job.number, event->planner, event->payload);
@@ -92,6 +112,10 @@ bool FrontLink::send(const std::string& planner, const fleet_job_t& head,
   fleet_job_t message = head;
   message.front_id = front_id_;
   return publish_parts(bus_, subjects_.plan(planner), std::move(message), payload);
+}
+
+void FrontLink::say_alive() {
+  if (claims_id_.load()) bus_.publish(subjects_.front(front_id_), {});
 }
 
 // Exceptions, which only a lack of memory causes, must not reach the bus.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -39,8 +40,8 @@ struct JobEvent {
   Bytes payload;
 };
 
-/// What planners say of one job. The bus fills it, and the thread that waits for the job empties
-/// it. Thread-safe.
+/// The messages of planners about one job. The bus fills it, and the thread that waits for the job
+/// empties it. Thread-safe.
 class JobInbox {
  public:
   /// Messages beyond this number are dropped; a planner sends few.
@@ -56,6 +57,10 @@ class JobInbox {
   std::condition_variable changed_;
   std::deque<JobEvent> events_;
 };
+
+/// Returns whether a front of this id is alive, by listening for some tenths of a second. Two of
+/// one id would take each other's answers, and remove each other's scenes.
+bool is_front_alive(nats::Bus& bus, const Subjects& subjects, const std::string& front_id);
 
 /// A front's side of the bus: sends jobs, and hands what planners say to the jobs and the board.
 /// Compares answers that come when another planner has answered already.
@@ -86,6 +91,11 @@ class FrontLink {
   void count_planned_here();
   [[nodiscard]] FrontCounts counts() const;
 
+  /// Tells others of its id that this front is alive, while it claims the id. To be called several
+  /// times a second.
+  void say_alive();
+  void claim_id(bool claims) { claims_id_.store(claims); }
+
   /// Logs trouble with a planner. Limited, since planners can provoke it.
   void warn(std::string_view event, service::LogFields fields);
   /// Logs how many such lines were left out. To be called now and then.
@@ -104,6 +114,7 @@ class FrontLink {
   PlannerBoard& board_;
   const Subjects subjects_;
   const std::string front_id_;
+  std::atomic<bool> claims_id_ = false;
 
   mutable std::mutex mutex_;  ///< guards the members down to warned_of_version_
   std::int64_t next_job_;

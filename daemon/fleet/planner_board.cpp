@@ -95,6 +95,12 @@ bool PlannerBoard::is_lost(const Planner& planner) const {
          !is_alive(known->second, now_());
 }
 
+bool PlannerBoard::has_ended(const Planner& planner) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = planners_.find(planner.id);
+  return known == planners_.end() || known->second.status.start_id != planner.start_id;
+}
+
 int PlannerBoard::free_slots() const {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = now_();

@@ -19,8 +19,8 @@
 
 namespace camway::fleet {
 
-/// What a front knows of its planners, from their statuses and from its own jobs there. A planner
-/// is alive if it was heard within `kSilence`.
+/// The planners of a fleet as a front knows them, from their statuses and from its own jobs there.
+/// A planner is alive if it was heard within `kSilence`.
 /// Thread-safe.
 class PlannerBoard {
  public:
@@ -76,6 +76,8 @@ class PlannerBoard {
   /// Returns whether nothing can be expected of the planner: it is not alive, was started anew, or
   /// has ended.
   [[nodiscard]] bool is_lost(const Planner& planner) const;
+  /// Returns whether this start of the planner has ended, by its own word or by a new start.
+  [[nodiscard]] bool has_ended(const Planner& planner) const;
 
   /// Returns the slots that this front could take now, on planners that take jobs.
   [[nodiscard]] int free_slots() const;

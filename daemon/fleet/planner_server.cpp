@@ -120,8 +120,12 @@ bool PlannerServer::stop(std::chrono::milliseconds limit) {
     has_ended_ = true;
   }
   changed_.notify_all();
-  workers_.clear();
+  workers_.clear();  // the last answers are sent
   teller_ = {};
+  {
+    const std::lock_guard lock(mutex_);
+    has_sent_all_ = true;
+  }
   publish_status();
   subscription_.reset();
   return is_drained;
@@ -365,7 +369,7 @@ void PlannerServer::publish_status() {
   status.log_position = position_();
   {
     const std::lock_guard lock(mutex_);
-    status.workers = has_ended_ ? 0 : options_.workers;
+    status.workers = has_sent_all_ ? 0 : options_.workers;
     status.running = static_cast<std::int32_t>(jobs_.num_running());
     status.is_leaving = is_leaving_ ? 1 : 0;
     status.answered = answered_;

@@ -56,7 +56,7 @@ class PlannerServer {
   /// thread; must not throw.
   using Position = std::function<std::int64_t()>;
 
-  /// What it needs, all of which must outlive it.
+  /// The objects that a planner uses. All must outlive it.
   struct Parts {
     nats::Bus& bus;
     const scene::SceneStore& scenes;
@@ -136,7 +136,8 @@ class PlannerServer {
   std::int64_t answered_ = 0;
   bool is_leaving_ = false;
   bool has_ended_ = false;
-  bool is_changed_ = false;  ///< whether the fronts do not know yet what has changed
+  bool has_sent_all_ = false;  ///< no answer follows
+  bool is_changed_ = false;    ///< whether the fronts do not know yet what has changed
 
   std::mutex log_mutex_;  ///< guards trouble_
   service::LimitedLog trouble_;

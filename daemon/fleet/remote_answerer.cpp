@@ -25,6 +25,7 @@ void keep_ticking(const std::stop_token& stop, PlannerBoard& board, FrontLink& l
   while (!stop.stop_requested()) {
     stopped.wait_for(lock, stop, kTick, [] { return false; });
     board.tick();
+    link.say_alive();
     link.report_suppressed();
   }
 }

@@ -46,7 +46,7 @@ class RemoteAnswerer final : public service::PlanAnswerer {
   /// has made or read; 0 if none. Called on any thread; must not throw.
   using PositionOf = std::function<std::int64_t(const std::string& scene)>;
 
-  /// What it needs, all of which must outlive it.
+  /// The objects that a front uses. All must outlive it.
   struct Parts {
     nats::Bus& bus;
     PlannerBoard& board;
@@ -64,6 +64,10 @@ class RemoteAnswerer final : public service::PlanAnswerer {
   /// Returns at the deadline, or `FrontOptions::patience_late` after it if a planner has the job.
   service::Answered answer(const std::shared_ptr<const scene::Snapshot>& snapshot,
                            const plan_request_t& request, const base::Deadline& deadline) override;
+
+  /// Whether others hear that a front of this id is alive (`is_front_alive`). At first they do not.
+  /// Thread-safe.
+  void claim_id(bool claims) { link_.claim_id(claims); }
 
   [[nodiscard]] FrontCounts counts() const { return link_.counts(); }
 

@@ -22,6 +22,10 @@ constexpr std::chrono::milliseconds kLook{10};
 /// How often a job is sent again to a planner that says nothing of it, before it counts as lost.
 constexpr int kMostRepeats = 3;
 
+/// How long the answer of a planner that has ended is waited for: it came by another subscription
+/// than the word that the planner has ended, and may be long.
+constexpr std::chrono::milliseconds kLastAnswerWait{500};
+
 using service::Answered;
 
 std::shared_ptr<const planning::WatchedPath> shared_path(
@@ -211,6 +215,7 @@ std::optional<Answered> RemoteJob::plan_here() {
 
 void RemoteJob::ask(const PlannerBoard::Planner& planner) {
   planner_ = planner;
+  ended_since_.reset();
   repeats_ = 0;
   if (has_lost_one_) count_sent_again();
   asked_.insert(planner.id);
@@ -236,11 +241,16 @@ bool RemoteJob::send() {
 }
 
 void RemoteJob::look_after_planner() {
-  if (board_.is_lost(*planner_)) {
-    lose_planner("it was not heard, or has ended");
+  const Clock::time_point now = Clock::now();
+  if (board_.has_ended(*planner_)) {
+    if (!ended_since_) ended_since_ = now;
+    if (now - *ended_since_ >= kLastAnswerWait) lose_planner("it has ended");
     return;
   }
-  const Clock::time_point now = Clock::now();
+  if (board_.is_lost(*planner_)) {
+    lose_planner("it was not heard");
+    return;
+  }
   if (now >= ends_ || now - heard_ < front_.options_.patience_silent) return;
   if (repeats_ >= kMostRepeats) {
     // It lives, so it would be chosen again.

@@ -72,8 +72,9 @@ class RemoteJob {
   std::set<std::string> asked_;                   ///< all planners that were sent the job
   std::set<PlannerBoard::Planner> avoided_;       ///< planners that cannot, or do not, answer it
   std::optional<Clock::time_point> behind_since_;
-  Clock::time_point heard_;  ///< last word of the planner about the job
-  int repeats_ = 0;          ///< how often the job was sent again since
+  std::optional<Clock::time_point> ended_since_;  ///< when the planner was first seen to have ended
+  Clock::time_point heard_;                       ///< last word of the planner about the job
+  int repeats_ = 0;                               ///< how often the job was sent again since
   bool has_lost_one_ = false;
   bool is_counted_ = false;         ///< whether it was counted as sent again
   std::optional<AnswerMark> mark_;  ///< of the answer, if another one may follow

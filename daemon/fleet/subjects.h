@@ -26,6 +26,9 @@ struct Subjects {
   [[nodiscard]] std::string answer(std::string_view front_id) const {
     return (fleet + ".answer.").append(front_id);
   }
+  [[nodiscard]] std::string front(std::string_view front_id) const {
+    return (fleet + ".front.").append(front_id);
+  }
   [[nodiscard]] std::string planner() const { return fleet + ".planner"; }
 };
 

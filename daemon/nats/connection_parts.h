@@ -42,9 +42,9 @@ struct RetiredSubscription {
 /// A connection of the library, closed when nobody uses it any more.
 using NatsHandle = std::shared_ptr<natsConnection>;
 
-/// What the library's threads tell about a connection. They may do so for a moment longer than the
-/// connection lives, so they share it. The library itself cannot be asked: it holds its lock while
-/// it tries to connect again, which takes seconds if a server hangs. Thread-safe.
+/// The state of a connection, as the threads of the library tell it. They may do so for a moment
+/// longer than the connection lives, so they share it. The library itself cannot be asked: it holds
+/// its lock while it tries to connect again, which takes seconds if a server hangs. Thread-safe.
 class ConnectionEvents {
  public:
   /// A connection was made.
@@ -82,7 +82,7 @@ class ConnectionEvents {
   bool is_stopped_ = false;
 };
 
-/// Who receives the messages of a subject. Shared with the library's threads. Thread-safe.
+/// The receiver of the messages of a subject. Shared with the library's threads. Thread-safe.
 class Receiver {
  public:
   explicit Receiver(Bus::Handler handler) : handler_(std::move(handler)) {}

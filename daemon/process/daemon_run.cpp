@@ -146,6 +146,7 @@ class ServingDaemon {
       if (const auto end = service.look_for_rival()) {
         return exit_code_of(*end, options_.lcm_url, *log_);
       }
+      if (!front_->claim_id_or_log(options_, *log_)) return kExitFleet;
       if (!read_scenes()) return kExitBadInput;
       front_->feed(service);
     }
@@ -237,7 +238,10 @@ class ServingDaemon {
                              {"client_queue", options_.service.queue.jobs_of_a_client}});
       manager_.ready("serving");
     };
-    hooks.stopping = [this] { manager_.stopping(); };
+    hooks.stopping = [this] {
+      if (front_) front_->leave();
+      manager_.stopping();
+    };
     hooks.alive = [this] { manager_.alive(); };
     hooks.status = [this](status_t& status) { complete(status); };
     hooks.alive_period = manager_.alive_period();

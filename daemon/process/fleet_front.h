@@ -34,6 +34,12 @@ class FleetFront {
   /// Ends that; before the service is destroyed.
   void stop_feeding() { board_.on_change({}); }
 
+  /// Claims the id of this front. Logs it and returns false if another one that is alive has it.
+  /// To be called before any scene of the fleet is changed.
+  bool claim_id_or_log(const DaemonOptions& options, service::Log& log);
+  /// Lets another front take the id of this one, which ends.
+  void leave() { answerer_->claim_id(false); }
+
   void add_to(status_t& status) const;
 
  private:

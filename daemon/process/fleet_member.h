@@ -17,7 +17,7 @@ namespace camway::process {
 /// the host and, for a front, its prefix, for a planner, its process.
 std::string member_id(const DaemonOptions& options);
 
-/// What a process has of its fleet: the connection to NATS, and the log of all scenes there.
+/// A process's side of its fleet: the connection to NATS, and the log of all scenes there.
 class FleetMember {
  public:
   /// Connects, and opens the log or makes it. Logs the reason and returns null if that is not

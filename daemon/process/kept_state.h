@@ -9,7 +9,7 @@
 #include "daemon/base/result.h"
 #include "daemon/process/settings/daemon_options.h"
 #include "daemon/scene/log/durable_scenes.h"
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 

@@ -37,7 +37,7 @@ int state_fault(const process::DaemonOptions& options, const std::string& reason
   return kExitFault;
 }
 
-/// What keeps the scenes of this process beyond its life. Both are null if nothing does.
+/// The log that keeps scenes beyond the life of this process. Both are null if nothing does.
 struct Keeper {
   std::unique_ptr<process::FleetMember> fleet;
   std::unique_ptr<process::KeptState> folder;

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "daemon/scene/log/durable_scenes.h"
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/bench/columns.h"

@@ -143,6 +143,47 @@ TEST_F(RemoteAnswererTest, APlannerThatLeavesFinishesItsJobsAndGetsNoMore) {
   EXPECT_EQ(front_.counts().jobs_sent_again, 0);
 }
 
+TEST_F(RemoteAnswererTest, TheLastAnswerOfAPlannerMayFollowItsLastWord) {
+  // Statuses and answers come by two subscriptions, so their order is not that of the planner.
+  testing::MemoryBus bus(network_);
+  const plan_request_t request = next_request();
+  const Bytes answer = wire::encode(front_.local(request));
+  planner_status_t status{};
+  status.planner_id = "p";
+  status.start_id = 1;
+  status.workers = 1;
+  status.log_position = 1'000;
+  std::mutex mutex;
+  std::vector<fleet_job_t> jobs;
+  const auto subscription =
+      bus.subscribe("camway.plan.p", [&](const std::string&, std::span<const std::uint8_t> bytes) {
+        const std::lock_guard lock(mutex);
+        jobs.push_back(*read_job(bytes));
+      });
+  status.serial = 1;
+  bus.publish("camway.planner", wire::encode(status));
+  ASSERT_TRUE(front_.wait_for_slots(1));
+  Asked asked(front_, request);
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return jobs.size() == 1;
+  }));
+  status.serial = 2;
+  status.workers = 0;
+  status.is_leaving = 1;
+  bus.publish("camway.planner", wire::encode(status));
+  ASSERT_TRUE(front_.wait_for_slots(0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  fleet_answer_t head{};
+  head.planner_id = "p";
+  head.job = jobs[0].job;
+  head.kind = fleet_answer_t::ANSWER;
+  publish_parts(bus, "camway.answer." + jobs[0].front_id, head, answer);
+  expect_local(request, asked.answer());
+  EXPECT_EQ(front_.counts().jobs_sent_again, 0);
+  EXPECT_EQ(front_.counts().planned_here, 0);
+}
+
 TEST_F(RemoteAnswererTest, AStalledPlannersLateAnswerIsComparedAndEqual) {
   TestPlanner& a = add("a");
   const plan_request_t request = next_request();

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/scene/log/change_record.h"
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "tools/camway/common/commands.h"
 
 namespace camway::tools {

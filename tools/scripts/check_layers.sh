@@ -89,8 +89,8 @@ LC_ALL=C exec awk '
     } else if (file ~ /^sodium/ && here != "tests" &&
                FILENAME !~ /^(lcmtypes\/wire\/auth\/message_keys|daemon\/scene\/log\/blob_id)\.cpp$/) {
       fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp and daemon/scene/log/blob_id.cpp")
-    } else if (file == "sqlite3.h" && here !~ /^(daemon\/scene\/log|tests)$/) {
-      fault("SQLite is for daemon/scene/log")
+    } else if (file == "sqlite3.h" && here !~ /^(daemon\/scene\/log\/sqlite|tests)$/) {
+      fault("SQLite is for daemon/scene/log/sqlite")
     } else if (file ~ /^nats\// && here !~ /^(daemon\/nats|tests)$/) {
       fault("NATS is for daemon/nats")
     } else if (file == "microhttpd.h" && FILENAME != "daemon/process/metrics/http_page.cpp") {

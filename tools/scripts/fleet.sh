@@ -38,6 +38,10 @@ while [[ $# -gt 0 && $1 != -- ]]; do
 done
 [[ ${1:-} == -- ]] && shift
 
+for value in "$planners" "$port"; do
+  [[ $value =~ ^[0-9]+$ ]] || { echo "fleet: '$value' is no number" >&2 && exit 2; }
+done
+
 if [[ -z $bin ]]; then
   for bin in "$root/build/release/bin" "$root/build/dev/bin" ""; do
     [[ -x $bin/camwayd ]] && break

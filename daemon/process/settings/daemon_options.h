@@ -42,7 +42,7 @@ struct StateOptions {
   std::size_t most_bytes = std::size_t{16} << 30;
 };
 
-/// What a daemon does in a fleet: several processes with the same scenes.
+/// The part of a daemon in a fleet, which is several processes with the same scenes.
 enum class FleetRole : std::uint8_t {
   kAlone,   ///< it is in none
   kFront,   ///< serves clients, and lets planners plan

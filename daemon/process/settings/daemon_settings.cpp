@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -65,6 +66,12 @@ std::string fault_of_servers(const std::string& text) {
     }
   }
   return {};
+}
+
+/// Returns a list of URLs without the names and passwords of users in them.
+std::string without_users(std::string list) {
+  static const std::regex kUser("://[^/@,]*@");
+  return std::regex_replace(list, kUser, "://");
 }
 
 std::string fault_of_address(const std::string& text) {
@@ -255,7 +262,12 @@ std::vector<SettingChange> changes_between(DaemonOptions before, DaemonOptions a
   for (std::size_t i = 0; i < old_settings.size(); ++i) {
     SettingChange change{old_settings[i].key, old_settings[i].text(), new_settings[i].text(),
                          old_settings[i].reloads};
-    if (change.before != change.after) changes.push_back(std::move(change));
+    if (change.before == change.after) continue;
+    if (change.key == "fleet.servers") {
+      change.before = without_users(change.before);
+      change.after = without_users(change.after);
+    }
+    changes.push_back(std::move(change));
   }
   return changes;
 }

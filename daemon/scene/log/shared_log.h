@@ -9,7 +9,7 @@
 
 namespace camway::scene {
 
-/// What a process reads in a log that several processes write.
+/// A change that a process reads in a log which several processes write.
 struct LogUpdate {
   enum class Kind : std::uint8_t {
     kEntry,    ///< `entry` was appended

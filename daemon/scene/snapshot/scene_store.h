@@ -212,7 +212,7 @@ class SceneStore {
   /// Takes a scene out and calls the listener.
   void take_out(std::string_view scene, std::uint64_t last_revision);
 
-  // What `follow` makes. Require that the caller holds the scene's `ChangeLock`.
+  // The kinds of work of `follow`. They require that the caller holds the scene's `ChangeLock`.
   StoreResult take(const std::string& scene, SceneHistory history);
   StoreResult take(const std::string& scene, OthersChanges work);
   StoreResult take(const std::string& scene, OthersRemoval);

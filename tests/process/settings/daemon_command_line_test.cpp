@@ -260,6 +260,12 @@ TEST(DaemonOptions, ServersOfAFleetAreAList) {
   EXPECT_EQ(options.fleet.name, "studio");
 }
 
+TEST(DaemonOptions, APasswordOfTheFleetIsNotShown) {
+  const ParsedOptions parsed = parse(
+      {"--role", "planner", "--fleet", "nats://user:secret@a:4222,nats://b", "--check-config"});
+  EXPECT_THAT(parsed.text, HasSubstr("fleet.servers = \"nats://a:4222,nats://b\""));
+}
+
 TEST(DaemonOptions, AStateThatIsNamedIsAFolder) {
   EXPECT_THAT(parse({"--scene", "a=x.obj", "--state", ""}).faults,
               ElementsAre("--state: must name a folder"));

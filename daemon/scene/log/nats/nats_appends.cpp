@@ -173,7 +173,7 @@ void NatsLog::Parts::purge_before_last(std::string_view scene, const MessageId& 
     const ChainLink* const link = found == chains_.end() ? nullptr : found->second.find(id);
     if (link != nullptr) sequence = link->sequence;
   }
-  // What remains if this fails is purged with the next summary; readers leave it out.
+  // If this fails, the rest is purged with the next summary; readers leave it out.
   if (sequence > 1) {
     static_cast<void>(stream_->purge(scene_subject(scene), sequence, rest_of(end)));
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/log_refusal.h"
+#include "daemon/scene/log/sqlite/log_refusal.h"
 
-#include "daemon/scene/log/sqlite_schema.h"
+#include "daemon/scene/log/sqlite/sqlite_schema.h"
 
 namespace camway::scene {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

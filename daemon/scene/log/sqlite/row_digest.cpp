@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/row_digest.h"
+#include "daemon/scene/log/sqlite/row_digest.h"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/commit_count.h"
+#include "daemon/scene/log/sqlite/commit_count.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

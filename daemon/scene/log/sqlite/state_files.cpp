@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/state_files.h"
+#include "daemon/scene/log/sqlite/state_files.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/sqlite_database.h"
+#include "daemon/scene/log/sqlite/sqlite_database.h"
 
 #include <sqlite3.h>
 #include <unistd.h>

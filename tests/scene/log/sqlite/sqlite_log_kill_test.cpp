@@ -11,7 +11,7 @@
 #include <string>
 
 #include "daemon/base/file_descriptor.h"
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "tests/scene/log/log_samples.h"
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "daemon/scene/log/sqlite_database.h"
+#include "daemon/scene/log/sqlite/sqlite_database.h"
 
 namespace camway::scene {
 

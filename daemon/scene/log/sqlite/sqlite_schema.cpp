@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/sqlite_schema.h"
+#include "daemon/scene/log/sqlite/sqlite_schema.h"
 
 #include <algorithm>
 #include <string>
 
-#include "daemon/scene/log/row_digest.h"
-#include "daemon/scene/log/state_files.h"
+#include "daemon/scene/log/sqlite/row_digest.h"
+#include "daemon/scene/log/sqlite/state_files.h"
 
 namespace camway::scene {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/log/log_rows.h"
+#include "daemon/scene/log/sqlite/log_rows.h"
 
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "daemon/scene/log/commit_count.h"
-#include "daemon/scene/log/row_digest.h"
-#include "daemon/scene/log/sqlite_schema.h"
+#include "daemon/scene/log/sqlite/commit_count.h"
+#include "daemon/scene/log/sqlite/row_digest.h"
+#include "daemon/scene/log/sqlite/sqlite_schema.h"
 
 namespace camway::scene {
 namespace {

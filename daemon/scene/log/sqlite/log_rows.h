@@ -9,7 +9,7 @@
 
 #include "daemon/base/result.h"
 #include "daemon/scene/log/scene_log.h"
-#include "daemon/scene/log/sqlite_database.h"
+#include "daemon/scene/log/sqlite/sqlite_database.h"
 
 namespace camway::scene {
 

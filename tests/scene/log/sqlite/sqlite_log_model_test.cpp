@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "tests/scene/log/log_comparison.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/temporary_folder.h"

@@ -16,9 +16,9 @@
 
 #include "daemon/base/file_descriptor.h"
 #include "daemon/base/result.h"
-#include "daemon/scene/log/commit_count.h"
 #include "daemon/scene/log/scene_log.h"
-#include "daemon/scene/log/sqlite_database.h"
+#include "daemon/scene/log/sqlite/commit_count.h"
+#include "daemon/scene/log/sqlite/sqlite_database.h"
 
 namespace camway::scene {
 

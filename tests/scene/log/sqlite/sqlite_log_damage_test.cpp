@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "tests/scene/log/log_samples.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitizer.h"

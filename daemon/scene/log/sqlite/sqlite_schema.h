@@ -6,7 +6,7 @@
 #include <string>
 
 #include "daemon/base/result.h"
-#include "daemon/scene/log/sqlite_database.h"
+#include "daemon/scene/log/sqlite/sqlite_database.h"
 
 namespace camway::scene {
 

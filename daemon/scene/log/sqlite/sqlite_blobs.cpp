@@ -3,10 +3,10 @@
 #include <cassert>
 #include <utility>
 
-#include "daemon/scene/log/log_refusal.h"
-#include "daemon/scene/log/log_rows.h"
-#include "daemon/scene/log/row_digest.h"
-#include "daemon/scene/log/sqlite_log.h"
+#include "daemon/scene/log/sqlite/log_refusal.h"
+#include "daemon/scene/log/sqlite/log_rows.h"
+#include "daemon/scene/log/sqlite/row_digest.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
 
 namespace camway::scene {
 

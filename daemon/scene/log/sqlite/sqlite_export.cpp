@@ -6,11 +6,11 @@
 #include <system_error>
 #include <utility>
 
-#include "daemon/scene/log/log_refusal.h"
-#include "daemon/scene/log/log_rows.h"
-#include "daemon/scene/log/sqlite_log.h"
-#include "daemon/scene/log/sqlite_schema.h"
-#include "daemon/scene/log/state_files.h"
+#include "daemon/scene/log/sqlite/log_refusal.h"
+#include "daemon/scene/log/sqlite/log_rows.h"
+#include "daemon/scene/log/sqlite/sqlite_log.h"
+#include "daemon/scene/log/sqlite/sqlite_schema.h"
+#include "daemon/scene/log/sqlite/state_files.h"
 
 namespace camway::scene {
 namespace {
