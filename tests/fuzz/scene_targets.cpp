@@ -36,6 +36,7 @@ bool exercise_import_record(std::span<const std::uint8_t> bytes) {
 
 FuzzBytes bytes_of(format::Record record) {
   record.header.text_bytes = record.text.size();
+  record.header.note_bytes = record.notes.size();
   record.header.vertices = record.vertices.size();
   record.header.triangles = record.triangles.size();
   record.header.objects = record.objects.size();
@@ -52,6 +53,7 @@ FuzzBytes bytes_of(format::Record record) {
   };
   append(&record.header, sizeof record.header);
   append_all(record.text);
+  append_all(record.notes);
   append_all(record.vertices);
   append_all(record.triangles);
   append_all(record.objects);

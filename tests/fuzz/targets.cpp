@@ -7,12 +7,12 @@
 namespace camway::testing {
 
 std::span<const FuzzTarget> fuzz_targets() {
-  static const std::array all{kWireTarget,         kEnvelopeTarget,     kMeshTarget,
-                              kRequestJsonTarget,  kResponseJsonTarget, kPathJsonTarget,
-                              kSessionTarget,      kImportRecordTarget, kMapFileTarget,
-                              kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
-                              kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,
-                              kKeyFileTarget,      kFleetTarget,        kFleetPartsTarget};
+  static const std::array all{
+      kWireTarget,         kEnvelopeTarget,     kMeshTarget,         kRequestJsonTarget,
+      kResponseJsonTarget, kPathJsonTarget,     kSessionTarget,      kImportRecordTarget,
+      kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
+      kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
+      kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget};
   return all;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,19 @@ std::vector<std::string> warnings_of(const scene::ImportReport& report) {
   return scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m);
 }
 
+/// Returns the notes of the reader, and what the extents suggest about axes.
+std::vector<std::string> notes_of(const scene::ImportReport& report) {
+  std::vector<std::string> notes = report.notes;
+  if (report.bounds_m.isEmpty() || report.up != scene::UpAxis::kAsInFile) return notes;
+  // Rooms, storeys and terrains are wider than they are high.
+  constexpr double kFlat = 0.5;
+  const geometry::Vec3 size_m = report.bounds_m.sizes();
+  if (size_m.z() < kFlat * std::min(size_m.x(), size_m.y())) {
+    notes.emplace_back("the smallest extent is z: perhaps Z is up (see --up)");
+  }
+  return notes;
+}
+
 OrderedJson import_json(const scene::ImportReport& report) {
   OrderedJson json;
   json["format"] = report.format;
@@ -51,7 +65,8 @@ OrderedJson import_json(const scene::ImportReport& report) {
   json["degenerate_triangles"] = report.degenerate_triangles;
   json["dropped_nonfinite"] = report.dropped_nonfinite;
   json["dropped_bad_index"] = report.dropped_bad_index;
-  json["note"] = scene::importer_note(report.format);
+  if (report.unit_m != 0.0) json["unit_m"] = report.unit_m;
+  json["notes"] = report.notes;
   json["dropped_points_and_lines"] = report.dropped_points_and_lines;
   json["dropped_freeform"] = report.dropped_freeform;
   json["ignored_statements"] = report.ignored_statements;
@@ -139,11 +154,10 @@ void print_import(const scene::ImportReport& report) {
       "{} unknown\n",
       report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines,
       report.dropped_freeform, report.ignored_statements);
-  fmt::print("assumed      {} m per unit, axes {} (see --scale and --up)\n", report.scale,
+  fmt::print("{} {} m per unit, axes {} (see --scale and --up)\n",
+             report.unit_m == 0.0 ? "assumed     " : "by the file ", report.scale,
              to_string(report.up));
-  if (const std::string_view note = scene::importer_note(report.format); !note.empty()) {
-    fmt::print("             {}\n", note);
-  }
+  for (const std::string& note : notes_of(report)) fmt::print("note         {}\n", note);
 }
 
 void print_field(const scene::Snapshot& snapshot) {
@@ -179,6 +193,10 @@ void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
 }
 
 ExitCode run_info(const InfoFlags& flags) {
+  if (flags.scene.file.empty()) {
+    print_error("no scene file is given (see camway info --help)");
+    return ExitCode::kInvalidInput;
+  }
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options();
   options.index.threshold = flags.octree_threshold;
@@ -206,7 +224,8 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand(
       "info", "Say what a scene file holds, what was assumed of it, and how its octree came out");
-  add_scene_flags(*command, flags->scene)->required();
+  CLI::Option* const scene = add_scene_flags(*command, flags->scene);
+  command->add_option("file", flags->scene.file, "The same as --scene")->excludes(scene);
   command
       ->add_option("--octree-threshold", flags->octree_threshold,
                    "A leaf of the octree with more triangles than this splits")
@@ -219,7 +238,7 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("METRES");
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer(exit_code_help("") +
-                  "\nExample: camway info --scene scenes/office.obj --scale 0.0254 --up z-to-y");
+                  "\nExample: camway info scenes/office.obj --scale 0.0254 --up z-to-y");
   command->callback([flags, &exit_code] { exit_code = run_info(*flags); });
 }
 

@@ -47,7 +47,7 @@ std::vector<Entry> make_catalogue() {
        "walls of 20 cm. The lift shaft and the safe are closed on all sides. In the "
        "spirit of the Soda Hall model of the UC Berkeley Walkthrough Group; no part "
        "of that model is in it.",
-       make_office(), office_requests()});
+       make_office(), office_requests(), true});
   entries.push_back({"maze.obj", "maze",
                      "10 x 8 cells of 2 m between walls of 20 cm, with floor and ceiling, an "
                      "entrance in the west and an exit in the east; several ways round.",
@@ -77,7 +77,9 @@ std::string readme(const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) {
     text += "\n## " + entry.file + "\n\n" + entry.note + "\n\n" +
             std::to_string(entry.scene.triangles().size()) + " triangles, " +
-            std::to_string(entry.scene.objects().size()) + " objects.\n\n" +
+            std::to_string(entry.scene.objects().size()) + " objects." +
+            (entry.also_unigrafix ? " The `.ug` file is the same scene in UniGrafix." : "") +
+            "\n\n" +
             "| request | keyframes | field of view, near | what for |\n|---|---|---|---|\n";
     for (const Request& request : entry.requests) text += table_row(request);
   }

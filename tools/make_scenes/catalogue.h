@@ -16,6 +16,7 @@ struct Entry {
   std::string note;  ///< text for scenes/README.md
   Scene scene;
   std::vector<Request> requests;
+  bool also_unigrafix = false;  ///< also written as a UniGrafix file of the same name
 };
 
 /// Returns the content of `scenes/`, in order. Throws std::logic_error with the request's name and

@@ -25,6 +25,9 @@ void write_all(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "requests");
   for (const Entry& entry : entries) {
     write(folder / entry.file, entry.scene.obj(entry.title));
+    if (entry.also_unigrafix) {
+      write((folder / entry.file).replace_extension(".ug"), entry.scene.unigrafix(entry.title));
+    }
     for (const Request& request : entry.requests) {
       write(folder / "requests" / (request.name + ".json"), to_json(request, entry.file));
     }

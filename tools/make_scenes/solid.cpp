@@ -104,6 +104,10 @@ std::vector<Opening> swapped(const std::vector<Opening>& openings) {
   return result;
 }
 
+std::string coordinates(const Point& p) {
+  return ' ' + metres(p[0]) + ' ' + metres(p[1]) + ' ' + metres(p[2]);
+}
+
 }  // namespace
 
 std::string metres(Um value) {
@@ -182,27 +186,56 @@ void Scene::add_prism(const Placement& placement, const Point& base, Um radius, 
   }
 }
 
-std::string Scene::obj(const std::string& title) const {
-  std::string text = "# " + title + "\n# metres, y up; made by tools/make_scenes, do not edit\n";
-  std::size_t written = 0;
+std::vector<Scene::Part> Scene::parts() const {
+  std::vector<Part> parts;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     const std::size_t end =
         i + 1 < objects_.size() ? objects_[i + 1].first_triangle : triangles_.size();
+    Part part{objects_[i].name, {}, {}};
     std::map<Point, std::size_t> index;
-    std::string vertices;
-    std::string faces;
     for (std::size_t t = objects_[i].first_triangle; t < end; ++t) {
-      faces += 'f';
-      for (const Point& p : triangles_[t]) {
-        const auto [entry, is_new] = index.try_emplace(p, written + index.size() + 1);
-        if (is_new)
-          vertices += "v " + metres(p[0]) + ' ' + metres(p[1]) + ' ' + metres(p[2]) + '\n';
-        faces += ' ' + std::to_string(entry->second);
+      std::array<std::size_t, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [entry, is_new] = index.try_emplace(triangles_[t][k], index.size());
+        if (is_new) part.vertices.push_back(triangles_[t][k]);
+        corners[k] = entry->second;
       }
-      faces += '\n';
+      part.triangles.push_back(corners);
     }
-    text += "o " + objects_[i].name + '\n' + vertices + faces;
-    written += index.size();
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::string Scene::obj(const std::string& title) const {
+  std::string text = "# " + title + "\n# metres, y up; made by tools/make_scenes, do not edit\n";
+  std::size_t written = 0;
+  for (const Part& part : parts()) {
+    text += "o " + part.name + '\n';
+    for (const Point& p : part.vertices) text += "v" + coordinates(p) + '\n';
+    for (const auto& corners : part.triangles) {
+      text += 'f';
+      for (const std::size_t corner : corners) text += ' ' + std::to_string(written + corner + 1);
+      text += '\n';
+    }
+    written += part.vertices.size();
+  }
+  return text;
+}
+
+std::string Scene::unigrafix(const std::string& title) const {
+  std::string text = "{ " + title + "\n  metres, y up; made by tools/make_scenes, do not edit }\n";
+  for (const Part& part : parts()) {
+    text += "def " + part.name + ";\n";
+    for (std::size_t i = 0; i < part.vertices.size(); ++i) {
+      text += "v v" + std::to_string(i) + coordinates(part.vertices[i]) + ";\n";
+    }
+    for (const auto& corners : part.triangles) {
+      text += "f (";
+      for (std::size_t k = 0; k < 3; ++k) text += (k > 0 ? " v" : "v") + std::to_string(corners[k]);
+      text += ");\n";
+    }
+    text += "end;\ni (" + part.name + ");\n";
   }
   return text;
 }

@@ -73,8 +73,19 @@ class Scene {
 
   /// Returns the scene as Wavefront OBJ in metres with six decimals, one `o` for each object.
   [[nodiscard]] std::string obj(const std::string& title) const;
+  /// Returns the scene in the UniGrafix language: a definition and an instance for each object.
+  /// Requires that the names of objects are identifiers.
+  [[nodiscard]] std::string unigrafix(const std::string& title) const;
 
  private:
+  /// An object with each of its vertices once, in the order of their first use.
+  struct Part {
+    std::string name;
+    std::vector<Point> vertices;
+    std::vector<std::array<std::size_t, 3>> triangles;
+  };
+  [[nodiscard]] std::vector<Part> parts() const;
+
   std::vector<Triangle> triangles_;
   std::vector<Object> objects_;
 };

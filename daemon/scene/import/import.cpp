@@ -62,13 +62,18 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
 }
 
 /// See `ImportReport::rounding_m`. The reader's rounding is relative to coordinates or absolute in
-/// file units; the product with the scale rounds once more.
-double rounding_m(const ImportRecordResult& record, const Mesh& mesh, double scale) {
+/// file units; the product with the scale rounds once more, and so does the product of a scale with
+/// the unit of the file.
+double rounding_m(const ImportRecordResult& record, const Mesh& mesh, const ImportReport& report,
+                  double asked_scale) {
   if (mesh.triangles.empty()) return 0.0;
   const geometry::Box bounds_m = mesh.bounds();
   const double largest_m = bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
-  const double of_scale = scale == 1.0 ? 0.0 : geometry::kUnitRoundoff;
-  return (record.relative_rounding + of_scale) * largest_m + record.absolute_rounding * scale;
+  const bool has_product = report.unit_m != 0.0 && asked_scale != 1.0;
+  const double of_scale = (report.scale == 1.0 ? 0.0 : geometry::kUnitRoundoff) +
+                          (has_product ? geometry::kUnitRoundoff : 0.0);
+  return (record.relative_rounding + of_scale) * largest_m +
+         record.absolute_rounding * report.scale;
 }
 
 std::string import_into(ImportResult& result, const fs::path& file, const ImportOptions& options,
@@ -90,7 +95,7 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   report.triangles = mesh.triangles.size();
   report.objects = mesh.objects.size();
   report.bounds_m = mesh.bounds();
-  report.rounding_m = rounding_m(record, mesh, options.scale);
+  report.rounding_m = rounding_m(record, mesh, report, options.scale);
   if (mesh.triangles.empty()) {
     return record.map ? "holds no occupied voxel" : "holds no triangle with an area";
   }
@@ -110,16 +115,6 @@ ImportResult import_mesh(const fs::path& file, const ImportOptions& options,
     result.error = file.string() + ": " + reason;
   }
   return result;
-}
-
-std::string_view importer_note(std::string_view format) {
-  if (format.find("Collada") != std::string_view::npos) {
-    return "the reader has already applied the file's own <unit> and <up_axis> (to metres, Y up)";
-  }
-  if (format.find("FBX") != std::string_view::npos) {
-    return "an FBX file's own unit is often the centimetre; it is not applied";
-  }
-  return {};
 }
 
 }  // namespace camway::scene

@@ -6,7 +6,6 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <string_view>
 
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/record/import_options.h"
@@ -16,10 +15,6 @@
 #include "daemon/scene/voxels/voxel_map.h"
 
 namespace camway::scene {
-
-/// A sentence for the user about changes of units and axes by the reader of a format; empty if
-/// coordinates are those of the file.
-std::string_view importer_note(std::string_view format);
 
 /// A mesh, or the reason why there is none. `report` covers the import as far as it got.
 struct ImportResult {
@@ -31,8 +26,8 @@ struct ImportResult {
 };
 
 /// Reads a scene file in a child process with limits of memory and time, since a hostile file of a
-/// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY and STL with our own readers
-/// (`scene/import/readers/mesh_reader.h`), occupancy maps (.bt and .ot) with OctoMap, other formats
+/// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY, STL and UniGrafix with our own
+/// readers (`readers/mesh_reader.h`, `unigrafix/unigrafix_reader.h`), occupancy maps (.bt and .ot) with OctoMap, other formats
 /// with assimp. Checks the result again (indices, finiteness, counts). Never throws for a bad file.
 /// Fails within milliseconds after a stop is requested. Thread-safe.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,

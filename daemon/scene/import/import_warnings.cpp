@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "daemon/scene/import/record/record_layout.h"
+
 namespace camway::scene {
 namespace {
 
@@ -50,6 +52,11 @@ std::vector<std::string> import_warnings(const ImportReport& report,
   if (report.ignored_statements > 0) {
     warnings.push_back("lines of its file that begin with an unknown word, and were not read: " +
                        std::to_string(report.ignored_statements));
+  }
+  for (const std::string& note : report.notes) {
+    if (note.starts_with(import_record::kWarningMark)) {
+      warnings.push_back(note.substr(import_record::kWarningMark.size()));
+    }
   }
   if (resolution_m && report.rounding_m > *resolution_m) {
     warnings.push_back(

@@ -36,21 +36,16 @@ TEST(CacheFile, KeepsEveryBit) {
 
 TEST(CacheFile, KeepsAReportOtherThanTheUsual) {
   PreparedScene written = small_prepared(true);
-  written.report = {"PLY, text",
-                    1.0,
-                    UpAxis::kAsInFile,
-                    written.report.vertices,
-                    72,
-                    2,
-                    written.report.bounds_m,
-                    1,
-                    2,
-                    3,
-                    4,
-                    5,
-                    6,
-                    true,
-                    0.25};
+  ImportReport& report = written.report;
+  report.format = "PLY, text";
+  report.degenerate_triangles = 1;
+  report.dropped_nonfinite = 2;
+  report.dropped_bad_index = 3;
+  report.dropped_points_and_lines = 4;
+  report.dropped_freeform = 5;
+  report.ignored_statements = 6;
+  report.single_precision = true;
+  report.rounding_m = 0.25;
   const base::Result<PreparedScene> read = read_bytes(file_of(written));
   ASSERT_TRUE(read) << read.error;
   expect_same(written, *read);

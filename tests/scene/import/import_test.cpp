@@ -446,5 +446,31 @@ TEST_F(Import, LeavesNoChildAndNoDescriptorBehind) {
   EXPECT_EQ(descriptors(), before);
 }
 
+TEST_F(Import, ReadsUnigrafixWithTheFilesThatItIncludes) {
+  fs::create_directories(folder_ / "parts");
+  write("parts/leg.ug", "def leg; v a 0 0 0; v b 1 0 0; v c 0 0 2; f (a b c); end;");
+  write("parts/table.ug", "include leg.ug; def table; a (leg) 4 -tx 3; end;");
+  const ImportResult result =
+      import_text("room.ug", "include parts/table.ug;\ni desk (table -ty 1);");
+  ASSERT_TRUE(result.mesh);
+  EXPECT_EQ(result.report.format, "UniGrafix");
+  ASSERT_EQ(result.mesh->objects.size(), 4U);
+  EXPECT_EQ(result.mesh->objects[3].name, "desk/leg");
+  EXPECT_EQ(result.mesh->triangle(3)[1], Vec3(10, 1, 0));
+}
+
+TEST_F(Import, IncludesNoFileFromElsewhere) {
+  const fs::path inner = folder_ / "inner";
+  fs::create_directories(inner);
+  write("secret.ug", "v a 0 0 0;");
+  fs::create_symlink(folder_ / "secret.ug", inner / "link.ug");
+  for (const std::string name : {"../secret.ug", "link.ug", "/etc/passwd"}) {
+    const fs::path file = write("inner/scene.ug", "\ninclude " + name + ";");
+    EXPECT_THAT(error_of(file), HasSubstr("line 2: '" + name + "' is not in the folder")) << name;
+  }
+  const fs::path file = write("inner/scene.ug", "include parts.ug;");
+  EXPECT_THAT(error_of(file), HasSubstr("line 1: 'parts.ug' is not there"));
+}
+
 }  // namespace
 }  // namespace camway::scene

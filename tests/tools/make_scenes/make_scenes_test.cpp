@@ -13,6 +13,7 @@
 #include "daemon/collision/detect.h"
 #include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 #include "daemon/scene/index/scene_index.h"
 #include "tools/make_scenes/catalogue.h"
 #include "tools/make_scenes/office.h"
@@ -201,6 +202,22 @@ TEST(MakeScenes, SolidsAreClosedAndFaceOutwards) {
   const double prism_m3 = 12 * 0.5 * 0.4 * 0.4 * 0.5 * 0.9;
   const double walls_m3 = 0.2 * (12.0 - 2.1 - 1.1) + 0.2 * (12.0 - 2.1);
   EXPECT_NEAR(six_volumes / 6.0, 0.006 + prism_m3 + walls_m3 + 0.3 * (40.0 - 1.0), 1e-5);
+}
+
+TEST(MakeScenes, UnigrafixHoldsTheSameTriangles) {
+  const Scene scene = make_office();
+  const auto read = scene::unigrafix::read_unigrafix(scene.unigrafix("office"), {});
+  ASSERT_TRUE(read) << read.error;
+  ASSERT_EQ(read->triangles.size(), scene.triangles().size());
+  EXPECT_EQ(read->objects.size(), scene.objects().size());
+  for (std::size_t t = 0; t < scene.triangles().size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double metres = static_cast<double>(scene.triangles()[t][k][i]) / 1e6;
+        ASSERT_EQ(read->vertices[read->triangles[t][k]][i], metres) << "triangle " << t;
+      }
+    }
+  }
 }
 
 }  // namespace

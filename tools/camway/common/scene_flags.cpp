@@ -33,7 +33,8 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
   command.add_flag("--no-cache", flags.no_cache,
                    "Read and prepare the scene, even if the cache holds it, and do not keep it");
   return command
-      .add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...)")
+      .add_option("--scene", flags.file,
+                  "Scene file (OBJ, OFF, PLY, STL, UniGrafix, glTF, OctoMap, ...)")
       ->type_name("FILE");
 }
 
@@ -64,7 +65,8 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
   add_flags(command, flags, "the request's, else ")
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...) [the request's, which is relative "
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, glTF, OctoMap, ...) [the request's, which is "
+          "relative "
           "to the request's folder]");
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
 /// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE and writes the record of
-/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY and STL are read by our own readers,
-/// occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only program
-/// that sees assimp; a process of its own, because a file of a few bytes can make assimp crash or
-/// take all memory.
+/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL and UniGrafix are read by our own
+/// readers, occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only
+/// program that sees assimp; a process of its own, because a file of a few bytes can make assimp
+/// crash or take all memory.
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -35,14 +35,17 @@
 #include <assimp/Importer.hpp>
 
 #include "daemon/scene/import/child/import_confinement.h"
+#include "daemon/scene/import/child/included_files.h"
 #include "daemon/scene/import/child/map_reader.h"
 #include "daemon/scene/import/readers/mesh_reader.h"
 #include "daemon/scene/import/record/record_layout.h"
+#include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 
 namespace {
 
 namespace layout = camway::scene::import_record;
 namespace mesh_readers = camway::scene::mesh_readers;
+namespace unigrafix = camway::scene::unigrafix;
 
 /// Enough for a scene file and the files that it refers to, one after the other.
 constexpr rlim_t kMaxOpenFiles = 64;
@@ -90,6 +93,7 @@ bool write_all(const std::vector<T>& values) {
 
 bool write_record(layout::Record& record) {
   record.header.text_bytes = record.text.size();
+  record.header.note_bytes = record.notes.size();
   record.header.vertices = record.vertices.size();
   record.header.triangles = record.triangles.size();
   record.header.objects = record.objects.size();
@@ -97,7 +101,8 @@ bool write_record(layout::Record& record) {
   record.header.occupied = record.occupied.size();
   record.header.free = record.free.size();
   return write_all(&record.header, sizeof record.header) &&
-         write_all(record.text.data(), record.text.size()) && write_all(record.vertices) &&
+         write_all(record.text.data(), record.text.size()) &&
+         write_all(record.notes.data(), record.notes.size()) && write_all(record.vertices) &&
          write_all(record.triangles) && write_all(record.objects) &&
          write_all(record.names.data(), record.names.size()) && write_all(record.occupied) &&
          write_all(record.free);
@@ -219,6 +224,24 @@ class TransformRounding {
   double bound_ = 0.0;
 };
 
+/// Says what the readers of assimp do with units and axes, and takes the unit that they only
+/// report.
+void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
+  if (record.text.find("Collada") != std::string::npos) {
+    record.notes += "the file's own <unit> and <up_axis> are applied: metres, Y up\n";
+  }
+  if (record.text.find("FBX") == std::string::npos || scene.mMetaData == nullptr) return;
+  constexpr double kCentimetre_m = 0.01;
+  float centimetres = 0.0F;
+  if (scene.mMetaData->Get("UnitScaleFactor", centimetres) && centimetres > 0.0F) {
+    record.header.unit_m = kCentimetre_m * static_cast<double>(centimetres);
+  }
+  int axis = 0;
+  if (scene.mMetaData->Get("UpAxis", axis) && axis >= 0 && axis < 3) {
+    record.notes += std::string("the file says that ") + "XYZ"[axis] + " is up; axes are kept\n";
+  }
+}
+
 int import_with_assimp(const std::string& file) {
   Assimp::Importer importer;
   // Node transforms are applied before polygons are cut to triangles, and nodes keep their names.
@@ -240,6 +263,7 @@ int import_with_assimp(const std::string& file) {
   const aiImporterDesc* description =
       index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
   record.text = description != nullptr ? description->mName : "unknown";
+  note_unit_and_axes(*scene, record);
   scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
   if (scene == nullptr) return refuse(importer.GetErrorString());
   append_nodes(*scene->mRootNode, *scene, record);
@@ -277,7 +301,10 @@ int import_directly(const std::string& file, const std::string& extension) {
     // The file is there and not empty, so what is missing is address space.
     return errno == ENOMEM ? layout::kExitOutOfMemory : refuse("cannot be opened");
   }
-  camway::base::Result<layout::Record> read = mesh_readers::read_mesh(extension, mapped.bytes());
+  camway::base::Result<layout::Record> read =
+      unigrafix::is_unigrafix_extension(extension)
+          ? unigrafix::read_unigrafix(mapped.bytes(), camway::scene::files_below(file))
+          : mesh_readers::read_mesh(extension, mapped.bytes());
   if (!read) return refuse(std::move(read.error));
   return write_record(*read) ? layout::kExitOk : layout::kExitInternal;
 }
@@ -291,7 +318,9 @@ int import_map(const std::string& file, const std::string& extension) {
 
 int import_file(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (mesh_readers::is_known_extension(extension)) return import_directly(file, extension);
+  if (mesh_readers::is_known_extension(extension) || unigrafix::is_unigrafix_extension(extension)) {
+    return import_directly(file, extension);
+  }
   if (camway::scene::is_map_extension(extension)) return import_map(file, extension);
   return import_with_assimp(file);
 }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kLongestName = 256;
 
+using Step = std::ptrdiff_t;
+
 /// False for NaN.
 bool is_cuttable(const Point& p) {
   return std::all_of(p.begin(), p.end(),
@@ -58,16 +60,44 @@ void MeshCollector::add_polygon(std::span<const std::uint32_t> corners) {
     record_.triangles.push_back({corners[0], corners[1], corners[2]});
     return;
   }
-  corners_.clear();
-  for (const std::uint32_t corner : corners) corners_.push_back(record_.vertices[corner]);
-  const auto bad = std::find_if_not(corners_.begin(), corners_.end(), is_cuttable);
-  if (bad != corners_.end()) {
+  if (!take_corners(corners)) {
+    const auto bad = std::find_if_not(corners_.begin(), corners_.end(), is_cuttable);
     add_fan(corners, static_cast<std::size_t>(bad - corners_.begin()));
     return;
   }
   for (const PolygonCutter::Cut& cut : cutter_.cut(corners_)) {
     record_.triangles.push_back({corners[cut[0]], corners[cut[1]], corners[cut[2]]});
   }
+}
+
+void MeshCollector::add_polygon(std::span<const std::uint32_t> corners,
+                                std::span<const std::size_t> ends) {
+  std::vector<std::uint32_t> kept(corners.begin(), corners.begin() + static_cast<Step>(ends[0]));
+  std::vector<std::size_t> kept_ends = {kept.size()};
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i] - ends[i - 1] < 3) continue;
+    kept.insert(kept.end(), corners.begin() + static_cast<Step>(ends[i - 1]),
+                corners.begin() + static_cast<Step>(ends[i]));
+    kept_ends.push_back(kept.size());
+  }
+  const std::span<const std::uint32_t> outline = corners.first(ends[0]);
+  if (ends[0] < 3 || kept_ends.size() == 1) return add_polygon(outline);
+  const bool can_cut = std::ranges::count(kept, kNoVertex) == 0 && take_corners(kept);
+  const std::span<const PolygonCutter::Cut> cuts =
+      can_cut ? cutter_.cut(corners_, kept_ends) : std::span<const PolygonCutter::Cut>();
+  if (cuts.empty()) {
+    filled_holes_ += kept_ends.size() - 1;
+    return add_polygon(outline);
+  }
+  for (const PolygonCutter::Cut& cut : cuts) {
+    record_.triangles.push_back({kept[cut[0]], kept[cut[1]], kept[cut[2]]});
+  }
+}
+
+bool MeshCollector::take_corners(std::span<const std::uint32_t> corners) {
+  corners_.clear();
+  for (const std::uint32_t corner : corners) corners_.push_back(record_.vertices[corner]);
+  return std::ranges::all_of(corners_, is_cuttable);
 }
 
 void MeshCollector::add_fan(std::span<const std::uint32_t> corners, std::size_t first) {

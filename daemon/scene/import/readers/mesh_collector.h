@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -37,6 +38,11 @@ class MeshCollector {
   /// not finite, or too large for areas, all triangles contain that corner; the receiver decides.
   void add_polygon(std::span<const std::uint32_t> corners);
 
+  /// The same for a polygon with holes: the corners of the outline, then those of each hole, up to
+  /// each of `ends`. Holes that cannot be cut out are filled, and counted.
+  void add_polygon(std::span<const std::uint32_t> corners, std::span<const std::size_t> ends);
+  [[nodiscard]] std::uint64_t filled_holes() const { return filled_holes_; }
+
   void add_points_and_lines(std::uint64_t count) {
     record_.header.dropped_points_and_lines += count;
   }
@@ -50,11 +56,13 @@ class MeshCollector {
 
  private:
   void end_object();
+  [[nodiscard]] bool take_corners(std::span<const std::uint32_t> corners);
   void add_fan(std::span<const std::uint32_t> corners, std::size_t first);
 
   import_record::Record record_;
   std::string name_;
   bool weighted_ = false;
+  std::uint64_t filled_holes_ = 0;
   std::size_t first_triangle_ = 0;  ///< first triangle of the current object
   PolygonCutter cutter_;
   std::vector<Point> corners_;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/readers/polygon_holes.h"
 
 namespace camway::scene::mesh_readers {
 namespace {
@@ -87,7 +89,7 @@ std::span<const PolygonCutter::Cut> PolygonCutter::cut(std::span<const Point> co
     cuts_.push_back({0, 1, 2});
     return cuts_;
   }
-  project(corners);
+  project(corners, corners.size());
   if (corners.size() == 4) {
     cut_quadrilateral();
   } else {
@@ -96,8 +98,25 @@ std::span<const PolygonCutter::Cut> PolygonCutter::cut(std::span<const Point> co
   return cuts_;
 }
 
-void PolygonCutter::project(std::span<const Point> corners) {
-  const Point normal = area_vector(corners);
+std::span<const PolygonCutter::Cut> PolygonCutter::cut(std::span<const Point> corners,
+                                                       std::span<const std::size_t> ends) {
+  if (ends.size() == 1) return cut(corners);
+  cuts_.clear();
+  project(corners, ends[0]);
+  const std::vector<std::uint32_t> ring = ring_with_holes(points_, ends);
+  if (ring.empty()) return cuts_;
+  std::vector<Point2> ring_points;
+  for (const std::uint32_t corner : ring) ring_points.push_back(points_[corner]);
+  points_ = std::move(ring_points);
+  cut_ears();
+  for (Cut& cut : cuts_) {
+    for (std::uint32_t& corner : cut) corner = ring[corner];
+  }
+  return cuts_;
+}
+
+void PolygonCutter::project(std::span<const Point> corners, std::size_t outline) {
+  const Point normal = area_vector(corners.first(outline));
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
     if (std::abs(normal[k]) > std::abs(normal[axis])) axis = k;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,11 +30,18 @@ class PolygonCutter {
   /// magnitude within 2^±200.
   std::span<const Cut> cut(std::span<const Point> corners);
 
+  /// The same for a polygon with holes: `corners` are those of the outline and then those of each
+  /// hole, up to each of `ends`. Bridges lead from the outline to the holes, which do not cut any
+  /// edge (Held 2001, "FIST: Fast industrial-strength triangulation of polygons", section 3.2).
+  /// Returns no triangle if a hole cannot be reached: it is not inside, or outlines meet. Requires
+  /// that each outline has 3 corners or more.
+  std::span<const Cut> cut(std::span<const Point> corners, std::span<const std::size_t> ends);
+
  private:
   using Index = std::uint32_t;
 
-  /// Sets `points_` so that the polygon turns counter-clockwise.
-  void project(std::span<const Point> corners);
+  /// Sets `points_` so that the polygon of the first `outline` corners turns counter-clockwise.
+  void project(std::span<const Point> corners, std::size_t outline);
   void link();
   void cut_quadrilateral();
   void cut_ears();

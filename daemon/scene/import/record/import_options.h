@@ -16,7 +16,8 @@ enum class UpAxis {
 
 /// How to read a file, and the limits of the import process.
 struct ImportOptions {
-  double scale = 1.0;  ///< file units to metres; multiplies every coordinate [Limit: 0 < value]
+  /// Metres per file unit, or a factor beside the unit that the file states. [Limit: 0 < value]
+  double scale = 1.0;
   UpAxis up = UpAxis::kAsInFile;
   UnknownSpace unknown = UnknownSpace::kFree;             ///< for an occupancy map
   VoxelMapLimits map_limits = {};                         ///< for an occupancy map

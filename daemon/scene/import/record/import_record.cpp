@@ -18,6 +18,12 @@ namespace layout = import_record;
 using geometry::Vec3;
 using layout::Record;
 
+/// Units of length that a file may state: from the picometre to the parsec.
+constexpr double kSmallestUnit_m = 1e-12;
+constexpr double kLargestUnit_m = 1e17;
+constexpr std::size_t kMostNotes = 50;
+constexpr std::size_t kLongestNote = 500;
+
 /// Parses a record. Checks every count against the remaining bytes before it allocates anything.
 class RecordReader {
  public:
@@ -47,11 +53,18 @@ class RecordReader {
   std::span<const std::byte> rest_;
 };
 
+/// False for NaN.
+bool is_sound_unit(double unit_m) {
+  return unit_m == 0.0 || (unit_m >= kSmallestUnit_m && unit_m <= kLargestUnit_m);
+}
+
 bool parse(std::span<const std::byte> bytes, Record& record) {
   RecordReader reader(bytes);
   return reader.read(record.header) && record.header.magic == layout::kMagic &&
          record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
+         is_sound_unit(record.header.unit_m) &&
          reader.read(record.text, record.header.text_bytes) &&
+         reader.read(record.notes, record.header.note_bytes) &&
          reader.read(record.vertices, record.header.vertices) &&
          reader.read(record.triangles, record.header.triangles) &&
          reader.read(record.objects, record.header.objects) &&
@@ -68,10 +81,21 @@ std::string printable(std::string text) {
   return text;
 }
 
+/// The lines of the notes, no more than a user reads.
+std::vector<std::string> notes_of(const std::string& text) {
+  std::vector<std::string> notes;
+  for (std::size_t at = 0; at < text.size() && notes.size() < kMostNotes;) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    notes.push_back(printable(text.substr(at, std::min(end - at, kLongestNote))));
+    at = end + 1;
+  }
+  return notes;
+}
+
 /// File coordinates to metres in the asked orientation.
-Vec3 to_scene(const layout::Vertex& v, const ImportOptions& options) {
-  const Vec3 p = options.scale * Vec3(v[0], v[1], v[2]);
-  switch (options.up) {
+Vec3 to_scene(const layout::Vertex& v, double scale, UpAxis up) {
+  const Vec3 p = scale * Vec3(v[0], v[1], v[2]);
+  switch (up) {
     case UpAxis::kZToY:
       return {p.x(), p.z(), -p.y()};
     case UpAxis::kYToZ:
@@ -92,7 +116,8 @@ class MeshBuilder {
  public:
   MeshBuilder(const Record& record, const ImportOptions& options, ImportReport& report)
       : record_(record),
-        options_(options),
+        scale_(report.scale),
+        up_(options.up),
         report_(report),
         new_index_(record.vertices.size(), kUnused) {}
 
@@ -133,7 +158,7 @@ class MeshBuilder {
         ++report_.dropped_bad_index;
         return;
       }
-      triangle[k] = to_scene(record_.vertices[indices[k]], options_);
+      triangle[k] = to_scene(record_.vertices[indices[k]], scale_, up_);
     }
     if (!usable(triangle[0]) || !usable(triangle[1]) || !usable(triangle[2])) {
       ++report_.dropped_nonfinite;
@@ -159,7 +184,8 @@ class MeshBuilder {
   }
 
   const Record& record_;
-  const ImportOptions& options_;
+  const double scale_;
+  const UpAxis up_;
   ImportReport& report_;
   std::vector<std::uint32_t> new_index_;
   Mesh mesh_;
@@ -205,7 +231,7 @@ std::optional<VoxelSet> voxels_of(const std::vector<layout::Cube>& cubes, UpAxis
 }
 
 /// Makes the map and the mesh of a record with cubes. Returns why not, or an empty text.
-std::string read_map(const Record& record, const ImportOptions& options,
+std::string read_map(const Record& record, const ImportOptions& options, double scale,
                      ImportRecordResult& result) {
   if (!std::ranges::all_of(record.occupied, is_sound) ||
       !std::ranges::all_of(record.free, is_sound)) {
@@ -219,9 +245,8 @@ std::string read_map(const Record& record, const ImportOptions& options,
     return "has more than " + std::to_string(options.map_limits.voxels) +
            " voxels that are occupied or free";
   }
-  VoxelMapResult built =
-      VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),
-                      *std::move(free), options.unknown, options.map_limits);
+  VoxelMapResult built = VoxelMap::build(scale * record.header.map_resolution, *std::move(occupied),
+                                         *std::move(free), options.unknown, options.map_limits);
   result.limit = built.limit;
   if (!built.map) return built.error;
   if (!built.map->faces()) {
@@ -247,6 +272,9 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
     return result;
   }
   report.format = printable(record.text);
+  report.notes = notes_of(record.notes);
+  report.unit_m = record.header.unit_m;
+  report.scale = options.scale * (report.unit_m == 0.0 ? 1.0 : report.unit_m);
   report.dropped_points_and_lines = record.header.dropped_points_and_lines;
   report.dropped_freeform = record.header.dropped_freeform;
   report.ignored_statements = record.header.ignored_statements;
@@ -254,7 +282,7 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   result.relative_rounding = record.header.relative_rounding;
   result.absolute_rounding = record.header.absolute_rounding;
   if (is_map) {
-    result.refusal = read_map(record, options, result);
+    result.refusal = read_map(record, options, report.scale, result);
   } else {
     result.mesh = MeshBuilder(record, options, report).build();
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "daemon/geometry/types.h"
 #include "daemon/scene/import/record/import_options.h"
@@ -12,7 +13,10 @@ namespace camway::scene {
 /// The content of a file and the assumptions of its import, so that wrong units or axes show.
 struct ImportReport {
   std::string format;  ///< as our reader or assimp calls it
-  double scale = 1.0;
+  /// Sentences for the user about what was read, left out and assumed. Not kept in caches and logs.
+  std::vector<std::string> notes;
+  double unit_m = 0.0;  ///< metres per file unit as the file says; 0 if it does not
+  double scale = 1.0;   ///< metres per file unit, as read
   UpAxis up = UpAxis::kAsInFile;
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;

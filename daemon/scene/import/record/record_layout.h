@@ -4,18 +4,22 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The record that the import process returns to the process that started it: flat, in the byte
 /// order of the machine, since both are the same build on the same machine.
 ///
-///     Header · text · vertices · triangles · objects · names · occupied cubes · free cubes
+///     Header · text · notes · vertices · triangles · objects · names · occupied cubes · free cubes
 ///
 /// A hostile file may have taken over its reader, so the receiver trusts no count.
 namespace camway::scene::import_record {
 
-inline constexpr std::uint64_t kMagic = 0x344D'5941'574D'4143;  // "CAMWAYM4"
+inline constexpr std::uint64_t kMagic = 0x354D'5941'574D'4143;  // "CAMWAYM5"
 inline constexpr int kOutputFd = 3;
+
+/// Begins a note that belongs into the warnings of every answer.
+inline constexpr std::string_view kWarningMark = "warning: ";
 
 /// Exit codes of `camway-import`. Any other is a crash: sanitizers and abort handlers use small
 /// ones.
@@ -28,6 +32,7 @@ inline constexpr int kExitNotConfined = 43;  ///< seccomp does not work here, so
 struct Header {
   std::uint64_t magic = kMagic;
   std::uint64_t text_bytes = 0;  ///< size of the format's name, or of the error
+  std::uint64_t note_bytes = 0;  ///< size of the notes
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
@@ -39,6 +44,7 @@ struct Header {
   /// magnitude and, in file units, `absolute_rounding`.
   double relative_rounding = 0.0;
   double absolute_rounding = 0.0;
+  double unit_m = 0.0;                 ///< metres per file unit as the file says; 0 if it does not
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
   /// Edge of a voxel in file units for an occupancy map, which has nothing but cubes; else 0.
   double map_resolution = 0.0;
@@ -65,6 +71,7 @@ struct Cube {
 struct Record {
   Header header;
   std::string text;
+  std::string notes;  ///< sentences for the user about what was read and assumed, one on each line
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<Object> objects;

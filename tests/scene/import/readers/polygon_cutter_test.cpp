@@ -183,6 +183,130 @@ TEST(PolygonCutter, CutsAroundAHoleWithASeam) {
                0);
 }
 
+bool is_inside(const std::vector<Lattice>& outline, const Lattice& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Lattice& a = outline[i];
+    const Lattice& b = outline[(i + 1) % outline.size()];
+    if ((a[1] > p[1]) != (b[1] > p[1]) && (turn(a, b, p) > 0) == (b[1] > a[1])) inside = !inside;
+  }
+  return inside;
+}
+
+bool outlines_meet(const std::vector<Lattice>& a, const std::vector<Lattice>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (segments_meet(a[i], a[(i + 1) % a.size()], b[j], b[(j + 1) % b.size()])) return true;
+    }
+  }
+  return false;
+}
+
+/// Returns an outline, ten times as large as the others, with holes inside that do not meet it or
+/// each other.
+std::vector<std::vector<Lattice>> random_outlines(Random& random) {
+  std::vector<std::vector<Lattice>> outlines = {
+      random_outline(random, 3 + testing::below(random, 20))};
+  for (Lattice& p : outlines[0]) p = {10 * p[0], 10 * p[1]};
+  for (int tries = 0; tries < 40; ++tries) {
+    std::vector<Lattice> hole = random_outline(random, 3 + testing::below(random, 8));
+    const auto dx = static_cast<std::int64_t>(testing::below(random, 360));
+    const auto dy = static_cast<std::int64_t>(testing::below(random, 360));
+    for (Lattice& p : hole) p = {p[0] + dx, p[1] + dy};
+    bool fits = is_inside(outlines[0], hole[0]);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      fits = fits && !outlines_meet(outlines[i], hole);
+      fits = fits &&
+             (i == 0 || (!is_inside(outlines[i], hole[0]) && !is_inside(hole, outlines[i][0])));
+    }
+    if (fits) outlines.push_back(hole);
+  }
+  return outlines;
+}
+
+/// Expects triangles of the orientation and the area of the outline without its holes, none of
+/// which has an inner lattice point outside.
+void expect_cover(const std::vector<std::vector<Lattice>>& outlines, int plane) {
+  std::vector<Lattice> lattice;
+  std::vector<Point> corners;
+  std::vector<std::size_t> ends;
+  std::int64_t whole = 0;
+  for (const std::vector<Lattice>& outline : outlines) {
+    for (const Lattice& p : outline) lattice.push_back(p), corners.push_back(in_space(p, plane));
+    const std::int64_t area = std::abs(doubled_area(outline));
+    whole += ends.empty() ? area : -area;
+    ends.push_back(corners.size());
+  }
+  PolygonCutter cutter;
+  const auto cuts = cutter.cut(corners, ends);
+  ASSERT_EQ(cuts.size(), corners.size() + 2 * (ends.size() - 1) - 2);
+  const int side = sign(doubled_area(outlines[0]));
+  std::int64_t sum = 0;
+  for (const PolygonCutter::Cut& cut : cuts) {
+    const std::int64_t area = side * turn(lattice[cut[0]], lattice[cut[1]], lattice[cut[2]]);
+    ASSERT_GE(area, 0);
+    sum += area;
+    // Three times the centre of the triangle, in a lattice three times as fine.
+    Lattice centre{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      centre[k] = lattice[cut[0]][k] + lattice[cut[1]][k] + lattice[cut[2]][k];
+    }
+    if (area == 0) continue;
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      std::vector<Lattice> fine = outlines[i];
+      for (Lattice& p : fine) p = {3 * p[0], 3 * p[1]};
+      ASSERT_EQ(is_inside(fine, centre), i == 0);
+    }
+  }
+  ASSERT_EQ(sum, whole);
+}
+
+TEST(PolygonCutter, CutsHolesOutOfAnyOutline) {
+  Random random(testing::kMeshSeed);
+  std::size_t holes = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
+    std::vector<std::vector<Lattice>> outlines = random_outlines(random);
+    for (std::vector<Lattice>& outline : outlines) {
+      if (testing::below(random, 2) == 0) std::reverse(outline.begin(), outline.end());
+    }
+    holes += outlines.size() - 1;
+    if (outlines.size() > 1) expect_cover(outlines, trial % 5);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(holes, 1000U);
+}
+
+TEST(PolygonCutter, ReachesHolesThatTouchNothingButLieInALine) {
+  // Bridges would run through the corners of other holes.
+  std::vector<std::vector<Lattice>> outlines = {{{0, 0}, {400, 0}, {400, 400}, {0, 400}}};
+  for (std::int64_t i = 1; i < 19; ++i) {
+    for (std::int64_t j = 1; j < 19; j += 3) {
+      outlines.push_back({{20 * i, 20 * j}, {20 * i + 10, 20 * j}, {20 * i, 20 * j + 10}});
+    }
+  }
+  for (int plane = 0; plane < 5; ++plane) {
+    expect_cover(outlines, plane);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(PolygonCutter, SaysWhenAHoleCannotBeReached) {
+  PolygonCutter cutter;
+  const std::vector<std::size_t> ends = {4, 7};
+  const std::vector<Point> square = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  const std::vector<std::vector<Point>> holes = {
+      {{5, 1, 0}, {6, 1, 0}, {6, 2, 0}},  // outside
+      {{1, 1, 0}, {2, 1, 0}, {3, 1, 0}},  // without area
+      {{1, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+  };
+  for (const std::vector<Point>& hole : holes) {
+    std::vector<Point> corners = square;
+    corners.insert(corners.end(), hole.begin(), hole.end());
+    EXPECT_TRUE(cutter.cut(corners, ends).empty());
+  }
+}
+
 TEST(PolygonCutter, LeavesNothingOutWhereThereIsNoInside) {
   PolygonCutter cutter;
   // A star drawn in one line, a segment in both directions, one point five times.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/import/record/import_record.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -14,11 +15,13 @@ namespace {
 
 namespace layout = import_record;
 using geometry::Vec3;
+using ::testing::ElementsAre;
 
 /// A record as the import process writes it, in which every part may be wrong.
 struct Forged {
   layout::Header header;
   std::string text = "test format";
+  std::string notes = "one note\nanother\x01 note\n";
   std::vector<layout::Vertex> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<layout::Triangle> triangles = {{0, 1, 2}, {0, 1, 3}};
   std::vector<layout::Object> objects = {{1, 3}, {1, 3}};
@@ -26,6 +29,7 @@ struct Forged {
 
   Forged() {
     header.text_bytes = text.size();
+    header.note_bytes = notes.size();
     header.vertices = vertices.size();
     header.triangles = triangles.size();
     header.objects = objects.size();
@@ -40,6 +44,7 @@ struct Forged {
     };
     append(&header, sizeof header);
     append(text.data(), text.size());
+    append(notes.data(), notes.size());
     append(vertices.data(), vertices.size() * sizeof vertices[0]);
     append(triangles.data(), triangles.size() * sizeof triangles[0]);
     append(objects.data(), objects.size() * sizeof objects[0]);
@@ -54,6 +59,7 @@ TEST(ImportRecord, GivesBackWhatWasWritten) {
   ASSERT_TRUE(result.mesh);
   EXPECT_FALSE(result.broken);
   EXPECT_EQ(report.format, "test format");
+  EXPECT_THAT(report.notes, ElementsAre("one note", "another? note"));
   EXPECT_EQ(result.mesh->triangles.size(), 2U);
   EXPECT_EQ(result.mesh->triangle(1)[2], Vec3(0, 0, 1));
   ASSERT_EQ(result.mesh->objects.size(), 2U);
@@ -81,8 +87,8 @@ TEST(ImportRecord, NoCountIsBelieved) {
        {std::uint64_t{5}, std::uint64_t{1} << 32, std::uint64_t{1} << 60,
         std::numeric_limits<std::uint64_t>::max()}) {
     for (std::uint64_t layout::Header::*member :
-         {&layout::Header::text_bytes, &layout::Header::vertices, &layout::Header::triangles,
-          &layout::Header::objects, &layout::Header::name_bytes}) {
+         {&layout::Header::text_bytes, &layout::Header::note_bytes, &layout::Header::vertices,
+          &layout::Header::triangles, &layout::Header::objects, &layout::Header::name_bytes}) {
       Forged forged;
       forged.header.*member = count;
       ImportReport report;
@@ -145,6 +151,20 @@ TEST(ImportRecord, CoordinatesThatAreNoNumberAreDroppedAndCounted) {
   EXPECT_EQ(report.dropped_nonfinite, 1U);
 }
 
+TEST(ImportRecord, TheUnitOfTheFileMultipliesTheScale) {
+  Forged forged;
+  forged.header.unit_m = 0.5;
+  ImportReport report;
+  const ImportRecordResult result = read_import_record(forged.bytes(), {.scale = 4.0}, report);
+  EXPECT_EQ(result.mesh->triangle(0)[1], Vec3(2, 0, 0));
+  EXPECT_EQ(report.scale, 2.0);
+  EXPECT_EQ(report.unit_m, 0.5);
+  for (const double bad : {-1.0, 1e-300, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    forged.header.unit_m = bad;
+    EXPECT_TRUE(read_import_record(forged.bytes(), {}, report).broken) << bad;
+  }
+}
+
 TEST(ImportRecord, ObjectsThatClaimTooMuchGetWhatThereIs) {
   Forged forged;
   forged.objects = {{1000, 1000}, {5, 7}};
@@ -183,6 +203,7 @@ TEST(ImportRecord, NamesAreMadePrintable) {
 TEST(ImportRecord, ARefusalCarriesItsReason) {
   Forged forged;
   forged.text = "no good\n";
+  forged.notes.clear();
   forged.vertices.clear();
   forged.triangles.clear();
   forged.objects.clear();

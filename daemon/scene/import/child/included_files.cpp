@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import/child/included_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+
+namespace camway::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  return std::ranges::mismatch(folder, file).in1 == folder.end();
+}
+
+base::Result<unigrafix::IncludedFile> open_below(const fs::path& folder, const std::string& from,
+                                                 const std::string& name) {
+  std::error_code error;
+  const fs::path real =
+      fs::canonical(folder / fs::path(from).parent_path() / fs::path(name), error);
+  if (error == std::errc::no_such_file_or_directory) return base::Failure{"is not there"};
+  // What lies outside may not be looked at by this process.
+  if (error || !is_below(real, folder)) {
+    return base::Failure{"is not in the folder of the scene or below it"};
+  }
+  if (!fs::is_regular_file(real, error)) return base::Failure{"is not a regular file"};
+  std::ifstream stream(real, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream) return base::Failure{"cannot be read"};
+  return unigrafix::IncludedFile{real.lexically_relative(folder).string(), std::move(text)};
+}
+
+}  // namespace
+
+unigrafix::OpenInclude files_below(const fs::path& scene) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(scene, error).parent_path();
+  return [folder](const std::string& from, const std::string& name) {
+    return open_below(folder, from, name);
+  };
+}
+
+}  // namespace camway::scene
