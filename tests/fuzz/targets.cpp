@@ -12,7 +12,7 @@ std::span<const FuzzTarget> fuzz_targets() {
       kResponseJsonTarget, kPathJsonTarget,     kSessionTarget,      kImportRecordTarget,
       kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
       kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
-      kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget};
+      kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kCameraFileTarget};
   return all;
 }
 

@@ -26,6 +26,8 @@ ExitCode worse(ExitCode a, ExitCode b);
 void add_plan_command(CLI::App& app, ExitCode& exit_code);
 void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
+void add_import_command(CLI::App& app, ExitCode& exit_code);
+void add_export_command(CLI::App& app, ExitCode& exit_code);
 void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_load_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);

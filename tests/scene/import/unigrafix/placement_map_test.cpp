@@ -20,10 +20,6 @@ using ExactPoint = std::array<long double, 3>;
 
 constexpr std::uint64_t kSeed = 19940501;
 
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 ExactPoint applied(const Exact& map, const ExactPoint& p) {
   ExactPoint result{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -79,18 +75,18 @@ struct Pair {
 };
 
 Pair random_pair(Random& random) {
-  const Point axis = {uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, 0.1, 3)};
-  switch (std::uniform_int_distribution<int>(0, 3)(random)) {
+  const Point axis = {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(0.1, 3)};
+  switch (random.integer(0, 3)) {
     case 0: {
-      const double angle_deg = uniform(random, -1000, 1000);
+      const double angle_deg = random.uniform(-1000, 1000);
       return {PlacementMap::rotation(axis, angle_deg), rotation(axis, angle_deg)};
     }
     case 1: {
-      const double factor = uniform(random, -4, 4);
+      const double factor = random.uniform(-4, 4);
       return {PlacementMap::scaling_along(axis, factor), scaling_along(axis, factor)};
     }
     case 2: {
-      const Point offset = {uniform(random, -1e4, 1e4), axis[0], axis[1]};
+      const Point offset = {random.uniform(-1e4, 1e4), axis[0], axis[1]};
       return {PlacementMap::translation(offset),
               {{{1, 0, 0, offset[0]}, {0, 1, 0, offset[1]}, {0, 0, 1, offset[2]}}}};
     }
@@ -104,10 +100,10 @@ TEST(PlacementMap, IsWithinItsBoundOfTheExactMap) {
   Random random(kSeed);
   double largest_share = 0.0;
   for (int trial = 0; trial < 20'000; ++trial) {
-    const Point point = {uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)};
+    const Point point = {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)};
     ExactPoint exact = {point[0], point[1], point[2]};
     PlacementMap map;
-    for (int i = std::uniform_int_distribution<int>(1, 8)(random); i > 0; --i) {
+    for (int i = random.integer(1, 8); i > 0; --i) {
       const Pair next = random_pair(random);
       map = map.then(next.map);
       exact = applied(next.exact, exact);
@@ -127,7 +123,7 @@ TEST(PlacementMap, IsWithinItsBoundOfTheExactMap) {
 TEST(PlacementMap, TurnsByQuartersExactly) {
   Random random(kSeed);
   for (int quarter = -9; quarter <= 9; ++quarter) {
-    const Point p = {uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)};
+    const Point p = {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)};
     const Point turned = PlacementMap::rotation({0, 0, 1}, 90.0 * quarter).apply(p);
     const int steps = ((quarter % 4) + 4) % 4;
     const std::array<Point, 4> expected = {

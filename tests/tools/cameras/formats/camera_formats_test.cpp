@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "tests/tools/cameras/random_track.h"
+#include "tools/cameras/formats/camera_format.h"
+
+namespace camway::tools {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::Random;
+
+constexpr std::uint64_t kFormatsSeed = 20260603;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+using Files = std::map<std::string, std::string>;
+
+CameraFile file_of(const std::string& name, const std::string& bytes, const Files& others = {}) {
+  return {name, bytes, [others](const std::string& other) -> base::Result<std::string> {
+            const auto found = others.find(other);
+            if (found == others.end()) return base::Failure{"is not there"};
+            return found->second;
+          }};
+}
+
+CameraTrack sound(std::string_view format, const std::string& text,
+                  const CameraReadOptions& options = {}, const Files& others = {}) {
+  const auto track = read_camera(*camera_format(format), file_of("f", text, others), options);
+  EXPECT_EQ(track.error, "");
+  return track ? *track : CameraTrack{};
+}
+
+std::string error_of(std::string_view format, const std::string& text) {
+  return read_camera(*camera_format(format), file_of("f", text), {}).error;
+}
+
+/// The direction in which the camera looks, and that of the top of its picture.
+Vec3 look(const TrackKey& key) { return key.pose_W.orientation * -Vec3::UnitZ(); }
+Vec3 top(const TrackKey& key) { return key.pose_W.orientation * Vec3::UnitY(); }
+
+void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT((a - b).norm(), 1e-6) << a.transpose(); }
+
+TEST(CameraFormats, ReadBackWhatTheyWrite) {
+  Random random(kFormatsSeed);
+  for (const CameraFormat& format : camera_formats()) {
+    SCOPED_TRACE(format.name);
+    for (int trial = 0; trial < 20; ++trial) {
+      CameraTrack track = random_track(random, 12, 0.25, 2.5);
+      track.fps = 4.0;
+      // Straight up and down, where angles are not unique.
+      const Quat up(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));
+      track.keys[3].pose_W.orientation = up;
+      track.keys[4].pose_W.orientation = up.conjugate();
+      const CameraWriteOptions options{"cam", 80.0 * kDegree, 50.0 * kDegree, 0.25, 1000};
+      const auto text = format.write(track, options);
+      ASSERT_TRUE(text) << text.error;
+      Files others;
+      if (format.companion != nullptr) {
+        const CompanionFile companion = format.companion(options);
+        others[companion.name] = companion.text;
+      }
+      CameraReadOptions reading;
+      reading.fps = 4.0;
+      const CameraTrack read = sound(format.name, *text, reading, others);
+      ASSERT_EQ(read.keys.size(), track.keys.size());
+      const bool is_single = format.name == "gltf";
+      for (std::size_t i = 0; i < track.keys.size(); ++i) {
+        const motion::Pose& expected = track.keys[i].pose_W;
+        const motion::Pose& pose = read.keys[i].pose_W;
+        EXPECT_NEAR(read.keys[i].time_s, track.keys[i].time_s, 1e-6);
+        EXPECT_LT((pose.position - expected.position).norm(), is_single ? 1e-5 : 1e-12) << i;
+        EXPECT_LT(pose.orientation.angularDistance(expected.orientation), 1e-6) << i;
+      }
+    }
+  }
+}
+
+TEST(CameraFormats, KnowTheirFilesByNameAndContent) {
+  const auto name_of = [](const std::string& name, const std::string& bytes) {
+    const CameraFormat* const format = format_of(file_of(name, bytes));
+    return format == nullptr ? std::string_view("none") : format->name;
+  };
+  EXPECT_EQ(name_of("a.glb", ""), "gltf");
+  EXPECT_EQ(name_of("a.GLTF", ""), "gltf");
+  EXPECT_EQ(name_of("a.chan", ""), "chan");
+  EXPECT_EQ(name_of("a.json", R"({"camera_path": []})"), "nerfstudio");
+  EXPECT_EQ(name_of("a.json", R"({"frames": [{"transform_matrix": []}]})"), "transforms");
+  EXPECT_EQ(name_of("a.json", "{}"), "none");
+  EXPECT_EQ(name_of("x/images.txt", ""), "colmap");
+  EXPECT_EQ(name_of("a.csv", "t,x,y,z,qx,qy,qz,qw\n"), "csv");
+  EXPECT_EQ(name_of("a.txt", "# t x y z\n\n1 2 3 4 5 6 7 8\n"), "tum");
+  EXPECT_EQ(name_of("a.txt", "1 2 3 4 5 6 7 8 9 10 11 12\n"), "kitti");
+  EXPECT_EQ(name_of("a.txt", "hello\n"), "none");
+}
+
+TEST(CameraFormats, TakeCamerasOfRobotsToLookAlongZ) {
+  // Identity: looks along +Z, the top of its picture is -Y.
+  const CameraTrack track = sound("tum", "# comment\n5 1 2 3 0 0 0 1\n6 1 2 4 0 0 0 2\n");
+  EXPECT_EQ(track.keys[0].time_s, 5.0);
+  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(1, 2, 3));
+  expect_near(look(track.keys[0]), Vec3::UnitZ());
+  expect_near(top(track.keys[0]), -Vec3::UnitY());
+  CameraReadOptions gl;
+  gl.axes = CameraAxes::kGl;
+  expect_near(look(sound("tum", "5 1 2 3 0 0 0 1\n6 1 2 4 0 0 0 2\n", gl).keys[0]), -Vec3::UnitZ());
+}
+
+TEST(CameraFormats, ReadMatricesOfKitti) {
+  // A quarter turn about Y: the camera's +Z, where it looks, is the world's +X.
+  const std::string row = "0 0 1 10 0 1 0 20 -1 0 0 30\n";
+  CameraReadOptions options;
+  options.times = "0.5\n0.75\n";
+  const CameraTrack track = sound("kitti", row + row, options);
+  EXPECT_EQ(track.keys[1].time_s, 0.75);
+  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(10, 20, 30));
+  expect_near(look(track.keys[0]), Vec3::UnitX());
+  EXPECT_FALSE(sound("kitti", row + row).has_times);
+  options.times = "1\n";
+  EXPECT_THAT(read_camera(*camera_format("kitti"), file_of("f", row + row), options).error,
+              HasSubstr("has 2 poses, but there are 1 times"));
+}
+
+TEST(CameraFormats, FindColumnsByTheirNames) {
+  const CameraTrack track = sound("csv",
+                                  "qw,qx,qy,qz,ignored,pos_z,pos_y,pos_x,time_s,fov_y_deg\n"
+                                  "1,0,0,0,9,3,2,1,0.5,40\n1,0,0,0,9,3,2,1,1.5,40\n");
+  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(1, 2, 3));
+  EXPECT_EQ(track.keys[1].time_s, 1.5);
+  expect_near(look(track.keys[0]), -Vec3::UnitZ());
+  EXPECT_NEAR(*track.keys[0].fov_y_rad, 40.0 * kDegree, 1e-12);
+  EXPECT_THAT(error_of("csv", "a,b\n1,2\n"), HasSubstr("names no columns"));
+}
+
+TEST(CameraFormats, ReadNanosecondsOfEuroc) {
+  const CameraTrack track =
+      sound("csv",
+            "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y "
+            "[], q_RS_z []\n1403715524907143168,0.5,1.9,0.9,1,0,0,0\n"
+            "1403715524912143104,0.6,1.9,0.9,1,0,0,0\n");
+  EXPECT_NEAR(track.keys[1].time_s - track.keys[0].time_s, 0.005, 1e-6);
+  EXPECT_THAT(track.notes, Contains(HasSubstr("IMU")));
+  expect_near(look(track.keys[0]), Vec3::UnitZ());
+}
+
+TEST(CameraFormats, TurnChannelsInTheOrderZxy) {
+  // Turned by 90 degrees to the left, then up by 30: the order that keeps the picture upright.
+  const CameraTrack track = sound("chan", "11 1 2 3 30 90 0 40\n12 1 2 3 0 0 90 40\n");
+  EXPECT_NEAR(track.keys[1].time_s, 1.0 / 24.0, 1e-12);
+  expect_near(look(track.keys[0]), Vec3(-std::cos(30 * kDegree), 0.5, 0));
+  expect_near(top(track.keys[1]), -Vec3::UnitX());
+  EXPECT_NEAR(*track.keys[0].fov_y_rad, 40.0 * kDegree, 1e-12);
+}
+
+TEST(CameraFormats, WriteChannelsWithoutJumps) {
+  CameraTrack track;
+  track.fps = 24.0;
+  for (int i = 0; i <= 75; ++i) {
+    const Quat turn(Eigen::AngleAxisd(10.0 * i * kDegree, Vec3::UnitY()));
+    track.keys.push_back({i / 24.0, {Vec3::Zero(), turn}, std::nullopt});
+  }
+  const std::string text = *camera_format("chan")->write(track, {"c", 1.0, 1.0, 0.1, 100});
+  EXPECT_THAT(text, HasSubstr("\n76\t0\t0\t0\t"));
+  const CameraTrack back = sound("chan", text);
+  EXPECT_THAT(text.substr(text.rfind("\n76\t")), HasSubstr("749.99"));
+  expect_near(look(back.keys[75]), look(track.keys[75]));
+}
+
+TEST(CameraFormats, ReadPathsOfNerfstudio) {
+  const std::string pose =
+      R"({"camera_to_world": [0,0,1,5, 0,1,0,6, -1,0,0,7, 0,0,0,1], "fov": 50})";
+  const std::string nested =
+      R"({"camera_to_world": [[0,0,2,5], [0,2,0,6], [-2,0,0,7], [0,0,0,1]], "fov": 50})";
+  const CameraTrack track = sound(
+      "nerfstudio", R"({"fps": 10, "render_width": 200, "render_height": 100, "camera_path": [)" +
+                        pose + "," + nested + "]}");
+  EXPECT_EQ(track.keys[1].time_s, 0.1);
+  EXPECT_EQ(*track.aspect, 2.0);
+  for (const TrackKey& key : track.keys) {
+    EXPECT_EQ(key.pose_W.position, Vec3(5, 6, 7));
+    expect_near(look(key), -Vec3::UnitX());
+    EXPECT_NEAR(*key.fov_y_rad, 50.0 * kDegree, 1e-12);
+  }
+  EXPECT_THAT(error_of("nerfstudio", R"({"camera_path": [{"camera_to_world": [1,2]}]})"),
+              HasSubstr("camera_path[0].camera_to_world: must be 16 numbers, or 3 or 4 rows of 4"));
+  EXPECT_THAT(error_of("nerfstudio", R"({"camera_path": [{"camera_to_world":
+              [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})"),
+              HasSubstr("has no rotation"));
+}
+
+TEST(CameraFormats, ReadAnglesOfTransforms) {
+  const std::string frames =
+      R"("frames": [{"transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}])";
+  EXPECT_NEAR(*sound("transforms", R"({"camera_angle_x": 0.7, )" + frames + "}").fov_x_rad, 0.7,
+              1e-12);
+  const CameraTrack track =
+      sound("transforms", R"({"fl_x": 50, "w": 100, "h": 50, )" + frames + "}");
+  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*track.fov_y_rad, 2.0 * std::atan(0.5), 1e-12);
+  EXPECT_FALSE(track.has_times);
+}
+
+TEST(CameraFormats, ReadEverySecondLineOfColmap) {
+  // World to camera: a half turn about Y, then 5 along Z. The centre is at z = 5, looking along -Z.
+  const std::string text =
+      "# Image list\n7 0 0 1 0 0 0 5 1 b.png\n\n2 0 0 1 0 1 0 5 1 a.png\n1 2 -1 3 4 -1\n";
+  CameraReadOptions options;
+  options.fps = 2.0;
+  const CameraTrack track =
+      sound("colmap", text, options, {{"cameras.txt", "1 PINHOLE 100 50 50 25 50 25\n"}});
+  ASSERT_EQ(track.keys.size(), 2U);
+  EXPECT_EQ(track.keys[1].time_s, 0.5);
+  expect_near(track.keys[0].pose_W.position, Vec3(1, 0, 5));
+  expect_near(track.keys[1].pose_W.position, Vec3(0, 0, 5));
+  expect_near(look(track.keys[0]), -Vec3::UnitZ());
+  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*track.fov_y_rad, 90.0 * kDegree, 1e-12);
+}
+
+TEST(CameraFormats, NameWhatIsWrong) {
+  EXPECT_EQ(error_of("tum", "1 2 3\n"), "f: line 1: has 3 numbers, not 8");
+  EXPECT_EQ(error_of("tum", "\n1 2 3 x 5 6 7 8\n"), "f: line 2: 'x' is no number");
+  EXPECT_EQ(error_of("tum", ""), "f: it has no poses");
+  EXPECT_EQ(error_of("tum", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
+            "f: pose 1: its time is not later than that of the pose before");
+  EXPECT_EQ(error_of("tum", "1 0 0 0 0 0 0 0\n"), "f: pose 0: its orientation has no direction");
+  EXPECT_THAT(error_of("colmap", "1 1 0 0 0 0 0\n"), HasSubstr("line 1: has 7 words, not 10"));
+  EXPECT_THAT(error_of("transforms", "{"), HasSubstr("f: line 1"));
+}
+
+}  // namespace
+}  // namespace camway::tools

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/camway/cli_runner.h"
+#include "tools/cameras/formats/camera_format.h"
+
+namespace camway::tools {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+json json_of(const std::string& file) {
+  std::ifstream stream(file);
+  return json::parse(stream);
+}
+
+class CliCameras : public ::testing::Test {
+ protected:
+  /// A flight over a wall: 10 m in a second, up and down again.
+  void write_flight(double height_m) {
+    folder_.write("wall.obj", "v 5 0 -9\nv 5 1 -9\nv 5 1 9\nv 5 0 9\nf 1 2 3 4\n");
+    std::string table = "t,x,y,z,qw,qx,qy,qz\n";
+    for (int i = 0; i <= 20; ++i) {
+      const double u = i / 20.0;
+      table += std::to_string(u) + "," + std::to_string(10.0 * u) + "," +
+               std::to_string(4.0 * height_m * u * (1.0 - u)) + ",0,1,0,0,0\n";
+    }
+    folder_.write("flight.csv", table);
+  }
+
+  CliRun import_flight(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"import",      folder_.file("flight.csv"),
+                                          "--request",   folder_.file("r.json"),
+                                          "--scene",     folder_.file("wall.obj"),
+                                          "--fov-x-deg", "60",
+                                          "--fov-y-deg", "40"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_camway(arguments);
+  }
+
+  CliRun export_path(const std::string& format, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"export",    folder_.file("o.json"),
+                                          "--request", folder_.file("r.json"),
+                                          "--format",  format,
+                                          "--out",     folder_.file("out." + format)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_camway(arguments);
+  }
+
+  void plan() {
+    const CliRun run = run_camway(
+        {"plan", "--request", folder_.file("r.json"), "--response", folder_.file("o.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CliCameras, GoFromFileToFile) {
+  write_flight(1.05);
+  const CliRun imported = import_flight();
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_THAT(imported.err, HasSubstr("21 poses"));
+  const json request = json_of(folder_.file("r.json"));
+  EXPECT_EQ(request["scene"], "wall.obj");
+  EXPECT_NEAR(request["camera"]["fov_x_deg"].get<double>(), 60.0, 1e-9);
+  EXPECT_LT(request["keyframes"].size(), 10U);
+  plan();
+  for (const CameraFormat& format : camera_formats()) {
+    const CliRun run = export_path(std::string(format.name));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("proved free as played between its 25 frames"));
+  }
+}
+
+TEST_F(CliCameras, SayWhereAndAtWhichRateWhatIsPlayedIsFree) {
+  write_flight(1.05);
+  ASSERT_EQ(import_flight().exit_code, 0);
+  plan();
+  // On straight lines between two frames a second the camera flies through the top of the wall,
+  // which only the frame in the middle clears.
+  const CliRun run = export_path("csv", {"--fps", "3"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("it is too near to the scene from 0."));
+  EXPECT_THAT(run.err, ::testing::ContainsRegex("--fps (6|12|24|48) would be free"));
+  EXPECT_EQ(export_path("csv", {"--fps", "3", "--no-proof"}).exit_code, 0);
+}
+
+TEST_F(CliCameras, ChooseKeyframesAsAsked) {
+  write_flight(2.0);
+  ASSERT_EQ(import_flight({"--all"}).exit_code, 0);
+  EXPECT_EQ(json_of(folder_.file("r.json"))["keyframes"].size(), 21U);
+  ASSERT_EQ(import_flight({"--every", "10"}).exit_code, 0);
+  EXPECT_EQ(json_of(folder_.file("r.json"))["keyframes"].size(), 3U);
+  ASSERT_EQ(import_flight({"--within-m", "1"}).exit_code, 0);
+  EXPECT_EQ(json_of(folder_.file("r.json"))["keyframes"].size(), 3U);
+  EXPECT_EQ(import_flight({"--all", "--every", "2"}).exit_code, 2);
+}
+
+TEST_F(CliCameras, TurnAndScaleAsTheScene) {
+  write_flight(2.0);
+  ASSERT_EQ(import_flight({"--scale", "0.5", "--up", "z-to-y", "--every", "10"}).exit_code, 0);
+  const json request = json_of(folder_.file("r.json"));
+  EXPECT_EQ(request["scale"], 0.5);
+  EXPECT_EQ(request["up"], "z-to-y");
+  // (5, 2, 0) of the file.
+  EXPECT_EQ(request["keyframes"][1]["position"], json::parse("[2.5, 0.0, -1.0]"));
+}
+
+TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
+  write_flight(2.0);
+  folder_.write("flight.csv", "t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n");
+  EXPECT_THAT(import_flight().err, HasSubstr("has one pose; a path needs two"));
+  folder_.write("flight.csv", "hello\n");
+  const CliRun run = import_flight();
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is of no format that is known"));
+  EXPECT_THAT(run_camway({"import", "nowhere.csv", "--request", "-"}).err,
+              HasSubstr("nowhere.csv"));
+}
+
+TEST_F(CliCameras, AskForTheFieldOfView) {
+  write_flight(2.0);
+  const CliRun run =
+      run_camway({"import", folder_.file("flight.csv"), "--request", folder_.file("r.json")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("states no field of view: give --fov-y-deg"));
+}
+
+}  // namespace
+}  // namespace camway::tools

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cameras/formats/camera_format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "daemon/scene/import/readers/tokens.h"
+#include "tools/cameras/formats/chan_format.h"
+#include "tools/cameras/formats/colmap_format.h"
+#include "tools/cameras/formats/gltf_formats.h"
+#include "tools/cameras/formats/nerf_formats.h"
+#include "tools/cameras/formats/pose_tables.h"
+
+namespace camway::tools {
+namespace {
+
+constexpr double kUsualRate = 24.0;
+
+constexpr std::array<CameraFormat, 8> kFormats = {{
+    {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf},
+    {"tum", ".txt", "TUM trajectory: t x y z qx qy qz qw", read_tum, write_tum},
+    {"csv", ".csv", "table with named columns; EuRoC", read_csv, write_csv},
+    {"kitti", ".txt", "KITTI poses: 3 x 4 matrices", read_kitti, write_kitti},
+    {"chan", ".chan", "Nuke channels", read_chan, write_chan},
+    {"nerfstudio", ".json", "nerfstudio's camera_path.json", read_nerfstudio, write_nerfstudio},
+    {"transforms", ".json", "transforms.json of instant-ngp and others", read_transforms,
+     write_transforms},
+    {"colmap", ".txt", "COLMAP's images.txt", read_colmap, write_colmap, colmap_cameras},
+}};
+
+bool has_text(const CameraFile& file, std::string_view text) {
+  return file.bytes.find(text) != std::string::npos;
+}
+
+/// The words of the first line that is no comment.
+std::size_t first_row_words(std::string_view text) {
+  namespace readers = scene::mesh_readers;
+  while (!text.empty()) {
+    std::string_view line = readers::trimmed(readers::take_line(text));
+    if (line.empty() || line.starts_with('#')) continue;
+    std::size_t words = 0;
+    while (!readers::take_token(line).empty()) ++words;
+    return words;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::span<const CameraFormat> camera_formats() { return kFormats; }
+
+const CameraFormat* camera_format(std::string_view name) {
+  const auto found = std::ranges::find(kFormats, name, &CameraFormat::name);
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+const CameraFormat* format_of(const CameraFile& file) {
+  const std::filesystem::path path(file.name);
+  const std::string extension = path.extension().string();
+  const auto is = [&](std::string_view lower) {
+    return scene::mesh_readers::equals_ignoring_case(extension, lower);
+  };
+  if (is(".glb") || is(".gltf")) return camera_format("gltf");
+  if (is(".chan")) return camera_format("chan");
+  if (has_text(file, "\"camera_path\"")) return camera_format("nerfstudio");
+  if (has_text(file, "\"transform_matrix\"")) return camera_format("transforms");
+  if (is(".json")) return nullptr;
+  if (path.filename() == "images.txt") return camera_format("colmap");
+  if (has_pose_columns(file) && !is(".txt") && !is(".tum")) return camera_format("csv");
+  const std::size_t words = first_row_words(file.bytes);
+  if (words == 12) return camera_format("kitti");
+  if (words == 8) return camera_format("tum");
+  return nullptr;
+}
+
+base::Result<CameraTrack> read_camera(const CameraFormat& format, const CameraFile& file,
+                                      const CameraReadOptions& options) {
+  base::Result<CameraTrack> track = format.read(file, options);
+  std::string fault = track ? fault_of(*track) : track.error;
+  if (!fault.empty()) return base::Failure{file.name + ": " + fault};
+  if (track->name.empty()) track->name = std::filesystem::path(file.name).stem().string();
+  return track;
+}
+
+geometry::Quat with_other_axes(const geometry::Quat& orientation, CameraAxes axes) {
+  return axes == CameraAxes::kGl ? orientation
+                                 : geometry::Quat(orientation * geometry::Quat(0, 1, 0, 0));
+}
+
+double frame_rate(const CameraReadOptions& options, std::optional<double> of_file,
+                  std::vector<std::string>& notes) {
+  if (options.fps) return *options.fps;
+  if (of_file && *of_file > 0.0) return *of_file;
+  notes.emplace_back("the file states no rate of frames: 24 a second are assumed (--fps)");
+  return kUsualRate;
+}
+
+int height_px(const CameraWriteOptions& options) {
+  const double ratio = std::tan(0.5 * options.fov_y_rad) / std::tan(0.5 * options.fov_x_rad);
+  return std::max(1, static_cast<int>(std::lround(options.width_px * ratio)));
+}
+
+}  // namespace camway::tools

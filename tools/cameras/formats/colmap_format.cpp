@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cameras/formats/colmap_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "daemon/scene/import/readers/tokens.h"
+#include "tools/cameras/formats/text_rows.h"
+
+namespace camway::tools {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+
+struct Image {
+  std::string name;
+  std::string camera;
+  motion::Pose pose_W;
+};
+
+constexpr std::size_t kImageNumbers = 8;
+
+/// Reads the line of an image. Returns why that is not possible.
+std::string read_image(const TextRow& row, CameraAxes axes, Image& image) {
+  if (row.words.size() < kImageNumbers + 2) {
+    return fmt::format("line {}: has {} words, not 10", row.line, row.words.size());
+  }
+  TextRow numbers_only{row.line, {row.words.begin(), row.words.begin() + kImageNumbers}};
+  std::vector<double> n;
+  std::string fault = read_numbers(numbers_only, kImageNumbers, n);
+  if (!fault.empty()) return fault;
+  const Quat to_camera(n[1], n[2], n[3], n[4]);
+  if (!(to_camera.norm() > 0.0)) return fmt::format("line {}: has no rotation", row.line);
+  const Quat to_world = to_camera.normalized().conjugate();
+  image.camera = row.words[kImageNumbers];
+  image.name = row.words[kImageNumbers + 1];
+  image.pose_W = {Vec3(-(to_world * Vec3(n[5], n[6], n[7]))), with_other_axes(to_world, axes)};
+  return "";
+}
+
+/// Every second line that is no comment is one of points, which may be empty.
+std::string read_images(std::string_view text, CameraAxes axes, std::vector<Image>& images) {
+  bool is_image = true;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const std::string_view content =
+        scene::mesh_readers::trimmed(scene::mesh_readers::take_line(text));
+    if (content.starts_with('#')) continue;
+    if (is_image) {
+      std::vector<TextRow> rows = rows_of(content);
+      if (rows.empty()) {
+        if (scene::mesh_readers::is_blank(text)) break;
+        return fmt::format("line {}: should have an image", line);
+      }
+      rows[0].line = line;
+      std::string fault = read_image(rows[0], axes, images.emplace_back());
+      if (!fault.empty()) return fault;
+    }
+    is_image = !is_image;
+  }
+  return "";
+}
+
+/// The fields of view of a camera of `cameras.txt`, distortion left aside.
+std::optional<std::array<double, 2>> fov_of(const std::string& cameras, const std::string& id) {
+  for (const TextRow& row : rows_of(cameras)) {
+    if (row.words.size() < 5 || row.words[0] != id) continue;
+    std::vector<double> n;
+    const TextRow tail{row.line, {row.words.begin() + 2, row.words.end()}};
+    if (!read_numbers(tail, 3, n).empty() || !(n[2] > 0.0)) return std::nullopt;
+    const bool has_two = row.words[1] == "PINHOLE" || row.words[1].find("OPENCV") == 0;
+    const double focal_y = has_two && n.size() > 3 ? n[3] : n[2];
+    return std::array{2.0 * std::atan(0.5 * n[0] / n[2]), 2.0 * std::atan(0.5 * n[1] / focal_y)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+base::Result<CameraTrack> read_colmap(const CameraFile& file, const CameraReadOptions& options) {
+  std::vector<Image> images;
+  std::string fault = read_images(file.bytes, options.axes.value_or(CameraAxes::kCv), images);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  std::ranges::stable_sort(images, {}, &Image::name);
+  CameraTrack track;
+  track.has_times = options.fps.has_value();
+  track.fps = options.fps;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    track.keys.push_back(
+        {static_cast<double>(i) / options.fps.value_or(1.0), images[i].pose_W, {}});
+  }
+  if (images.empty() || !file.open_beside) return track;
+  const base::Result<std::string> cameras = file.open_beside("cameras.txt");
+  const auto fov = cameras ? fov_of(*cameras, images[0].camera) : std::nullopt;
+  if (fov) {
+    std::tie(track.fov_x_rad, track.fov_y_rad) = std::tuple((*fov)[0], (*fov)[1]);
+  } else {
+    track.notes.emplace_back("cameras.txt beside it states no field of view");
+  }
+  return track;
+}
+
+CompanionFile colmap_cameras(const CameraWriteOptions& options) {
+  const int height = height_px(options);
+  const double width = options.width_px;
+  const double focal_x = 0.5 * width / std::tan(0.5 * options.fov_x_rad);
+  const double focal_y = 0.5 * height / std::tan(0.5 * options.fov_y_rad);
+  return {"cameras.txt",
+          fmt::format("# Camera list with one line of data per camera:\n"
+                      "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
+                      "1 PINHOLE {} {} {} {} {} {}\n",
+                      options.width_px, height, focal_x, focal_y, 0.5 * width, 0.5 * height)};
+}
+
+base::Result<std::string> write_colmap(const CameraTrack& track, const CameraWriteOptions&) {
+  std::string text =
+      "# Image list with two lines of data per image:\n"
+      "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
+      "#   POINTS2D[] as (X, Y, POINT3D_ID)\n";
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    const motion::Pose& pose = track.keys[i].pose_W;
+    const Quat to_camera = with_other_axes(pose.orientation, CameraAxes::kCv).conjugate();
+    const Vec3 t = -(to_camera * pose.position);
+    text += fmt::format(
+        "{} {} {} 1 frame_{:06}.png\n\n", i + 1,
+        number_row(std::array{to_camera.w(), to_camera.x(), to_camera.y(), to_camera.z()}),
+        number_row(std::array{t.x(), t.y(), t.z()}), i + 1);
+  }
+  return text;
+}
+
+}  // namespace camway::tools

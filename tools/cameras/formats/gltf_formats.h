@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tools/cameras/formats/camera_format.h"
+
+namespace camway::tools {
+
+/// glTF 2.0: a camera node and the animation that moves it or what it hangs from. If the camera
+/// alone is animated, its keys and curves are those of the file; else the motion is sampled at the
+/// rate of frames. glTF has no rate of frames: it is taken from the keys, if they are as far apart
+/// as frames of a usual rate.
+base::Result<CameraTrack> read_gltf(const CameraFile& file, const CameraReadOptions& options);
+
+/// Writes a `.glb` with the camera and a linear animation, a key for each frame, in single
+/// precision, from 0 s.
+base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options);
+
+}  // namespace camway::tools

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "tools/cameras/formats/gltf_document.h"
+#include "tools/cameras/formats/gltf_formats.h"
+
+namespace camway::tools {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using geometry::Vec4;
+using nlohmann::json;
+
+/// Deeper chains of nodes are loops.
+constexpr std::size_t kDeepestNode = 1000;
+constexpr double kUsualFps = 24.0;
+constexpr std::array<double, 6> kFrameRates = {24.0, 25.0, 30.0, 48.0, 50.0, 60.0};
+/// Keys this share of a frame away from one are on it.
+constexpr double kOnFrame = 0.01;
+
+enum class Curve { kStep, kLinear, kCubic };
+
+/// The animation of a property of a node: times, and 3 or 4 numbers for each; three times as many
+/// for a cubic curve.
+struct Channel {
+  std::vector<double> times_s;
+  std::vector<double> values;
+  std::size_t components = 0;
+  Curve curve = Curve::kLinear;
+
+  [[nodiscard]] const double* value(std::size_t key, std::size_t part) const {
+    const std::size_t parts = curve == Curve::kCubic ? 3 : 1;
+    return &values[(key * parts + (curve == Curve::kCubic ? part : 0)) * components];
+  }
+};
+constexpr std::size_t kInTangent = 0;
+constexpr std::size_t kValue = 1;
+constexpr std::size_t kOutTangent = 2;
+
+/// Where a node is in its parent, and how that changes.
+struct Node {
+  Vec3 translation = Vec3::Zero();
+  Quat rotation = Quat::Identity();
+  Vec3 scale = Vec3::Ones();
+  std::map<std::string, Channel> channels;  ///< by path: translation, rotation, scale
+};
+
+Vec3 vector_in(const json& node, const char* key, const Vec3& otherwise) {
+  const auto found = node.find(key);
+  if (found == node.end() || !found->is_array() || found->size() != 3) return otherwise;
+  Vec3 vector = otherwise;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if ((*found)[k].is_number()) vector[static_cast<Eigen::Index>(k)] = (*found)[k].get<double>();
+  }
+  return vector;
+}
+
+Quat rotation_in(const json& node) {
+  const auto found = node.find("rotation");
+  if (found == node.end() || !found->is_array() || found->size() != 4) return Quat::Identity();
+  std::array<double, 4> xyzw = {0, 0, 0, 1};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if ((*found)[k].is_number()) xyzw[k] = (*found)[k].get<double>();
+  }
+  const Quat quat(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  return quat.norm() > 0.0 ? quat.normalized() : Quat::Identity();
+}
+
+/// A matrix is by columns, and is no shear in files that animate.
+void take_matrix(const json& matrix, Node& node) {
+  std::array<double, 16> m{};
+  for (std::size_t k = 0; k < 16; ++k) m[k] = matrix[k].is_number() ? matrix[k].get<double>() : 0.0;
+  Eigen::Matrix3d linear;
+  linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
+  node.translation = {m[12], m[13], m[14]};
+  node.scale = linear.colwise().norm();
+  if (linear.determinant() < 0.0) node.scale.x() *= -1.0;
+  if ((node.scale.array() == 0.0).any()) return;
+  for (Eigen::Index k = 0; k < 3; ++k) linear.col(k) /= node.scale[k];
+  node.rotation = Quat(linear).normalized();
+}
+
+Node node_in(const json& description) {
+  Node node;
+  const auto matrix = description.find("matrix");
+  if (matrix != description.end() && matrix->is_array() && matrix->size() == 16) {
+    take_matrix(*matrix, node);
+    return node;
+  }
+  node.translation = vector_in(description, "translation", Vec3::Zero());
+  node.scale = vector_in(description, "scale", Vec3::Ones());
+  node.rotation = rotation_in(description);
+  return node;
+}
+
+template <class Vector>
+Vector vector_of(const double* numbers) {
+  return Eigen::Map<const Vector>(numbers);
+}
+
+/// The value of a channel at a time: of 3 numbers, or of 4 in the order x, y, z, w.
+Vec4 value_at(const Channel& channel, double time_s) {
+  const std::vector<double>& times = channel.times_s;
+  const auto take = [&](std::size_t key, std::size_t part) {
+    Vec4 vector = Vec4::Zero();
+    std::copy_n(channel.value(key, part), channel.components, vector.data());
+    return vector;
+  };
+  const auto later = std::ranges::upper_bound(times, time_s);
+  if (later == times.begin()) return take(0, kValue);
+  const auto i = static_cast<std::size_t>(later - times.begin()) - 1;
+  if (later == times.end() || channel.curve == Curve::kStep) return take(i, kValue);
+  const double step_s = times[i + 1] - times[i];
+  const double u = (time_s - times[i]) / step_s;
+  const Vec4 from = take(i, kValue);
+  const Vec4 to = take(i + 1, kValue);
+  if (channel.curve == Curve::kCubic) {
+    const double u2 = u * u;
+    const double u3 = u2 * u;
+    return (2 * u3 - 3 * u2 + 1) * from + step_s * (u3 - 2 * u2 + u) * take(i, kOutTangent) +
+           (3 * u2 - 2 * u3) * to + step_s * (u3 - u2) * take(i + 1, kInTangent);
+  }
+  if (channel.components == 3) return (1.0 - u) * from + u * to;
+  return Quat(from).slerp(u, Quat(to)).coeffs();
+}
+
+Eigen::Affine3d local_at(const Node& node, double time_s) {
+  const auto find = [&](const char* path) {
+    const auto found = node.channels.find(path);
+    return found == node.channels.end() ? nullptr : &found->second;
+  };
+  Vec3 translation = node.translation;
+  Quat rotation = node.rotation;
+  Vec3 scale = node.scale;
+  if (const Channel* channel = find("translation")) {
+    translation = value_at(*channel, time_s).head<3>();
+  }
+  if (const Channel* channel = find("rotation")) {
+    rotation = Quat(value_at(*channel, time_s)).normalized();
+  }
+  if (const Channel* channel = find("scale")) scale = value_at(*channel, time_s).head<3>();
+  return Eigen::Affine3d(Eigen::Translation3d(translation) * rotation * Eigen::Scaling(scale));
+}
+
+/// A camera in the tree of nodes.
+struct CameraNode {
+  std::string name;
+  std::vector<Node> chain;  ///< the camera's node, then what it hangs from, up to the root
+  json lens;
+
+  [[nodiscard]] bool is_animated() const {
+    return std::ranges::any_of(chain, [](const Node& node) { return !node.channels.empty(); });
+  }
+  [[nodiscard]] motion::Pose pose_at(double time_s) const {
+    Eigen::Affine3d place = Eigen::Affine3d::Identity();
+    for (const Node& node : chain) place = local_at(node, time_s) * place;
+    Eigen::Matrix3d turn = place.linear();
+    // What hangs from a scaled node is scaled; a camera is not.
+    turn.colwise().normalize();
+    return {place.translation(), Quat(turn).normalized()};
+  }
+};
+
+std::string text_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+class GltfReader {
+ public:
+  GltfReader(const GltfDocument& document, const CameraReadOptions& options)
+      : document_(document), options_(options) {}
+
+  base::Result<CameraTrack> read() {
+    find_parents();
+    base::Result<CameraNode> camera = find_camera();
+    if (!camera) return base::Failure{camera.error};
+    CameraTrack track;
+    track.name = camera->name;
+    read_lens(camera->lens, track);
+    if (!camera->is_animated()) {
+      track.has_times = false;
+      track.keys.push_back({0.0, camera->pose_at(0.0), std::nullopt});
+      return track;
+    }
+    track.fps = options_.fps ? options_.fps : fps_of(*camera);
+    if (!take_keys(*camera, track)) sample(*camera, track);
+    return track;
+  }
+
+ private:
+  [[nodiscard]] std::size_t count(const char* array) const {
+    const auto found = document_.root().find(array);
+    return found != document_.root().end() && found->is_array() ? found->size() : 0;
+  }
+
+  void find_parents() {
+    for (std::size_t i = 0; i < count("nodes"); ++i) {
+      const json& node = document_.element("nodes", i);
+      const auto children = node.is_object() ? node.find("children") : node.end();
+      if (!node.is_object() || children == node.end() || !children->is_array()) continue;
+      for (const json& child : *children) {
+        if (child.is_number_unsigned()) parents_[child.get<std::size_t>()] = i;
+      }
+    }
+  }
+
+  base::Result<CameraNode> find_camera() {
+    std::vector<CameraNode> cameras;
+    std::string names;
+    for (std::size_t i = 0; i < count("nodes"); ++i) {
+      const json& node = document_.element("nodes", i);
+      const auto lens = gltf_index(node, "camera");
+      if (!lens) continue;
+      CameraNode camera{text_in(node, "name"), {}, document_.element("cameras", *lens)};
+      if (camera.name.empty() && camera.lens.is_object())
+        camera.name = text_in(camera.lens, "name");
+      std::string fault = read_chain(i, camera);
+      if (!fault.empty()) return base::Failure{fault};
+      names += (names.empty() ? "" : ", ") + camera.name;
+      if (options_.camera.empty() || is_called(i, camera)) cameras.push_back(std::move(camera));
+    }
+    if (cameras.empty()) {
+      return base::Failure{names.empty() ? "has no camera in its nodes"
+                                         : "has no camera '" + options_.camera + "': " + names};
+    }
+    const auto animated = std::ranges::find_if(cameras, &CameraNode::is_animated);
+    return animated != cameras.end() ? *animated : cameras.front();
+  }
+
+  /// By its own name, that of its lens, or that of the node that it hangs from.
+  bool is_called(std::size_t node, const CameraNode& camera) const {
+    const auto parent = parents_.find(node);
+    return camera.name == options_.camera ||
+           (camera.lens.is_object() && text_in(camera.lens, "name") == options_.camera) ||
+           (parent != parents_.end() &&
+            text_in(document_.element("nodes", parent->second), "name") == options_.camera);
+  }
+
+  std::string read_chain(std::size_t node, CameraNode& camera) {
+    while (true) {
+      if (camera.chain.size() == kDeepestNode) return "has nodes that hang from themselves";
+      camera.chain.push_back(node_in(document_.element("nodes", node)));
+      std::string fault = read_channels(node, camera.chain.back());
+      if (!fault.empty()) return fault;
+      const auto parent = parents_.find(node);
+      if (parent == parents_.end()) return "";
+      node = parent->second;
+    }
+  }
+
+  std::string read_channels(std::size_t node, Node& into) {
+    for (std::size_t i = 0; i < count("animations"); ++i) {
+      const json& animation = document_.element("animations", i);
+      const auto channels = animation.find("channels");
+      if (channels == animation.end() || !channels->is_array()) continue;
+      for (const json& channel : *channels) {
+        if (!channel.is_object() || !channel.contains("target")) continue;
+        if (gltf_index(channel["target"], "node") != node) continue;
+        const std::string path = text_in(channel["target"], "path");
+        if (path != "translation" && path != "rotation" && path != "scale") continue;
+        // The first animation that moves the node counts.
+        if (into.channels.contains(path)) continue;
+        base::Result<Channel> read = read_channel(animation, channel, path == "rotation" ? 4 : 3);
+        if (!read) return "animation " + std::to_string(i) + ": " + read.error;
+        if (!read->times_s.empty()) into.channels.emplace(path, *std::move(read));
+      }
+    }
+    return "";
+  }
+
+  base::Result<Channel> read_channel(const json& animation, const json& description,
+                                     std::size_t components) {
+    const auto samplers = animation.find("samplers");
+    const auto index = gltf_index(description, "sampler");
+    if (samplers == animation.end() || !samplers->is_array() || !index ||
+        *index >= samplers->size() || !(*samplers)[*index].is_object()) {
+      return base::Failure{"a channel has no sampler"};
+    }
+    const json& sampler = (*samplers)[*index];
+    const auto input = gltf_index(sampler, "input");
+    const auto output = gltf_index(sampler, "output");
+    if (!input || !output) return base::Failure{"a sampler has no input or output"};
+    base::Result<std::vector<double>> times = document_.values(*input, 1);
+    if (!times) return base::Failure{times.error};
+    base::Result<std::vector<double>> values = document_.values(*output, components);
+    if (!values) return base::Failure{values.error};
+    const std::string curve = text_in(sampler, "interpolation");
+    Channel channel{
+        *std::move(times), *std::move(values), components,
+        curve == "STEP" ? Curve::kStep : (curve == "CUBICSPLINE" ? Curve::kCubic : Curve::kLinear)};
+    const std::size_t parts = channel.curve == Curve::kCubic ? 3 : 1;
+    if (channel.values.size() != channel.times_s.size() * parts * components) {
+      return base::Failure{"a sampler has " + std::to_string(channel.times_s.size()) +
+                           " times and another number of values"};
+    }
+    if (!std::ranges::is_sorted(channel.times_s, std::less_equal<>())) {
+      return base::Failure{"the times of a sampler do not increase"};
+    }
+    return channel;
+  }
+
+  static void read_lens(const json& lens, CameraTrack& track) {
+    const auto found = lens.is_object() ? lens.find("perspective") : lens.end();
+    if (!lens.is_object() || found == lens.end()) {
+      track.notes.emplace_back("the camera has no perspective, so no field of view");
+      return;
+    }
+    track.fov_y_rad = gltf_number(*found, "yfov");
+    track.aspect = gltf_number(*found, "aspectRatio");
+    track.near_m = gltf_number(*found, "znear");
+  }
+
+  static std::set<double> key_times(const CameraNode& camera) {
+    std::set<double> times;
+    for (const Node& node : camera.chain) {
+      for (const auto& [path, channel] : node.channels) {
+        times.insert(channel.times_s.begin(), channel.times_s.end());
+      }
+    }
+    return times;
+  }
+
+  /// The slowest usual rate on whose frames all keys are.
+  static std::optional<double> fps_of(const CameraNode& camera) {
+    const std::set<double> times = key_times(camera);
+    for (const double fps : kFrameRates) {
+      const bool fits = std::ranges::all_of(times, [&](double time_s) {
+        const double frames = (time_s - *times.begin()) * fps;
+        return std::abs(frames - std::round(frames)) <= kOnFrame;
+      });
+      if (fits) return fps;
+    }
+    return std::nullopt;
+  }
+
+  /// Takes the keys as they are if the camera's own node alone moves, on lines or on cubics with
+  /// the same times.
+  static bool take_keys(const CameraNode& camera, CameraTrack& track) {
+    const Node& node = camera.chain.front();
+    for (std::size_t i = 1; i < camera.chain.size(); ++i) {
+      if (!camera.chain[i].channels.empty()) return false;
+    }
+    const auto is = [&](Curve curve) {
+      return std::ranges::all_of(node.channels,
+                                 [&](const auto& each) { return each.second.curve == curve; });
+    };
+    if (is(Curve::kLinear)) {
+      for (const double time_s : key_times(camera)) {
+        track.keys.push_back({time_s, camera.pose_at(time_s), std::nullopt});
+      }
+      return true;
+    }
+    return is(Curve::kCubic) && camera.chain.size() == 1 && take_cubic(node, track);
+  }
+
+  static bool take_cubic(const Node& node, CameraTrack& track) {
+    const auto position = node.channels.find("translation");
+    const auto rotation = node.channels.find("rotation");
+    if (position == node.channels.end() || rotation == node.channels.end()) return false;
+    const Channel& p = position->second;
+    const Channel& r = rotation->second;
+    if (p.times_s != r.times_s) return false;
+    const auto wxyz_of = [](const double* xyzw) {
+      return Vec4(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    };
+    track.playback = Playback::kCubic;
+    for (std::size_t i = 0; i < p.times_s.size(); ++i) {
+      const Vec4 orientation = wxyz_of(r.value(i, kValue));
+      track.keys.push_back({p.times_s[i],
+                            {vector_of<Vec3>(p.value(i, kValue)), geometry::from_wxyz(orientation)},
+                            std::nullopt});
+      track.tangents.push_back({vector_of<Vec3>(p.value(i, kInTangent)),
+                                vector_of<Vec3>(p.value(i, kOutTangent)),
+                                wxyz_of(r.value(i, kInTangent)), wxyz_of(r.value(i, kOutTangent))});
+    }
+    return true;
+  }
+
+  void sample(const CameraNode& camera, CameraTrack& track) const {
+    const double fps = track.fps.value_or(kUsualFps);
+    const std::set<double> times = key_times(camera);
+    const double begin_s = *times.begin();
+    const double frames = std::ceil((*times.rbegin() - begin_s) * fps - kOnFrame);
+    constexpr double kMostFrames = 1e6;
+    for (double i = 0.0; i <= std::min(frames, kMostFrames); i += 1.0) {
+      const double time_s = begin_s + i / fps;
+      track.keys.push_back({time_s, camera.pose_at(time_s), std::nullopt});
+    }
+    track.fps = fps;
+    track.notes.push_back("the motion was sampled " + std::to_string(static_cast<int>(fps)) +
+                          " times a second");
+  }
+
+  const GltfDocument& document_;
+  const CameraReadOptions& options_;
+  std::map<std::size_t, std::size_t> parents_;
+};
+
+}  // namespace
+
+base::Result<CameraTrack> read_gltf(const CameraFile& file, const CameraReadOptions& options) {
+  const base::Result<GltfDocument> document = GltfDocument::parse(file);
+  if (!document) return base::Failure{document.error};
+  return GltfReader(*document, options).read();
+}
+
+}  // namespace camway::tools

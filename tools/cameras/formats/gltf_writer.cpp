@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/cameras/formats/gltf_formats.h"
+
+namespace camway::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
+
+constexpr int kFloatType = 5126;
+
+void append(std::string& bytes, std::uint32_t number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+/// A chunk of a `.glb`, filled up to four bytes.
+void append_chunk(std::string& bytes, std::string content, std::string_view kind, char filler) {
+  while (content.size() % 4 != 0) content += filler;
+  append(bytes, static_cast<std::uint32_t>(content.size()));
+  bytes.append(kind);
+  bytes += content;
+}
+
+/// Arrays of floats in one buffer, an accessor for each.
+class FloatBuffer {
+ public:
+  void add(const std::vector<float>& numbers, std::size_t components, const char* type,
+           bool has_bounds) {
+    views_.push_back({{"buffer", 0},
+                      {"byteOffset", bytes_.size()},
+                      {"byteLength", numbers.size() * sizeof(float)}});
+    Json accessor{{"bufferView", accessors_.size()},
+                  {"componentType", kFloatType},
+                  {"count", numbers.size() / components},
+                  {"type", type}};
+    if (has_bounds) {
+      accessor["min"] = {numbers.front()};
+      accessor["max"] = {numbers.back()};
+    }
+    accessors_.push_back(std::move(accessor));
+    bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  [[nodiscard]] const Json& views() const { return views_; }
+  [[nodiscard]] const Json& accessors() const { return accessors_; }
+
+ private:
+  std::string bytes_;
+  Json views_ = Json::array();
+  Json accessors_ = Json::array();
+};
+
+FloatBuffer buffer_of(const CameraTrack& track) {
+  std::vector<float> times;
+  std::vector<float> positions;
+  std::vector<float> rotations;
+  for (const TrackKey& key : track.keys) {
+    times.push_back(static_cast<float>(key.time_s - track.keys.front().time_s));
+    for (const double x : key.pose_W.position) positions.push_back(static_cast<float>(x));
+    // Eigen's own order is that of glTF: x, y, z, w.
+    for (const double x : key.pose_W.orientation.coeffs())
+      rotations.push_back(static_cast<float>(x));
+  }
+  FloatBuffer buffer;
+  buffer.add(times, 1, "SCALAR", true);
+  buffer.add(positions, 3, "VEC3", false);
+  buffer.add(rotations, 4, "VEC4", false);
+  return buffer;
+}
+
+Json channel(int sampler, const char* path) {
+  return {{"sampler", sampler}, {"target", {{"node", 0}, {"path", path}}}};
+}
+
+Json document_of(const FloatBuffer& buffer, const CameraWriteOptions& options) {
+  Json root;
+  root["asset"] = {{"version", "2.0"}, {"generator", "Camway"}};
+  root["scene"] = 0;
+  root["scenes"] = Json::array({{{"nodes", {0}}}});
+  root["nodes"] = Json::array({{{"name", options.name}, {"camera", 0}}});
+  const double aspect = static_cast<double>(options.width_px) / height_px(options);
+  root["cameras"] = Json::array(
+      {{{"name", options.name},
+        {"type", "perspective"},
+        {"perspective",
+         {{"aspectRatio", aspect}, {"yfov", options.fov_y_rad}, {"znear", options.near_m}}}}});
+  root["animations"] = Json::array(
+      {{{"name", options.name},
+        {"channels", Json::array({channel(0, "translation"), channel(1, "rotation")})},
+        {"samplers", Json::array({{{"input", 0}, {"interpolation", "LINEAR"}, {"output", 1}},
+                                  {{"input", 0}, {"interpolation", "LINEAR"}, {"output", 2}}})}}});
+  root["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
+  root["bufferViews"] = buffer.views();
+  root["accessors"] = buffer.accessors();
+  return root;
+}
+
+}  // namespace
+
+base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options) {
+  const FloatBuffer buffer = buffer_of(track);
+  std::string chunks;
+  append_chunk(chunks, document_of(buffer, options).dump(), "JSON", ' ');
+  append_chunk(chunks, buffer.bytes(), std::string_view("BIN\0", 4), '\0');
+  constexpr std::uint32_t kHeaderBytes = 12;
+  std::string file = "glTF";
+  append(file, 2);
+  append(file, kHeaderBytes + static_cast<std::uint32_t>(chunks.size()));
+  return file + chunks;
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cameras/formats/nerf_formats.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/json/json_document.h"
+
+namespace camway::tools {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using OrderedJson = nlohmann::ordered_json;
+/// A 4 × 4 matrix by rows.
+using Rows = std::array<double, 16>;
+
+constexpr double degrees_of_nerf(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+constexpr double radians_of_nerf(double angle_deg) { return angle_deg * std::numbers::pi / 180.0; }
+
+/// Reads a matrix as 16 numbers, or as 3 or 4 rows of 4.
+Rows rows_in(const Field& field) {
+  Rows rows{};
+  const std::size_t count = field.size();
+  if (count == 16) {
+    field.numbers(rows.data(), 16);
+  } else if (count == 3 || count == 4) {
+    for (std::size_t i = 0; i < count; ++i) field.element(i).numbers(&rows[4 * i], 4);
+  } else {
+    field.fail("must be 16 numbers, or 3 or 4 rows of 4");
+  }
+  return rows;
+}
+
+/// Scene scales of such programs are in the matrix as well: columns are normalised.
+motion::Pose pose_in(const Field& field, CameraAxes axes) {
+  const Rows m = rows_in(field);
+  Eigen::Matrix3d rotation;
+  rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
+  const double determinant = rotation.determinant();
+  if (!(determinant > 0.0) || !rotation.allFinite()) {
+    field.fail("has no rotation: it mirrors, or has no volume");
+    return {};
+  }
+  rotation.colwise().normalize();
+  return {Vec3(m[3], m[7], m[11]), with_other_axes(Quat(rotation).normalized(), axes)};
+}
+
+Rows rows_of_pose(const motion::Pose& pose) {
+  const Eigen::Matrix3d r = pose.orientation.toRotationMatrix();
+  const Vec3& p = pose.position;
+  return {r(0, 0), r(0, 1), r(0, 2), p.x(), r(1, 0), r(1, 1), r(1, 2), p.y(),
+          r(2, 0), r(2, 1), r(2, 2), p.z(), 0.0,     0.0,     0.0,     1.0};
+}
+
+Rows columns_of_pose(const motion::Pose& pose) {
+  const Rows rows = rows_of_pose(pose);
+  Rows columns{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) columns[4 * j + i] = rows[4 * i + j];
+  }
+  return columns;
+}
+
+std::optional<double> number_member(const Field& object, std::string_view key) {
+  const std::optional<Field> member = object.optional_member(key);
+  if (!member || member->is_null()) return std::nullopt;
+  return member->number();
+}
+
+/// Reads a document by `read(root, track)`.
+template <class Read>
+base::Result<CameraTrack> read_json(const CameraFile& file, const Read& read) {
+  const base::Result<nlohmann::json> document = parse_document(file.bytes, file.name);
+  if (!document) return base::Failure{document.error.substr(file.name.size() + 2)};
+  DocumentNotes notes;
+  CameraTrack track;
+  read(Field(*document, notes), track);
+  if (!notes.error.empty()) return base::Failure{notes.error};
+  return track;
+}
+
+/// The angles of view of `transforms.json`.
+void read_angles(const Field& root, CameraTrack& track) {
+  track.fov_x_rad = number_member(root, "camera_angle_x");
+  track.fov_y_rad = number_member(root, "camera_angle_y");
+  const auto width = number_member(root, "w");
+  const auto height = number_member(root, "h");
+  const auto focal_x = number_member(root, "fl_x");
+  const auto focal_y = number_member(root, "fl_y");
+  if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
+  if (!track.fov_x_rad && width && focal_x && *focal_x > 0.0) {
+    track.fov_x_rad = 2.0 * std::atan(0.5 * *width / *focal_x);
+  }
+  const auto other = focal_y ? focal_y : focal_x;
+  if (!track.fov_y_rad && height && other && *other > 0.0) {
+    track.fov_y_rad = 2.0 * std::atan(0.5 * *height / *other);
+  }
+}
+
+}  // namespace
+
+base::Result<CameraTrack> read_nerfstudio(const CameraFile& file,
+                                          const CameraReadOptions& options) {
+  return read_json(file, [&](const Field& root, CameraTrack& track) {
+    const Field path = root.member("camera_path");
+    const std::size_t count = path.size();
+    std::optional<double> fps = number_member(root, "fps");
+    const std::optional<double> seconds = number_member(root, "seconds");
+    if (!fps && seconds && *seconds > 0.0) fps = static_cast<double>(count) / *seconds;
+    track.fps = frame_rate(options, fps, track.notes);
+    const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
+    for (std::size_t i = 0; i < count && !root.failed(); ++i) {
+      const Field each = path.element(i);
+      TrackKey key{static_cast<double>(i) / *track.fps,
+                   pose_in(each.member("camera_to_world"), axes), std::nullopt};
+      if (const auto fov = number_member(each, "fov")) key.fov_y_rad = radians_of_nerf(*fov);
+      track.keys.push_back(key);
+    }
+    const auto width = number_member(root, "render_width");
+    const auto height = number_member(root, "render_height");
+    if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
+  });
+}
+
+base::Result<std::string> write_nerfstudio(const CameraTrack& track,
+                                           const CameraWriteOptions& options) {
+  const double fps = track.fps.value_or(24.0);
+  const double fov_deg = degrees_of_nerf(options.fov_y_rad);
+  const int height = height_px(options);
+  const double aspect = static_cast<double>(options.width_px) / height;
+  OrderedJson json;
+  OrderedJson keyframes = OrderedJson::array();
+  OrderedJson path = OrderedJson::array();
+  for (const TrackKey& key : track.keys) {
+    const std::string matrix = OrderedJson(columns_of_pose(key.pose_W)).dump();
+    const double share = track.keys.size() < 2 ? 0.0 : key.time_s / track.keys.back().time_s;
+    const std::string properties = OrderedJson::array({OrderedJson::array({"FOV", fov_deg}),
+                                                       OrderedJson::array({"NAME", options.name}),
+                                                       OrderedJson::array({"TIME", share})})
+                                       .dump();
+    keyframes.push_back(
+        {{"matrix", matrix}, {"fov", fov_deg}, {"aspect", aspect}, {"properties", properties}});
+    path.push_back(
+        {{"camera_to_world", rows_of_pose(key.pose_W)}, {"fov", fov_deg}, {"aspect", aspect}});
+  }
+  json["camera_type"] = "perspective";
+  json["render_height"] = height;
+  json["render_width"] = options.width_px;
+  json["fps"] = fps;
+  json["seconds"] = static_cast<double>(track.keys.size()) / fps;
+  json["smoothness_value"] = 0;
+  json["is_cycle"] = false;
+  json["keyframes"] = std::move(keyframes);
+  json["camera_path"] = std::move(path);
+  return json.dump(1) + "\n";
+}
+
+base::Result<CameraTrack> read_transforms(const CameraFile& file,
+                                          const CameraReadOptions& options) {
+  return read_json(file, [&](const Field& root, CameraTrack& track) {
+    read_angles(root, track);
+    const Field frames = root.member("frames");
+    const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
+    track.has_times = options.fps.has_value();
+    track.fps = options.fps;
+    for (std::size_t i = 0; i < frames.size() && !root.failed(); ++i) {
+      track.keys.push_back({static_cast<double>(i) / options.fps.value_or(1.0),
+                            pose_in(frames.element(i).member("transform_matrix"), axes),
+                            std::nullopt});
+    }
+  });
+}
+
+base::Result<std::string> write_transforms(const CameraTrack& track,
+                                           const CameraWriteOptions& options) {
+  const int height = height_px(options);
+  OrderedJson frames = OrderedJson::array();
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    const Rows m = rows_of_pose(track.keys[i].pose_W);
+    OrderedJson matrix = OrderedJson::array();
+    for (std::size_t row = 0; row < 4; ++row) {
+      matrix.push_back({m[4 * row], m[4 * row + 1], m[4 * row + 2], m[4 * row + 3]});
+    }
+    frames.push_back(
+        {{"file_path", fmt::format("frame_{:06}.png", i + 1)}, {"transform_matrix", matrix}});
+  }
+  OrderedJson json;
+  json["camera_angle_x"] = options.fov_x_rad;
+  json["camera_angle_y"] = options.fov_y_rad;
+  json["fl_x"] = 0.5 * options.width_px / std::tan(0.5 * options.fov_x_rad);
+  json["fl_y"] = 0.5 * height / std::tan(0.5 * options.fov_y_rad);
+  json["w"] = options.width_px;
+  json["h"] = height;
+  json["frames"] = std::move(frames);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cameras/path_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace camway::tools {
+namespace {
+
+/// A path that ends this share of a frame after a frame ends with it: decimals of times round.
+constexpr double kSameFrame = 1e-6;
+/// Keys that are this much more than a frame apart are a frame apart: files round times to floats.
+constexpr double kRoundedFrame = 0.01;
+constexpr double kUsualRate = 24.0;
+/// Of frames between two keys: a camera that stands still for an hour at 60 frames a second.
+constexpr double kMostFramesBetween = 216'000.0;
+
+}  // namespace
+
+double frame_count(const motion::Path& path, double fps) {
+  return std::ceil((path.end_s() - path.begin_s()) * fps - kSameFrame) + 1.0;
+}
+
+CameraTrack frames_of(const motion::Path& path, double fps, double begin_s) {
+  CameraTrack track;
+  track.fps = fps;
+  const auto frames = static_cast<std::size_t>(frame_count(path, fps));
+  track.keys.reserve(frames);
+  for (std::size_t i = 0; i < frames; ++i) {
+    const double since_s = static_cast<double>(i) / fps;
+    motion::Pose pose =
+        i + 1 == frames ? path.pose(path.end_s()) : path.pose(path.begin_s() + since_s);
+    if (i > 0 && pose.orientation.dot(track.keys.back().pose_W.orientation) < 0.0) {
+      pose.orientation.coeffs() *= -1.0;
+    }
+    track.keys.push_back({begin_s + since_s, pose, std::nullopt});
+  }
+  return track;
+}
+
+CameraTrack with_frames_between(const CameraTrack& track) {
+  if (!track.has_times) return track;
+  const double step_s = 1.0 / track.fps.value_or(kUsualRate);
+  CameraTrack result = track;
+  result.keys.clear();
+  result.tangents.clear();
+  result.playback = Playback::kLinear;
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    result.keys.push_back(track.keys[i]);
+    if (i + 1 == track.keys.size()) break;
+    const double begin_s = track.keys[i].time_s;
+    const double end_s = track.keys[i + 1].time_s;
+    const double steps =
+        std::min(kMostFramesBetween, std::ceil((end_s - begin_s) / step_s - kRoundedFrame));
+    for (double k = 1.0; k < steps; k += 1.0) {
+      const double time_s = begin_s + k * (end_s - begin_s) / steps;
+      if (!(time_s > result.keys.back().time_s && time_s < end_s)) continue;
+      result.keys.push_back({time_s, pose_at(track, time_s), std::nullopt});
+    }
+  }
+  return result;
+}
+
+}  // namespace camway::tools

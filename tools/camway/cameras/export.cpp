@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/cli_support/flag_checks.h"
+#include "daemon/planning/result/path_faults.h"
+#include "daemon/planning/stages/path_check.h"
+#include "tools/cameras/formats/camera_format.h"
+#include "tools/cameras/path_samples.h"
+#include "tools/camway/cameras/played_proof.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/request_file.h"
+#include "tools/camway/common/scene_flags.h"
+#include "tools/json/json_angle.h"
+#include "tools/json/json_response.h"
+#include "tools/support/output_file.h"
+
+namespace camway::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ten hours at 24 frames a second.
+constexpr double kMostFrames = 1e6;
+
+struct ExportFlags {
+  SceneFlags scene;
+  std::string response;
+  std::string request;
+  std::string format;
+  std::string out;
+  std::string name = "camera";
+  double fps = 24.0;
+  int width_px = 1920;
+  bool no_proof = false;
+};
+
+/// What is exported, and what for.
+struct ExportInput {
+  PathFile response;
+  RequestFile request;
+  const CameraFormat* format = nullptr;
+  CameraWriteOptions options;
+};
+
+base::Result<ExportInput> read_input(const ExportFlags& flags) {
+  base::Result<RequestFile> request = read_request(flags.request);
+  if (!request) return base::Failure{request.error};
+  if (const auto fault = planning::validate(*request)) {
+    return base::Failure{source_of(flags.request) + ": " + fault->message};
+  }
+  base::Result<PathFile> response = read_as<PathFile>(flags.response);
+  if (!response) return base::Failure{response.error};
+  if (response->path.empty()) {
+    return base::Failure{source_of(flags.response) + ": has no path"};
+  }
+  if (const auto fault = planning::find_fault(response->path.segments())) {
+    return base::Failure{source_of(flags.response) + ": " + *fault};
+  }
+  if (frame_count(response->path, flags.fps) > kMostFrames) {
+    return base::Failure{
+        fmt::format("{}: has more than {} frames", source_of(flags.response), kMostFrames)};
+  }
+  const motion::Camera& camera = request->camera;
+  if (!(camera.fov_x_rad > 0.0)) {
+    return base::Failure{source_of(flags.request) + ": camera: is missing"};
+  }
+  const CameraWriteOptions options{flags.name, camera.fov_x_rad, camera.fov_y_rad,
+                                   camera.near_m * response->near_scale, flags.width_px};
+  return ExportInput{*std::move(response), *std::move(request), camera_format(flags.format),
+                     options};
+}
+
+/// Reads what was written back, as its consumer would.
+base::Result<CameraTrack> read_back(const ExportInput& input, const std::string& name,
+                                    const std::string& bytes, const CameraTrack& written) {
+  CameraFile file{name, bytes, {}};
+  file.open_beside = [&](const std::string& other) -> base::Result<std::string> {
+    if (input.format->companion == nullptr) return base::Failure{"is not there"};
+    const CompanionFile companion = input.format->companion(input.options);
+    if (companion.name != other) return base::Failure{"is not there"};
+    return companion.text;
+  };
+  CameraReadOptions options;
+  options.fps = written.fps;
+  return read_camera(*input.format, file, options);
+}
+
+ExitCode fail(const std::string& error) {
+  print_error(error);
+  return ExitCode::kInvalidInput;
+}
+
+base::Result<ProofScene> load_scene(const ExportFlags& flags, const ExportInput& input) {
+  auto body = motion::Body::make(planning::body_shape(input.request, input.response.near_scale));
+  if (!body) return base::Failure{source_of(flags.request) + ": body: " + body.error};
+  const std::string file = flags.scene.file_for(flags.request, input.request);
+  if (file.empty()) {
+    return base::Failure{
+        source_of(flags.request) +
+        ": scene: is missing, and there is no --scene; --no-proof exports without"};
+  }
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options(input.request.reading);
+  const scene::SnapshotResult loaded =
+      load_timed(file, file, options, user_cache(flags.scene)).result;
+  if (!loaded.snapshot) return base::Failure{loaded.error};
+  if (!input.response.scene_digest.empty() &&
+      input.response.scene_digest != loaded.snapshot->digest) {
+    print_error("warning: " + source_of(flags.response) + " was made for another scene");
+  }
+  const geometry::Bounds bounds = input.request.options.bounds.within(input.response.bounds);
+  return ProofScene{input.request, *std::move(body), loaded.snapshot, bounds};
+}
+
+/// Says whether what is played is free, and otherwise where it is not and at which rate it would
+/// be.
+ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraTrack& played) {
+  const base::Result<ProofScene> scene = load_scene(flags, input);
+  if (!scene) return fail(scene.error);
+  const PlayedProof proof = prove_played(played, *scene);
+  if (proof.search.certificate.certified) {
+    print_error(fmt::format("{}: proved free as played between its {} frames; clearance {:.3g} m",
+                            flags.out, played.keys.size(),
+                            proof.search.certificate.clearance_lower_bound_m));
+    return ExitCode::kSuccess;
+  }
+  if (!proof.search.complete) {
+    print_error(
+        fmt::format("{}: the deadline came before all that is played was proved", flags.out));
+    return ExitCode::kNegative;
+  }
+  for (const collision::CollisionInterval& each : proof.search.collisions) {
+    print_error(
+        fmt::format("{}: as played between its frames, it is too near to the scene from "
+                    "{:.6g} s to {:.6g} s",
+                    flags.out, each.t_begin_s, each.t_end_s));
+  }
+  const std::optional<double> rate = free_rate(input.response.path, flags.fps, *scene);
+  print_error(rate ? fmt::format("--fps {:g} would be free", *rate)
+                   : "no rate up to 32 times as high would be free");
+  return ExitCode::kNegative;
+}
+
+std::string write_files(const ExportFlags& flags, const ExportInput& input,
+                        const std::string& bytes) {
+  std::string error = write_file(flags.out, bytes);
+  if (!error.empty() || input.format->companion == nullptr) return error;
+  const CompanionFile companion = input.format->companion(input.options);
+  return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
+}
+
+ExitCode run_export(const ExportFlags& flags) {
+  const base::Result<ExportInput> input = read_input(flags);
+  if (!input) return fail(input.error);
+  const CameraTrack frames = frames_of(input->response.path, flags.fps);
+  const base::Result<std::string> bytes = input->format->write(frames, input->options);
+  if (!bytes) return fail(flags.out + ": " + bytes.error);
+  const base::Result<CameraTrack> played = read_back(*input, flags.out, *bytes, frames);
+  if (!played || played->keys.size() != frames.keys.size()) {
+    print_error(flags.out + ": cannot be read back: " + played.error);
+    return ExitCode::kOurFault;
+  }
+  const std::string error = write_files(flags, *input, *bytes);
+  if (!error.empty()) return fail(error);
+  if (flags.no_proof) return ExitCode::kSuccess;
+  return prove(flags, *input, *played);
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<ExportFlags>();
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a path as a camera file of another program, and prove what it will play");
+  command->add_option("response", flags->response, "Response file, or any with \"segments\"")
+      ->required();
+  command->add_option("--request", flags->request, "Its request: scene, camera and options")
+      ->required()
+      ->type_name("FILE");
+  std::vector<std::string> names;
+  for (const CameraFormat& format : camera_formats()) {
+    if (format.write != nullptr) names.emplace_back(format.name);
+  }
+  command->add_option("--format", flags->format, "What to write")
+      ->required()
+      ->check(cli_support::one_of(names));
+  command->add_option("--out", flags->out, "File to write")->required()->type_name("FILE");
+  command->add_option("--fps", flags->fps, "Frames a second")
+      ->check(cli_support::above_0())
+      ->capture_default_str();
+  command->add_option("--name", flags->name, "Name of the camera")->capture_default_str();
+  command->add_option("--width", flags->width_px, "Width of the picture, in pixels")
+      ->check(cli_support::whole_number(1, 100'000))
+      ->capture_default_str();
+  command->add_flag("--no-proof", flags->no_proof, "Do not prove what is played");
+  add_request_scene_flags(*command, flags->scene);
+  command->footer(
+      "The file has a pose for each frame. It is read back, and the path that a program plays of "
+      "it,\non straight lines and by slerp between the frames, is proved again. Where that is not "
+      "free, the\nfile is written all the same, and the exit code is 3.\n" +
+      exit_code_help("what is played between the frames is not free") +
+      "\nExample: camway export out.json --request scenes/requests/office-graze-door.json --format "
+      "gltf --out shot.glb");
+  command->callback([flags, &exit_code] { exit_code = run_export(*flags); });
+}
+
+}  // namespace camway::tools

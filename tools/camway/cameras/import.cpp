@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/base/named_enum.h"
+#include "daemon/cli_support/flag_checks.h"
+#include "daemon/scene/import/record/import_words.h"
+#include "tools/cameras/formats/camera_file.h"
+#include "tools/cameras/formats/camera_format.h"
+#include "tools/cameras/path_samples.h"
+#include "tools/cameras/track_thinning.h"
+#include "tools/camway/cameras/import_request.h"
+#include "tools/camway/common/commands.h"
+#include "tools/json/json_angle.h"
+#include "tools/json/json_document.h"
+#include "tools/support/output_file.h"
+
+namespace camway::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ImportFlags {
+  std::string file;
+  std::string format;
+  std::string times;
+  CameraReadOptions read;
+  std::string scene;
+  double scale = 1.0;
+  scene::UpAxis up = scene::UpAxis::kAsInFile;
+  ImportLens lens;
+  bool all = false;
+  std::optional<std::size_t> every;
+  std::optional<double> within_m;
+  std::optional<double> within_deg;
+  std::string request;
+};
+
+base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraFormat*& format) {
+  const base::Result<CameraFile> file = camera_file(flags.file);
+  if (!file) return base::Failure{file.error};
+  format = flags.format.empty() ? format_of(*file) : camera_format(flags.format);
+  if (format == nullptr) {
+    return base::Failure{flags.file + ": is of no format that is known; --format names one"};
+  }
+  CameraReadOptions options = flags.read;
+  if (!flags.times.empty()) {
+    const base::Result<std::string> times = read_text(flags.times);
+    if (!times) return base::Failure{times.error};
+    options.times = *times;
+  }
+  base::Result<CameraTrack> track = read_camera(*format, *file, options);
+  if (track && track->keys.size() < 2) {
+    return base::Failure{flags.file + ": has one pose; a path needs two"};
+  }
+  return track;
+}
+
+/// Poses without times have no path between them to compare with.
+ThinnedTrack choose_keyframes(const ImportFlags& flags, const CameraTrack& track) {
+  if (flags.all || (!track.has_times && !flags.every)) return every(track, 1);
+  if (flags.every) return every(track, *flags.every);
+  ThinningTolerance tolerance;
+  if (flags.within_m) tolerance.position_m = *flags.within_m;
+  if (flags.within_deg) tolerance.turn_rad = radians(*flags.within_deg);
+  return thinned(track, tolerance);
+}
+
+/// The scene's file as the request names it: relative to the request's folder.
+std::string scene_in_request(const ImportFlags& flags) {
+  if (flags.scene.empty() || flags.request == "-") return flags.scene;
+  std::error_code error;
+  const fs::path folder = fs::absolute(flags.request, error).parent_path();
+  const fs::path relative = fs::absolute(flags.scene, error).lexically_relative(folder);
+  return relative.empty() ? flags.scene : relative.string();
+}
+
+void print_summary(const ImportFlags& flags, const CameraFormat& format, const CameraTrack& track,
+                   std::size_t poses, const ThinnedTrack& kept) {
+  const std::string rate = track.fps ? fmt::format(", {:g} frames a second", *track.fps) : "";
+  print_error(fmt::format("{}: {}, camera '{}': {} poses{}", flags.file, format.name, track.name,
+                          poses, rate));
+  for (const std::string& note : track.notes) print_error("note: " + note);
+  if (!track.has_times) {
+    print_error(fmt::format("{}: {} keyframes without times; --fps gives times", flags.request,
+                            kept.kept.size()));
+    return;
+  }
+  print_error(fmt::format(
+      "{}: {} keyframes; the path through them is within {:.2g} m and {:.2g} degrees of all poses",
+      flags.request, kept.kept.size(), kept.largest_position_m, degrees(kept.largest_turn_rad)));
+}
+
+ExitCode refuse_file(const std::string& error) {
+  print_error(error);
+  return ExitCode::kInvalidInput;
+}
+
+ExitCode run_import(const ImportFlags& flags) {
+  const CameraFormat* format = nullptr;
+  base::Result<CameraTrack> track = read_track(flags, format);
+  if (!track) return refuse_file(track.error);
+  place_as_scene(*track, flags.scale, flags.up);
+  const base::Result<RequestCamera> camera = camera_of(*track, flags.lens);
+  if (!camera) return refuse_file(flags.file + ": " + camera.error);
+  // The user counts poses of the file. Else the path is compared where a person sees it, at frames:
+  // keys may be far apart, on curves between them.
+  const bool counts_poses = flags.all || flags.every.has_value();
+  const CameraTrack compared = counts_poses ? *track : with_frames_between(*track);
+  const ThinnedTrack kept = choose_keyframes(flags, compared);
+  const std::string text =
+      request_json(compared, kept, *camera, {scene_in_request(flags), flags.scale, flags.up})
+          .dump(2) +
+      "\n";
+  print_summary(flags, *format, compared, track->keys.size(), kept);
+  if (flags.request == "-") {
+    fmt::print("{}", text);
+    return ExitCode::kSuccess;
+  }
+  const std::string error = write_file(flags.request, text);
+  return error.empty() ? ExitCode::kSuccess : refuse_file(error);
+}
+
+void add_file_flags(CLI::App& command, ImportFlags& flags) {
+  command.add_option("file", flags.file, "File with the camera path")->required();
+  std::vector<std::string> names;
+  for (const CameraFormat& format : camera_formats()) names.emplace_back(format.name);
+  command.add_option("--format", flags.format, "What the file is, if its name does not say so")
+      ->check(cli_support::one_of(names));
+  command.add_option("--camera", flags.read.camera, "Name of the camera [the animated one]");
+  command.add_option("--times", flags.times, "File with a time in seconds in each line, for KITTI")
+      ->type_name("FILE");
+  command.add_option("--fps", flags.read.fps, "Frames a second, of files that count frames")
+      ->check(cli_support::above_0());
+  const auto set_axes = [&flags](const std::string& axes) {
+    flags.read.axes = axes == "cv" ? CameraAxes::kCv : CameraAxes::kGl;
+  };
+  command
+      .add_option_function<std::string>(
+          "--camera-axes", set_axes,
+          "gl: looks along -Z, +Y up; cv: along +Z, +Y down [by the format]")
+      ->check(cli_support::one_of({"gl", "cv"}));
+}
+
+void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
+  command.add_option("--scene", flags.scene, "Scene file that the request names")
+      ->type_name("FILE");
+  command.add_option("--scale", flags.scale, "Metres per unit, of this file and of the scene")
+      ->check(cli_support::above_0())
+      ->capture_default_str();
+  cli_support::add_choice(command, "--up", flags.up, base::named_values<scene::UpAxis>(),
+                          "Turns the axes, of this file and of the scene");
+}
+
+void add_lens_flags(CLI::App& command, ImportFlags& flags) {
+  command.add_option("--fov-x-deg", flags.lens.fov_x_deg, "Full angle of view across")
+      ->check(cli_support::above_0());
+  command.add_option("--fov-y-deg", flags.lens.fov_y_deg, "Full angle of view upwards")
+      ->check(cli_support::above_0());
+  command.add_option("--aspect", flags.lens.aspect, "Width of the picture divided by its height")
+      ->check(cli_support::above_0());
+  command.add_option("--near-m", flags.lens.near_m, "Near distance")->check(cli_support::above_0());
+}
+
+void add_keyframe_flags(CLI::App& command, ImportFlags& flags) {
+  CLI::Option* const all = command.add_flag("--all", flags.all, "Every pose becomes a keyframe");
+  CLI::Option* const every =
+      command.add_option("--every", flags.every, "Every N-th pose becomes a keyframe")
+          ->check(cli_support::whole_number(1, 1'000'000))
+          ->excludes(all);
+  command
+      .add_option("--within-m", flags.within_m, "Farthest that the path may be from a pose [0.005]")
+      ->check(cli_support::above_0())
+      ->excludes(all)
+      ->excludes(every);
+  command.add_option("--within-deg", flags.within_deg, "Farthest that it may be turned [0.2]")
+      ->check(cli_support::above_0())
+      ->excludes(all)
+      ->excludes(every);
+}
+
+std::string formats_help() {
+  std::string text = "Formats:\n";
+  for (const CameraFormat& format : camera_formats()) {
+    text += fmt::format("  {:<12}{}\n", format.name, format.description);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<ImportFlags>();
+  CLI::App* command = app.add_subcommand(
+      "import", "Make a request of a camera path of another program, with few keyframes");
+  add_file_flags(*command, *flags);
+  add_scene_flags_of_import(*command, *flags);
+  add_lens_flags(*command, *flags);
+  add_keyframe_flags(*command, *flags);
+  command->add_option("--request", flags->request, "Request to write; - is standard output")
+      ->required()
+      ->type_name("FILE");
+  command->footer(
+      formats_help() + exit_code_help("") +
+      "\nExample: camway import shot.glb --scene scenes/office.obj --request shot.json");
+  command->callback([flags, &exit_code] { exit_code = run_import(*flags); });
+}
+
+}  // namespace camway::tools

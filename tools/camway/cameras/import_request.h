@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "daemon/base/result.h"
+#include "daemon/scene/import/record/import_options.h"
+#include "tools/cameras/camera_track.h"
+#include "tools/cameras/track_thinning.h"
+
+namespace camway::tools {
+
+/// What the user says about the camera, beside its file.
+struct ImportLens {
+  std::optional<double> fov_x_deg;
+  std::optional<double> fov_y_deg;
+  std::optional<double> aspect;
+  std::optional<double> near_m;
+};
+
+/// The full angles of view and the near distance of a request.
+struct RequestCamera {
+  double fov_x_rad = 0.0;
+  double fov_y_rad = 0.0;
+  double near_m = 0.0;
+};
+
+/// Returns the camera of a track: what the user says, else what the file says, else what follows
+/// from the width of the picture, with a note in `track`. A lens that changes counts with its
+/// widest angle. Fails if nothing is known of the field of view.
+base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens);
+
+/// Scales and turns a track as a scene file is (`scene::ImportOptions`).
+void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up);
+
+/// The scene that a request names, and how it is read.
+struct RequestScene {
+  std::string file;  ///< relative to the request's folder; empty: none
+  double scale = 1.0;
+  scene::UpAxis up = scene::UpAxis::kAsInFile;
+};
+
+/// Returns the request as JSON, with the kept keys as keyframes.
+nlohmann::ordered_json request_json(const CameraTrack& track, const ThinnedTrack& kept,
+                                    const RequestCamera& camera, const RequestScene& scene);
+
+}  // namespace camway::tools
