@@ -20,12 +20,13 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 15> kCommands{{
+constexpr std::array<Command, 16> kCommands{{
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
     {"export", camway::tools::add_export_command},
     {"import", camway::tools::add_import_command},
+    {"sample", camway::tools::add_sample_command},
     {"occupancy", camway::tools::add_occupancy_command},
     {"load", camway::tools::add_load_command},
     {"replay", camway::tools::add_replay_command},

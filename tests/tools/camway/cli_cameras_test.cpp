@@ -95,6 +95,22 @@ TEST_F(CliCameras, SayWhereAndAtWhichRateWhatIsPlayedIsFree) {
   EXPECT_EQ(export_path("csv", {"--fps", "3", "--no-proof"}).exit_code, 0);
 }
 
+TEST_F(CliCameras, SampleThePath) {
+  write_flight(2.0);
+  ASSERT_EQ(import_flight().exit_code, 0);
+  plan();
+  const CliRun table = run_camway({"sample", folder_.file("o.json"), "--fps", "2"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out,
+              ::testing::StartsWith("time_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n"));
+  const json list =
+      json::parse(run_camway({"sample", folder_.file("o.json"), "--fps", "2", "--json"}).out);
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[1]["time"], 0.5);
+  EXPECT_NEAR(list[1]["position"][0].get<double>(), 5.0, 0.01);
+  EXPECT_EQ(list[2]["position"], json::parse("[10.0, 0.0, 0.0]"));
+}
+
 TEST_F(CliCameras, ChooseKeyframesAsAsked) {
   write_flight(2.0);
   ASSERT_EQ(import_flight({"--all"}).exit_code, 0);
