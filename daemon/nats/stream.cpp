@@ -89,7 +89,7 @@ Ensured ensure_once(Connection& connection, const StreamConfig& config, millisec
   if (!info && info.error == kNobodyAnswers) {
     return {connection.server() + " has no JetStream, or not for this user"};
   }
-  if (!info) return {named(config.name, info.error), true};
+  if (!info) return {named(config.name, info.error), info.fault != StreamFault::kStalled};
   if (info->error_code == 0 && info->value.contains("config")) {
     return {adapt(connection, config, info->value["config"], wait)};
   }
@@ -115,6 +115,7 @@ std::uint64_t number_in(const json& value, const char* key) {
 
 base::Result<std::unique_ptr<Stream>> Stream::ensure(Connection& connection,
                                                      const StreamConfig& config, Wait wait) {
+  if (config.replicas == 1) connection.parts().stalls->watch(config.name);
   const auto end = std::chrono::steady_clock::now() + wait;
   for (;;) {
     const Ensured tried = ensure_once(connection, config, std::min(wait, kEnsureWait));
@@ -153,7 +154,7 @@ StreamResult<std::uint64_t> Stream::publish(const std::string& subject,
                                std::to_string(*expected).c_str());
   }
   if (status != NATS_OK) return {StreamFault::kRefused, "no memory for NATS"};
-  const auto reply = ask(connection_, *message, wait);
+  const auto reply = ask(connection_, name_, *message, wait);
   if (!reply) return {reply.fault, reply.error};
   const auto answer = api_answer_from(text_of(**reply));
   if (!answer) return {answer.fault, answer.error};
@@ -178,7 +179,7 @@ StreamResult<Stream::Found> Stream::last_of_any_server(const std::string& subjec
     return {StreamFault::kRefused, "no memory for NATS"};
   }
   const NatsOwned<natsMsg> message(made);
-  const auto reply = ask(connection_, *message, wait);
+  const auto reply = ask(connection_, name_, *message, wait);
   if (!reply) return {reply.fault, reply.error};
   return direct_message_from(**reply);
 }
@@ -207,12 +208,16 @@ StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
   if (!connection_.is_connected()) {
     return {StreamFault::kUnreachable, "there is no connection to NATS"};
   }
+  if (std::string stall = connection_.stall(); !stall.empty()) {
+    return {StreamFault::kStalled, std::move(stall)};
+  }
   const std::shared_ptr<ReplyInbox> replies = take_inbox();
   // With replicas, only the leader has all that was acknowledged.
   StretchReader reader(*replies, name_, filter, config_.replicas == 1, wait);
   std::uint64_t next = std::max<std::uint64_t>(from, 1);
   while (next <= to) {
     auto messages = reader.next(next, to);
+    if (messages.error == kNoAnswerInTime) connection_.parts().stalls->suspect(name_);
     if (!messages) return {messages.fault, messages.error};
     if (messages->empty()) break;
     for (StoredMessage& message : *messages.value) {

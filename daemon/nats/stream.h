@@ -22,6 +22,7 @@ enum class StreamFault : std::uint8_t {
   kNone,
   kConflict,     ///< the last message of the subject is another one than was expected
   kFull,         ///< the stream or the disk of the server has no room
+  kStalled,      ///< as `kUnreachable`, and for long: the server answers, but a stream does not
   kUnreachable,  ///< no answer: what was asked for may have been done, or may still be
   kRefused,      ///< the server says no
 };

@@ -34,10 +34,15 @@ AppendResult NatsLog::Parts::conflict(std::string_view scene, std::uint64_t newe
                                       ", not at " + std::to_string(expected)};
 }
 
-AppendResult NatsLog::Parts::unclear(const std::string& reason) const {
-  return {AppendFault::kBroken, place() + " cannot be reached: " + reason +
-                                    ". The change may still take effect; send the same request "
-                                    "again to know"};
+AppendResult NatsLog::Parts::given_up(const std::string& reason, bool is_unclear) const {
+  const std::string stall = connection_.stall();
+  AppendResult result =
+      append_fault(stall.empty() ? StreamFault::kUnreachable : StreamFault::kStalled, stall);
+  if (stall.empty()) result.error = place() + " cannot be reached: " + reason;
+  if (is_unclear) {
+    result.error += ". The change may still take effect; send the same request again to know";
+  }
+  return result;
 }
 
 NatsLog::Parts::Head NatsLog::Parts::head_of(std::string_view scene, const MessageId& id) const {
@@ -82,9 +87,7 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
     return {AppendFault::kBroken, place() + " takes no scene with a name of that size"};
   }
   const std::string unchecked = check_tail(end);
-  if (!unchecked.empty()) {
-    return {AppendFault::kBroken, place() + " cannot be reached: " + unchecked};
-  }
+  if (!unchecked.empty()) return given_up(unchecked, false);
   // This process may not know yet that another one has changed the scene; then the server says so.
   const std::uint64_t newest = head_of(scene, message.id).revision;
   if (newest != expected) return conflict(scene, newest, expected);
@@ -103,13 +106,9 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
 AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
                                     LogMessage message, PatienceEnd end) {
   bool is_unclear = false;
-  const auto give_up = [&](const std::string& reason) {
-    if (is_unclear) return unclear(reason);
-    return AppendResult{AppendFault::kBroken, place() + " cannot be reached: " + reason};
-  };
   for (;;) {
     const std::string unchecked = check_tail(end);
-    if (!unchecked.empty()) return give_up(unchecked);
+    if (!unchecked.empty()) return given_up(unchecked, is_unclear);
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
@@ -128,12 +127,13 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     // A cluster may have accepted two at once, of which the first one counts: see which that is.
     if (done || done.fault == StreamFault::kConflict) {
       const std::string fault = refresh(std::string(scene), end);
-      if (!fault.empty()) return give_up(fault);
+      if (!fault.empty()) return given_up(fault, is_unclear);
       continue;
     }
+    if (done.fault == StreamFault::kStalled) return given_up(done.error, is_unclear);
     if (done.fault != StreamFault::kUnreachable) return append_fault(done.fault, done.error);
     is_unclear = true;
-    if (!pause_before_retry(end)) return give_up(done.error);
+    if (!pause_before_retry(end)) return given_up(done.error, is_unclear);
   }
 }
 

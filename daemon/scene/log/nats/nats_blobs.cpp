@@ -59,6 +59,8 @@ AppendResult append_fault(StreamFault fault, const std::string& error) {
     case StreamFault::kFull:
       return {AppendFault::kFull, "the log of the fleet has no room left (" + error +
                                       "): make room on the disks of NATS, or raise its limits"};
+    case StreamFault::kStalled:
+      return {AppendFault::kFull, "the log of the fleet cannot be written: " + error};
     case StreamFault::kUnreachable:
     case StreamFault::kRefused:
       break;

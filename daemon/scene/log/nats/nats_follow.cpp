@@ -82,12 +82,23 @@ void NatsLog::Parts::run_follower() {
   bool is_up_to_date = false;
   do {
     is_up_to_date = false;
-    if (connection_.is_connected() && check_tail(Clock::now() + kFollowWait).empty()) {
+    if (is_not_stalled() && connection_.is_connected() &&
+        check_tail(Clock::now() + kFollowWait).empty()) {
       is_up_to_date = follow_once();
     }
     has_read_all_ = is_up_to_date;
     if (is_up_to_date) look_for_losses();
   } while (wait_for_news(is_up_to_date ? kPollPause : kFaultPause));
+}
+
+bool NatsLog::Parts::is_not_stalled() {
+  const std::string stall = connection_.stall();
+  if (stall.empty() == was_stalled_) {
+    was_stalled_ = !stall.empty();
+    warn(was_stalled_ ? "changes of scenes are refused: " + stall
+                      : "JetStream of the server answers again");
+  }
+  return stall.empty();
 }
 
 bool NatsLog::Parts::follow_once() {

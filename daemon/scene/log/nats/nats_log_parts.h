@@ -113,7 +113,8 @@ class NatsLog::Parts {
   void purge_before_last(std::string_view scene, const MessageId& id, PatienceEnd end);
   [[nodiscard]] AppendResult conflict(std::string_view scene, std::uint64_t newest,
                                       std::uint64_t expected) const;
-  [[nodiscard]] AppendResult unclear(const std::string& reason) const;
+  /// The result of an append that got no answer. `is_unclear`: it may have been made.
+  [[nodiscard]] AppendResult given_up(const std::string& reason, bool is_unclear) const;
 
   /// Returns once the server has all that this process knows to be kept, or why that is not known.
   std::string check_tail(PatienceEnd end);
@@ -134,6 +135,9 @@ class NatsLog::Parts {
   /// again.
   bool pass_on(const std::string& scene, LogMessage message, std::uint64_t sequence);
   void look_for_losses();
+  /// Tells the user once that the server does not answer for its streams, and once that it does
+  /// again. Returns whether it does.
+  bool is_not_stalled();
   void warn_of_damage(const std::string& scene, const std::string& what);
   /// Returns false when the follower has to end.
   bool wait_for_news(std::chrono::milliseconds most);
@@ -168,6 +172,7 @@ class NatsLog::Parts {
   std::uint64_t next_sequence_ = 1;
   bool is_interrupted_ = false;  ///< the next messages have to be read again
   std::chrono::steady_clock::time_point last_look_{};
+  bool was_stalled_ = false;       ///< the user was told
   std::set<std::string> gaps_;     ///< scenes with a change that does not follow the one before
   std::set<std::string> damaged_;  ///< scenes of which the user was told
   std::unique_ptr<nats::Subscription> subscription_;

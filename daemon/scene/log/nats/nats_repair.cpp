@@ -36,7 +36,8 @@ std::string NatsLog::Parts::check_tail(PatienceEnd end) {
   std::string fault;
   do {
     fault = check_now(end);
-  } while ((!fault.empty() || !is_tail_checked()) && pause_before_retry(end));
+  } while ((!fault.empty() || !is_tail_checked()) && connection_.stall().empty() &&
+           pause_before_retry(end));
   if (fault.empty() && !is_tail_checked()) fault = "the connection to NATS was lost";
   const std::lock_guard lock(check_mutex_);
   is_checking_ = false;
