@@ -16,6 +16,7 @@ namespace camway::nats {
 /// Codes of errors, as the server documents them (`err_code`).
 inline constexpr int kNoMessageError = 10037;
 inline constexpr int kSequenceNotFoundError = 10043;
+inline constexpr int kDeleteFailedError = 10057;
 inline constexpr int kStreamNotFoundError = 10059;
 inline constexpr int kStreamNameError = 10058;
 inline constexpr int kNoPeersError = 10005;

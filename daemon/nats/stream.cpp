@@ -236,17 +236,32 @@ StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
 
 StreamResult<std::uint64_t> Stream::purge(const std::string& filter, std::uint64_t before,
                                           Wait wait) {
-  const auto answer =
-      ask_api(connection_, "STREAM.PURGE." + name_, {{"filter", filter}, {"seq", before}}, wait);
-  if (!answer) return {answer.fault, answer.error};
-  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
-  return number_in(answer->value, "purged");
+  std::vector<std::uint64_t> sequences;
+  const auto collect = [&](const StoredMessage& message) {
+    if (message.sequence < before) sequences.push_back(message.sequence);
+  };
+  if (before <= 1) return 0;
+  const auto found = read(1, before - 1, filter, collect, wait);
+  if (!found) return found;
+  std::uint64_t purged = 0;
+  for (const std::uint64_t sequence : sequences) {
+    const auto removed = remove(sequence, wait);
+    if (!removed) return {removed.fault, removed.error};
+    if (*removed) ++purged;
+  }
+  return purged;
 }
 
 StreamResult<bool> Stream::remove(std::uint64_t sequence, Wait wait) {
-  const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_, {{"seq", sequence}}, wait);
+  // Nothing secret is in it that the server would have to overwrite.
+  const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_,
+                              {{"seq", sequence}, {"no_erase", true}}, wait);
   if (!answer) return {answer.fault, answer.error};
-  if (answer->error_code == kSequenceNotFoundError || answer->error_code == kNoMessageError) {
+  // Of a message that was deleted at the same time, the server says what its store has found.
+  const bool was_just_deleted = answer->error_code == kDeleteFailedError &&
+                                answer->error_text.find("no message found") != std::string::npos;
+  if (was_just_deleted || answer->error_code == kSequenceNotFoundError ||
+      answer->error_code == kNoMessageError) {
     return false;
   }
   if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};

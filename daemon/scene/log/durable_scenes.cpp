@@ -171,7 +171,7 @@ Keeping DurableScenes::keep_changes(const Snapshot& before, const Snapshot& next
 }
 
 void DurableScenes::summarize(const std::string& name, Kept& kept, std::uint64_t oldest_revision) {
-  if (kept.entries < kEntriesPerSummary) return;
+  if (kept.entries < kEntriesPerSummary && !log_.lacks_blobs_of(name)) return;
   kept.scene.forget_before(oldest_revision);
   const AppendResult done = log_.summarize(name, kept.scene.newest_revision(),
                                            change_record_of(kept.scene), kept.scene.needs());

@@ -92,6 +92,13 @@ class SceneLog {
   /// the one before does not run any more when this has returned.
   virtual void on_lost_blob(LostBlob find) { static_cast<void>(find); }
 
+  /// Whether the log has lost blobs of a scene that the owner has not either, so that a summary
+  /// which does not need them is of use.
+  [[nodiscard]] virtual bool lacks_blobs_of(std::string_view scene) {
+    static_cast<void>(scene);
+    return false;
+  }
+
   /// All scenes in order of name. Fails if anything in the log is damaged, with what is lost and
   /// how to go on: it is never read in part.
   virtual base::Result<std::vector<LoggedScene>> scenes() = 0;

@@ -138,7 +138,7 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
                                        head.sequence, rest_of(end));
     // This process was stopped for longer than a blob is kept that nobody names.
     if (!message.needs.empty() &&
-        std::chrono::steady_clock::now() > begin + options_.blob_grace / 2) {
+        std::chrono::steady_clock::now() > begin + *options_.blob_grace / 2) {
       must_check_ = true;
     }
     if (done && options_.replicas == 1) {

@@ -212,7 +212,11 @@ NatsBlobs::HoldResult NatsBlobs::hold(const BlobId& id, const IsNeeded& is_neede
 base::Result<Bytes> NatsBlobs::read(const BlobId& id, PatienceEnd end) {
   const auto found = find_part(id, 0, end);
   if (!found) return base::Failure{"the log of the fleet cannot be read: " + found.error};
-  if (!*found) return base::Failure{"a mesh or map is not in the log of the fleet"};
+  if (!*found)
+    return base::Failure{
+        "its mesh or map is not in the log of the fleet any more. Put it again or unload the "
+        "scene, "
+        "with a front that runs, or restore backups of both streams in NATS"};
   base::Result<BlobHead> head = blob_head_from(std::as_bytes(std::span((*found)->payload)));
   if (!head) return damaged_blob(head.error);
   base::Result<Bytes> bytes =

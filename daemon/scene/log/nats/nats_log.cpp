@@ -60,7 +60,7 @@ base::Result<std::unique_ptr<NatsLog>> NatsLog::open(nats::Connection& connectio
   auto blob_stream = nats::Stream::ensure(connection, blobs, options.patience);
   if (!blob_stream) return base::Failure{std::move(blob_stream.error)};
   NatsLogOptions complete = options;
-  if (complete.blob_grace.count() == 0) {
+  if (!complete.blob_grace) {
     complete.blob_grace = kGracePatiences * options.patience + kGraceBeyondPatience;
   }
   return std::unique_ptr<NatsLog>(new NatsLog(std::make_unique<Parts>(
@@ -97,6 +97,7 @@ AppendResult NatsLog::set_note(std::string_view key, std::string_view text) {
 }
 AppendResult NatsLog::drop_unused_blobs() { return parts_->drop_unused_blobs(false); }
 void NatsLog::on_lost_blob(LostBlob find) { parts_->on_lost_blob(std::move(find)); }
+bool NatsLog::lacks_blobs_of(std::string_view scene) { return parts_->lacks_blobs_of(scene); }
 void NatsLog::follow(Take take) { parts_->follow(std::move(take)); }
 void NatsLog::stop_following() { parts_->stop_following(); }
 std::uint64_t NatsLog::followed() const { return parts_->followed(); }
@@ -112,7 +113,7 @@ NatsLog::Parts::Parts(nats::Connection& connection, NatsLogOptions options,
       options_(std::move(options)),
       stream_(std::move(stream)),
       blobs_(connection, std::move(blob_stream),
-             {options_.fleet + ".blob", options_.replicas == 1, options_.blob_grace,
+             {options_.fleet + ".blob", options_.replicas == 1, *options_.blob_grace,
               options_.recent_time, options_.warn}),
       reserve_(*stream_, options_.fleet + ".log.reserve", options_.most_bytes),
       checked_generation_(connection.generation()) {
@@ -317,7 +318,7 @@ AppendResult NatsLog::Parts::drop_unused_blobs(bool is_urgent) {
     const std::lock_guard lock(mutex_);
     // The follower does it later.
     must_drop_ = true;
-    if (!is_urgent && last_drop_ && now < *last_drop_ + options_.blob_grace / kDropsPerGrace) {
+    if (!is_urgent && last_drop_ && now < *last_drop_ + *options_.blob_grace / kDropsPerGrace) {
       return {};
     }
     last_drop_ = now;

@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/base/result.h"
 #include "daemon/nats/connection.h"
@@ -21,8 +24,8 @@ struct NatsLogOptions {
   /// How long an append waits for the server, through lost connections, before it gives up.
   std::chrono::milliseconds patience{5'000};
   /// Blobs that nothing names are kept for this long, because another process may be about to name
-  /// them. 0: four times the patience and ten seconds, which is longer than a change may take.
-  std::chrono::milliseconds blob_grace{0};
+  /// them. Unset: four times the patience and ten seconds, which is longer than a change may take.
+  std::optional<std::chrono::milliseconds> blob_grace;
   /// Blobs that were put are kept here for this long, because the server may lose them until it has
   /// synced its files.
   std::chrono::milliseconds recent_time{5 * 60'000};
@@ -72,6 +75,7 @@ class NatsLog final : public SharedLog {
   AppendResult set_note(std::string_view key, std::string_view text) override;
   AppendResult drop_unused_blobs() override;
   void on_lost_blob(LostBlob find) override;
+  [[nodiscard]] bool lacks_blobs_of(std::string_view scene) override;
 
   void follow(Take take) override;
   void stop_following() override;

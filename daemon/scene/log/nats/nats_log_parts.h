@@ -26,6 +26,9 @@ namespace camway::scene {
 /// The scenes of a log, by name.
 using SceneChains = std::map<std::string, SceneChain, std::less<>>;
 
+/// Scenes of which blobs are lost, and how many.
+using LostBlobs = std::map<std::string, std::size_t, std::less<>>;
+
 /// What is known of blobs while they are repaired.
 struct BlobRepair {
   std::set<BlobId> there;           ///< at the server
@@ -69,6 +72,7 @@ class NatsLog::Parts {
 
   // nats_lost.cpp
   void on_lost_blob(SceneLog::LostBlob find);
+  [[nodiscard]] bool lacks_blobs_of(std::string_view scene) const;
 
   // nats_follow.cpp
   void follow(SharedLog::Take take);
@@ -156,7 +160,7 @@ class NatsLog::Parts {
   nats::StreamResult<bool> repair_blobs(const std::set<BlobId>& roots, BlobRepair& repair,
                                         PatienceEnd end);
   /// Notes which blobs nobody has, and tells the user if that has changed.
-  void note_lost(const std::map<std::string, std::size_t>& lost);
+  void note_lost(const LostBlobs& lost);
   std::string repair_notes(PatienceEnd end);
   /// What is due from time to time while all is read.
   void keep_house();
@@ -194,8 +198,8 @@ class NatsLog::Parts {
     std::string text;
     std::uint64_t sequence = 0;
   };
-  std::map<std::string, Note> notes_;        ///< that this process has set
-  std::map<std::string, std::size_t> lost_;  ///< scenes with blobs that nobody has, and how many
+  std::map<std::string, Note> notes_;  ///< that this process has set
+  LostBlobs lost_;                     ///< scenes with blobs that nobody has, and how many
 
   std::mutex lost_blob_mutex_;  ///< guards lost_blob_, also while it runs
   SceneLog::LostBlob lost_blob_;

@@ -18,6 +18,11 @@ void NatsLog::Parts::on_lost_blob(SceneLog::LostBlob find) {
   lost_blob_ = std::move(find);
 }
 
+bool NatsLog::Parts::lacks_blobs_of(std::string_view scene) const {
+  const std::lock_guard lock(mutex_);
+  return lost_.contains(scene);
+}
+
 void NatsLog::Parts::add_needs(const SceneChain& chain, std::set<BlobId>& needs) {
   for (const ChainLink& link : chain.links()) {
     needs.insert(link.message.needs.begin(), link.message.needs.end());
@@ -88,7 +93,7 @@ std::string NatsLog::Parts::repair_contents(PatienceEnd end) {
   const auto there = blobs_.all(end);
   if (!there) return there.error;
   BlobRepair repair{*there, {}, {}, 0};
-  std::map<std::string, std::size_t> lost;
+  LostBlobs lost;
   for (const auto& [scene, chain] : known) {
     std::set<BlobId> needs;
     add_needs(chain, needs);
@@ -106,7 +111,7 @@ std::string NatsLog::Parts::repair_contents(PatienceEnd end) {
   return repair_notes(end);
 }
 
-void NatsLog::Parts::note_lost(const std::map<std::string, std::size_t>& lost) {
+void NatsLog::Parts::note_lost(const LostBlobs& lost) {
   std::string scenes;
   std::size_t count = 0;
   for (const auto& [scene, number] : lost) {

@@ -53,7 +53,7 @@ bool NatsReserve::release(std::size_t kept, PatienceEnd end) {
   for (const auto& [subject, count] : *there) {
     if (left <= kept) return false;
     const auto purged =
-        stream_.purge(subject, std::numeric_limits<std::int64_t>::max(), rest_of(end));
+        stream_.purge(subject, std::numeric_limits<std::uint64_t>::max(), rest_of(end));
     if (!purged) return false;
     --left;
     is_incomplete_ = true;

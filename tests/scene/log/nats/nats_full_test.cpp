@@ -106,5 +106,62 @@ TEST(NatsFull, AFullDiskRefusesMeshesAndTakesThemOnceThereIsRoom) {
   EXPECT_THAT(log.warnings(), Not(HasSubstr("refused")));
 }
 
+/// Puts meshes into a scene until there is no room. Returns how many.
+int fill_with_meshes(FleetLog& log, const std::string& scene) {
+  for (int i = 0;; ++i) {
+    const SampleBlob mesh(scene + std::to_string(i) + std::string(700'000, 'm'));
+    const AppendResult put = log->put_blob(mesh.id, mesh.blob);
+    const AppendResult done =
+        put.fault == AppendFault::kNone ? log.append(scene, std::to_string(i), {mesh.id}) : put;
+    if (done.fault == AppendFault::kNone) continue;
+    EXPECT_EQ(done.fault, AppendFault::kFull) << done.error;
+    return i;
+  }
+}
+
+/// Goes on at the limit of a server: by changes without meshes, summaries and removals.
+void goes_on_at_its_limit(const std::string& url, NatsLogOptions options) {
+  options.blob_grace = milliseconds(400);
+  FleetLog log({url}, options);
+  log.follow();
+  const int meshes = fill_with_meshes(log, "office");
+  ASSERT_GT(meshes, 2);
+  const SampleBlob mesh(std::string(600'000, 'n'));
+  EXPECT_EQ(log->put_blob(mesh.id, mesh.blob).fault, AppendFault::kFull);
+  // As the removal of an object.
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(log.append("office", "without").error, "") << i;
+  ASSERT_EQ(log.append("hall", "without").error, "");
+  // Until even that fills the log.
+  AppendResult small;
+  for (int i = 0; i < 100 && small.fault == AppendFault::kNone; ++i) {
+    small = log.append("hall", std::string(100'000, 'x'));
+  }
+  EXPECT_EQ(small.fault, AppendFault::kFull) << small.error;
+  EXPECT_EQ(log->summarize("hall", log.revision("hall"), log_bytes("sum"), {}).error, "");
+  EXPECT_EQ(log->remove("office", log.revision("office")).error, "");
+  ASSERT_EQ(log->drop_unused_blobs().error, "");
+  // The room comes back by itself.
+  EXPECT_TRUE(eventually([&] { return log->put_blob(mesh.id, mesh.blob).error.empty(); }));
+  EXPECT_EQ(log.append("yard", "a", {mesh.id}).error, "");
+  EXPECT_TRUE(eventually([&] { return fill_with_meshes(log, "yard") >= meshes - 2; }));
+  EXPECT_EQ(log.faults(), "");
+  FleetLog later({url}, options);
+  EXPECT_EQ(later.revision("hall"), log.revision("hall"));
+  EXPECT_EQ(later.revision("yard"), log.revision("yard"));
+  EXPECT_EQ(later.revision("office"), 0U);
+}
+
+TEST(NatsFull, RemovalsAndSummariesArePossibleAtTheLimitOfTheServer) {
+  const NatsServer server("jetstream { store_dir: \"STORE\", max_file_store: 8MB }\n");
+  goes_on_at_its_limit(server.url(), {});
+}
+
+TEST(NatsFull, RemovalsAndSummariesArePossibleAtTheLimitOfTheStreams) {
+  const NatsServer server;
+  NatsLogOptions options;
+  options.most_bytes = 8'000'000;
+  goes_on_at_its_limit(server.url(), options);
+}
+
 }  // namespace
 }  // namespace camway::scene
