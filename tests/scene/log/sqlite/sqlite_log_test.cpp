@@ -446,7 +446,7 @@ TEST_F(SqliteLogTest, RefusesBlobsWithOtherBytes) {
     const auto bytes = log_->blob(mesh.id);
     ASSERT_FALSE(bytes);
     EXPECT_THAT(bytes.error, HasSubstr("bytes is damaged"));
-    EXPECT_THAT(SqliteLog::check(file()).error, HasSubstr("bytes is damaged"));
+    EXPECT_THAT(SqliteLog::check(file()).error, HasSubstr("bytes is damaged, which scene 'a' needs"));
     EXPECT_THAT(log_->export_to(folder_.path() / "export"), HasSubstr("bytes is damaged"));
     EXPECT_FALSE(fs::exists(folder_.path() / "export"));
   }
