@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "daemon/scene/log/nats/nats_log_parts.h"

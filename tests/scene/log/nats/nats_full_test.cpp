@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "daemon/scene/log/nats/nats_log.h"
 #include "tests/integration/process.h"

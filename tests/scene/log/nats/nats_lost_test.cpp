@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "daemon/scene/log/durable_scenes.h"
 #include "daemon/scene/log/nats/nats_log.h"
