@@ -17,6 +17,8 @@ constexpr std::chrono::milliseconds kRefusedRetry{1000};
 /// Much longer than the library's thread needs from finding a subscription to locking it.
 constexpr std::chrono::seconds kRetirement{10};
 constexpr std::size_t kMostUrlBytes = 1024;
+/// The id of a server has 56.
+constexpr std::size_t kMostIdBytes = 256;
 
 using ReceiverClosure = std::shared_ptr<Receiver>;
 
@@ -58,14 +60,27 @@ class NatsSubscription final : public Subscription {
 
 }  // namespace
 
+std::string server_of(natsConnection* connection) {
+  std::array<char, kMostUrlBytes> url{};
+  const natsStatus status = natsConnection_GetConnectedUrl(connection, url.data(), url.size());
+  return status == NATS_OK ? shown_server(url.data()) : "";
+}
+
+std::string server_id_of(natsConnection* connection) {
+  std::array<char, kMostIdBytes> id{};
+  const natsStatus status = natsConnection_GetConnectedServerId(connection, id.data(), id.size());
+  return status == NATS_OK ? id.data() : "";
+}
+
 void ConnectionEvents::made(natsConnection* connection) {
   const std::int64_t bytes = natsConnection_GetMaxPayload(connection);
   most_bytes_ = bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
-  std::array<char, kMostUrlBytes> url{};
-  const natsStatus status = natsConnection_GetConnectedUrl(connection, url.data(), url.size());
+  std::string server = server_of(connection);
+  std::string id = server_id_of(connection);
   {
     const std::lock_guard lock(mutex_);
-    server_ = status == NATS_OK ? shown_server(url.data()) : "";
+    server_ = std::move(server);
+    server_id_ = std::move(id);
   }
   ++generation_;
   is_connected_ = true;
@@ -77,6 +92,7 @@ void ConnectionEvents::lost() {
   {
     const std::lock_guard lock(mutex_);
     server_.clear();
+    server_id_.clear();
   }
   tell(false);
 }
@@ -84,6 +100,11 @@ void ConnectionEvents::lost() {
 std::string ConnectionEvents::server() {
   const std::lock_guard lock(mutex_);
   return server_;
+}
+
+std::string ConnectionEvents::server_id() {
+  const std::lock_guard lock(mutex_);
+  return server_id_;
 }
 
 void ConnectionEvents::listen(std::function<void(bool)> changed) {
@@ -197,6 +218,7 @@ base::Result<std::unique_ptr<Connection>> Connection::open(const ConnectOptions&
     if (first.is_refused || is_over) return base::Failure{std::move(first.error)};
     std::this_thread::sleep_for(kFirstRetry);
   }
+  parts->stalls = std::make_unique<StallWatch>(options);
   Parts& shared = *parts;
   shared.reviver = std::thread([&shared] { shared.revive_until_stopped(); });
   return std::unique_ptr<Connection>(new Connection(std::move(parts)));
@@ -208,6 +230,7 @@ Connection::~Connection() {
   parts_->events->listen({});
   parts_->events->stop();
   parts_->reviver.join();
+  parts_->stalls.reset();
   // The reading thread has ended when the connection is closed.
   natsConnection_Close(parts_->handle.get());
   assert(parts_->subscribed.empty());
@@ -235,6 +258,8 @@ void Connection::on_change(std::function<void(bool is_connected)> changed) {
 }
 
 std::string Connection::server() const { return parts_->events->server(); }
+
+std::string Connection::stall() const { return parts_->stalls->stall(parts_->events->server_id()); }
 
 std::uint64_t Connection::generation() const { return parts_->events->generation(); }
 

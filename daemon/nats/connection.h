@@ -44,6 +44,9 @@ class Connection final : public Bus {
 
   /// The server that it is connected to, without user or password; empty if none.
   [[nodiscard]] std::string server() const;
+  /// Why no stream of JetStream can be asked although the server answers, for the user; empty if
+  /// they can, or if it is not known yet. Requests to streams then fail at once.
+  [[nodiscard]] std::string stall() const;
   /// Differs from an earlier value if the connection was made again since then. A message that is
   /// sent after the call may still go over a later connection.
   [[nodiscard]] std::uint64_t generation() const;

@@ -19,6 +19,7 @@
 
 #include "daemon/base/result.h"
 #include "daemon/nats/connection.h"
+#include "daemon/nats/stall_watch.h"
 
 namespace camway::nats {
 
@@ -54,6 +55,8 @@ class ConnectionEvents {
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
   [[nodiscard]] std::size_t most_bytes() const { return most_bytes_; }
   [[nodiscard]] std::string server();
+  /// The id that the server has given itself at its start; empty if none is connected.
+  [[nodiscard]] std::string server_id();
 
   /// See `Connection::on_change`.
   void listen(std::function<void(bool)> changed);
@@ -78,6 +81,7 @@ class ConnectionEvents {
   std::mutex mutex_;
   std::condition_variable changed_state_;
   std::string server_;
+  std::string server_id_;
   bool is_closed_ = false;
   bool is_stopped_ = false;
 };
@@ -112,6 +116,10 @@ struct FirstConnection {
 /// Tries all servers once. The events outlive the connection.
 FirstConnection connect_once(const ConnectOptions& options,
                              const std::shared_ptr<ConnectionEvents>& events);
+/// The server that a connection of the library is connected to, and the id that it has given itself
+/// at its start. Empty if there is none.
+std::string server_of(natsConnection* connection);
+std::string server_id_of(natsConnection* connection);
 /// Returns a URL without user and password.
 std::string shown_server(const std::string& url);
 
@@ -122,6 +130,7 @@ struct Connection::Parts {
   NatsHandle handle;
   std::set<Subscribed*> subscribed;
   std::deque<RetiredSubscription> retired;
+  std::unique_ptr<StallWatch> stalls;  ///< set as long as the connection is there
   std::thread reviver;  ///< replaces the library's connection when it has been given up
 
   [[nodiscard]] NatsHandle connection();

@@ -40,7 +40,7 @@ constexpr std::array<std::uint8_t, 256> base64_digits() {
 std::string words_of_request_fault(natsStatus status) {
   switch (status) {
     case NATS_TIMEOUT:
-      return "NATS did not answer in time";
+      return kNoAnswerInTime;
     case NATS_NO_RESPONDERS:
       return kNobodyAnswers;
     case NATS_CONNECTION_DISCONNECTED:
@@ -103,17 +103,21 @@ StreamResult<ApiAnswer> api_answer_from(std::string_view bytes) {
   return answer;
 }
 
-StreamResult<std::shared_ptr<natsMsg>> ask(Connection& connection, natsMsg& message,
-                                           std::chrono::milliseconds wait) {
+StreamResult<std::shared_ptr<natsMsg>> ask(Connection& connection, const std::string& stream,
+                                           natsMsg& message, std::chrono::milliseconds wait) {
+  if (std::string stall = connection.stall(); !stall.empty()) {
+    return {StreamFault::kStalled, std::move(stall)};
+  }
   // The library would wait for the connection, or send the message over the next one.
   if (!connection.is_connected()) {
     return {StreamFault::kUnreachable, "there is no connection to NATS"};
   }
-  if (wait.count() <= 0) return {StreamFault::kUnreachable, "NATS did not answer in time"};
+  if (wait.count() <= 0) return {StreamFault::kUnreachable, kNoAnswerInTime};
   natsMsg* reply = nullptr;
   const NatsHandle handle = connection.parts().connection();
   const natsStatus status = natsConnection_RequestMsg(&reply, handle.get(), &message, wait.count());
   if (status == NATS_OK) return std::shared_ptr<natsMsg>(reply, natsMsg_Destroy);
+  if (status == NATS_TIMEOUT) connection.parts().stalls->suspect(stream);
   const bool is_too_large = status == NATS_MAX_PAYLOAD;
   return {is_too_large ? StreamFault::kRefused : StreamFault::kUnreachable,
           words_of_request_fault(status)};
@@ -128,7 +132,8 @@ StreamResult<ApiAnswer> ask_api(Connection& connection, const std::string& what,
     return {StreamFault::kRefused, "no memory for NATS"};
   }
   const NatsOwned<natsMsg> message(made);
-  const auto reply = ask(connection, *message, wait);
+  const std::string stream = what.substr(what.rfind('.') + 1);
+  const auto reply = ask(connection, stream, *message, wait);
   if (!reply) return {reply.fault, reply.error};
   return api_answer_from(text_of(**reply));
 }

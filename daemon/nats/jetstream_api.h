@@ -16,12 +16,18 @@ namespace camway::nats {
 /// Codes of errors, as the server documents them (`err_code`).
 inline constexpr int kNoMessageError = 10037;
 inline constexpr int kSequenceNotFoundError = 10043;
+inline constexpr int kDeleteFailedError = 10057;
 inline constexpr int kStreamNotFoundError = 10059;
 inline constexpr int kStreamNameError = 10058;
 inline constexpr int kNoPeersError = 10005;
 
 /// The error of a request that no server listens for.
-inline constexpr const char* kNobodyAnswers = "no server of NATS keeps the stream now";
+inline constexpr const char* kNobodyAnswers =
+    "no server of NATS keeps the stream now; a server whose disk is full may have switched its "
+    "JetStream off, which its log says";
+
+/// The error of a request that a server took too long for.
+inline constexpr const char* kNoAnswerInTime = "NATS did not answer in time";
 
 /// An answer of the API: the object, which may hold an `error` with these.
 struct ApiAnswer {
@@ -30,14 +36,14 @@ struct ApiAnswer {
   std::string error_text;
 };
 
-/// Asks the API of JetStream. Fails with `kUnreachable` without an answer, and with `kRefused` if
-/// it is none of the API. `what` is the end of the subject: "STREAM.INFO.name".
+/// Asks the API of JetStream. Fails with `kUnreachable` or `kStalled` without an answer, and with
+/// `kRefused` if it is none of the API. `what` is the end of the subject: "STREAM.INFO.name".
 StreamResult<ApiAnswer> ask_api(Connection& connection, const std::string& what,
                                 const nlohmann::json& request, std::chrono::milliseconds wait);
 
-/// Sends a message and waits for the reply. Fails with `kUnreachable`.
-StreamResult<std::shared_ptr<natsMsg>> ask(Connection& connection, natsMsg& message,
-                                           std::chrono::milliseconds wait);
+/// Sends a message to a stream and waits for the reply. Fails with `kUnreachable` or `kStalled`.
+StreamResult<std::shared_ptr<natsMsg>> ask(Connection& connection, const std::string& stream,
+                                           natsMsg& message, std::chrono::milliseconds wait);
 
 /// Reads an answer, whatever the bytes are.
 StreamResult<ApiAnswer> api_answer_from(std::string_view bytes);

@@ -89,7 +89,7 @@ Ensured ensure_once(Connection& connection, const StreamConfig& config, millisec
   if (!info && info.error == kNobodyAnswers) {
     return {connection.server() + " has no JetStream, or not for this user"};
   }
-  if (!info) return {named(config.name, info.error), true};
+  if (!info) return {named(config.name, info.error), info.fault != StreamFault::kStalled};
   if (info->error_code == 0 && info->value.contains("config")) {
     return {adapt(connection, config, info->value["config"], wait)};
   }
@@ -115,6 +115,7 @@ std::uint64_t number_in(const json& value, const char* key) {
 
 base::Result<std::unique_ptr<Stream>> Stream::ensure(Connection& connection,
                                                      const StreamConfig& config, Wait wait) {
+  if (config.replicas == 1) connection.parts().stalls->watch(config.name);
   const auto end = std::chrono::steady_clock::now() + wait;
   for (;;) {
     const Ensured tried = ensure_once(connection, config, std::min(wait, kEnsureWait));
@@ -153,7 +154,7 @@ StreamResult<std::uint64_t> Stream::publish(const std::string& subject,
                                std::to_string(*expected).c_str());
   }
   if (status != NATS_OK) return {StreamFault::kRefused, "no memory for NATS"};
-  const auto reply = ask(connection_, *message, wait);
+  const auto reply = ask(connection_, name_, *message, wait);
   if (!reply) return {reply.fault, reply.error};
   const auto answer = api_answer_from(text_of(**reply));
   if (!answer) return {answer.fault, answer.error};
@@ -178,7 +179,7 @@ StreamResult<Stream::Found> Stream::last_of_any_server(const std::string& subjec
     return {StreamFault::kRefused, "no memory for NATS"};
   }
   const NatsOwned<natsMsg> message(made);
-  const auto reply = ask(connection_, *message, wait);
+  const auto reply = ask(connection_, name_, *message, wait);
   if (!reply) return {reply.fault, reply.error};
   return direct_message_from(**reply);
 }
@@ -207,12 +208,16 @@ StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
   if (!connection_.is_connected()) {
     return {StreamFault::kUnreachable, "there is no connection to NATS"};
   }
+  if (std::string stall = connection_.stall(); !stall.empty()) {
+    return {StreamFault::kStalled, std::move(stall)};
+  }
   const std::shared_ptr<ReplyInbox> replies = take_inbox();
   // With replicas, only the leader has all that was acknowledged.
   StretchReader reader(*replies, name_, filter, config_.replicas == 1, wait);
   std::uint64_t next = std::max<std::uint64_t>(from, 1);
   while (next <= to) {
     auto messages = reader.next(next, to);
+    if (messages.error == kNoAnswerInTime) connection_.parts().stalls->suspect(name_);
     if (!messages) return {messages.fault, messages.error};
     if (messages->empty()) break;
     for (StoredMessage& message : *messages.value) {
@@ -231,17 +236,32 @@ StreamResult<std::uint64_t> Stream::read(std::uint64_t from, std::uint64_t to,
 
 StreamResult<std::uint64_t> Stream::purge(const std::string& filter, std::uint64_t before,
                                           Wait wait) {
-  const auto answer =
-      ask_api(connection_, "STREAM.PURGE." + name_, {{"filter", filter}, {"seq", before}}, wait);
-  if (!answer) return {answer.fault, answer.error};
-  if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};
-  return number_in(answer->value, "purged");
+  std::vector<std::uint64_t> sequences;
+  const auto collect = [&](const StoredMessage& message) {
+    if (message.sequence < before) sequences.push_back(message.sequence);
+  };
+  if (before <= 1) return 0;
+  const auto found = read(1, before - 1, filter, collect, wait);
+  if (!found) return found;
+  std::uint64_t purged = 0;
+  for (const std::uint64_t sequence : sequences) {
+    const auto removed = remove(sequence, wait);
+    if (!removed) return {removed.fault, removed.error};
+    if (*removed) ++purged;
+  }
+  return purged;
 }
 
 StreamResult<bool> Stream::remove(std::uint64_t sequence, Wait wait) {
-  const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_, {{"seq", sequence}}, wait);
+  // Nothing secret is in it that the server would have to overwrite.
+  const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_,
+                              {{"seq", sequence}, {"no_erase", true}}, wait);
   if (!answer) return {answer.fault, answer.error};
-  if (answer->error_code == kSequenceNotFoundError || answer->error_code == kNoMessageError) {
+  // Of a message that was deleted at the same time, the server says what its store has found.
+  const bool was_just_deleted = answer->error_code == kDeleteFailedError &&
+                                answer->error_text.find("no message found") != std::string::npos;
+  if (was_just_deleted || answer->error_code == kSequenceNotFoundError ||
+      answer->error_code == kNoMessageError) {
     return false;
   }
   if (answer->error_code != 0) return {fault_of_error(answer->error_code), answer->error_text};

@@ -22,6 +22,7 @@ enum class StreamFault : std::uint8_t {
   kNone,
   kConflict,     ///< the last message of the subject is another one than was expected
   kFull,         ///< the stream or the disk of the server has no room
+  kStalled,      ///< as `kUnreachable`, and for long: the server answers, but a stream does not
   kUnreachable,  ///< no answer: what was asked for may have been done, or may still be
   kRefused,      ///< the server says no
 };
@@ -104,7 +105,9 @@ class Stream {
   StreamResult<std::uint64_t> read(std::uint64_t from, std::uint64_t to, const std::string& filter,
                                    const Handler& handler, Wait wait);
 
-  /// Deletes the messages that a filter matches, up to a sequence, which is not included.
+  /// Deletes the messages that a filter matches, up to a sequence, which is not included, one after
+  /// the other: the server 2.9 does not take those off what it counts against its limits that it
+  /// purges by a filter. If this fails, some may be deleted. Returns how many it deleted.
   StreamResult<std::uint64_t> purge(const std::string& filter, std::uint64_t before, Wait wait);
   /// Deletes a message. Returns whether it was there.
   StreamResult<bool> remove(std::uint64_t sequence, Wait wait);

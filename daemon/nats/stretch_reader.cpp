@@ -102,7 +102,7 @@ StreamResult<std::vector<Stream::Found>> StretchReader::ask_for(std::uint64_t fr
   std::vector<Stream::Found> found(count);
   for (std::size_t i = 0; i < count; ++i) {
     const NatsOwned<natsMsg> reply = replies_.next(wait_);
-    if (reply == nullptr) return {StreamFault::kUnreachable, "NATS did not answer in time"};
+    if (reply == nullptr) return {StreamFault::kUnreachable, kNoAnswerInTime};
     StreamResult<Stream::Found> message = message_from(*reply);
     if (!message) return {message.fault, message.error};
     const std::size_t number = ReplyInbox::number_of(*reply);

@@ -35,10 +35,19 @@ ClientOptions FleetTest::of_prefix(const std::string& prefix) {
 }
 
 void FleetTest::start_front(const std::string& prefix) {
-  const std::vector<std::string> arguments{
-      CAMWAYD_BINARY, "--role",      "front",
-      "--fleet",      server_.url(), "--prefix",
-      prefix,         "--scene",     "office=" + scene_file("office")};
+  const std::string configuration = file("front-" + prefix + ".toml");
+  write_file(configuration, "[fleet]\n" + settings_);
+  const std::vector<std::string> arguments{CAMWAYD_BINARY,
+                                           "--config",
+                                           configuration,
+                                           "--role",
+                                           "front",
+                                           "--fleet",
+                                           servers_,
+                                           "--prefix",
+                                           prefix,
+                                           "--scene",
+                                           "office=" + scene_file("office")};
   fronts_[prefix] = std::make_unique<Process>(
       arguments, file("front-" + prefix + std::to_string(++started_) + ".log"));
   Client listener(of_prefix(prefix));
@@ -49,7 +58,7 @@ void FleetTest::start_front(const std::string& prefix) {
 Process& FleetTest::start_planner(const std::string& id, const std::string& server,
                                   const std::vector<std::string>& wrapper) {
   const std::string configuration = file(id + ".toml");
-  write_file(configuration, "[fleet]\nid = \"" + id + "\"\n");
+  write_file(configuration, "[fleet]\nid = \"" + id + "\"\n" + settings_);
   std::vector<std::string> arguments = wrapper;
   arguments.insert(arguments.end(), {CAMWAYD_BINARY, "--config", configuration, "--role", "planner",
                                      "--fleet", server, "--workers", "1"});

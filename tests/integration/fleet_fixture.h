@@ -23,7 +23,7 @@ class FleetTest : public IntegrationTest {
   /// Starts a planner with one worker, by a command that replaces itself by it (`exec`), if any.
   Process& start_planner(const std::string& id, const std::string& server,
                          const std::vector<std::string>& wrapper = {});
-  Process& start_planner(const std::string& id) { return start_planner(id, server_.url()); }
+  Process& start_planner(const std::string& id) { return start_planner(id, servers_); }
   void start_planners(int number);
   Process& planner(const std::string& id) { return *planners_.at(id); }
   Process& front(const std::string& prefix = "CAMWAY") { return *fronts_.at(prefix); }
@@ -33,6 +33,8 @@ class FleetTest : public IntegrationTest {
   static ClientOptions of_prefix(const std::string& prefix);
 
   testing::NatsServer server_;
+  std::string servers_ = server_.url();  ///< of the front and of planners
+  std::string settings_;                 ///< more lines of `[fleet]` for all that are started
 
  private:
   std::map<std::string, std::unique_ptr<Process>> fronts_;

@@ -220,6 +220,100 @@ TEST_F(FleetFaultsTest, AKilledServerLosesNothingAndStopsNoPlan) {
   EXPECT_EQ(answer.scene_digest, client.describe_scene("yard").scene.digest);
 }
 
+TEST_F(FleetFaultsTest, AClusterLosesItsLeaderAndTheFleetGoesOn) {
+  const auto expected = answers_of_one_daemon();
+  testing::NatsCluster cluster;
+  servers_.clear();
+  for (const std::string& url : cluster.urls()) servers_ += (servers_.empty() ? "" : ",") + url;
+  settings_ = "replicas = 3\npatience_s = 20.0\n";
+  start_front();
+  start_planners(2);
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("yard", {}).ok());
+  std::atomic<std::int64_t> acknowledged = client.describe_scene("yard").scene.revision;
+  std::atomic<bool> ends = false;
+  Load load(2, expected);
+  std::jthread changes([&] {
+    Client changer(patient());
+    for (int i = 0; !ends; ++i) {
+      const SceneAnswer put =
+          changer.put_object("yard", "crate", SceneBox{{1, 1, 1 + 0.001 * i}}, beside(0.0));
+      ASSERT_TRUE(put.ok()) << put.error;
+      ASSERT_EQ(put.scene.revision, acknowledged + 1) << "none is lost, none is made twice";
+      acknowledged = put.scene.revision;
+    }
+  });
+  const auto makes_changes = [&] {
+    const std::int64_t before = acknowledged;
+    return eventually([&] { return acknowledged >= before + 10; });
+  };
+  EXPECT_TRUE(makes_changes());
+  for (const char* const stream : {"camway_LOG", "camway_BLOBS"}) {
+    testing::NatsServer& leader = cluster.first_leader_of(stream);
+    leader.kill();
+    EXPECT_TRUE(makes_changes());
+    EXPECT_TRUE(gets_answers(load, 5));
+    leader.start();
+    EXPECT_TRUE(makes_changes());
+  }
+  ends = true;
+  changes.join();
+  load.stop();
+  await_planners(2);
+  const SceneAnswer yard = client.describe_scene("yard");
+  EXPECT_EQ(yard.scene.revision, acknowledged);
+  PlanRequest walk;
+  walk.scene = "yard";
+  walk.least_revision = acknowledged;
+  walk.keyframes.resize(2);
+  walk.keyframes[1].position_m = {4.0, 0.0, 0.0};
+  EXPECT_EQ(client.plan(walk).scene_digest, yard.scene.digest);
+  EXPECT_EQ(client.status(5.0).differing_answers, 0);
+  // What is in the log is what the front has.
+  front().signal(SIGTERM);
+  EXPECT_EQ(front().wait(), 0);
+  start_front();
+  EXPECT_EQ(client.describe_scene("yard").scene.digest, yard.scene.digest);
+}
+
+TEST_F(FleetFaultsTest, AtTheLimitOfTheServerAnUnloadMakesRoom) {
+  const auto expected = answers_of_one_daemon();
+  server_.kill();
+  server_.configure("jetstream { store_dir: \"STORE\", max_file_store: 12MB }\n");
+  server_.start();
+  // Contents that nothing needs are kept for four times that and ten seconds.
+  settings_ = "patience_s = 2.0\n";
+  start_front();
+  start_planners(1);
+  Client client(patient());
+  for (const char* const scene : {"yard", "hall"}) ASSERT_TRUE(client.load_scene(scene, {}).ok());
+  const auto put = [&](const std::string& scene, int number) {
+    SceneMesh mesh = large_mesh();
+    const std::string difference = "v 0 0 " + std::to_string(number) + "\n";
+    mesh.bytes.insert(mesh.bytes.end(), difference.begin(), difference.end());
+    const std::string triangle = "f 1 2 " + std::to_string(121 * 121 + 1) + "\n";
+    mesh.bytes.insert(mesh.bytes.end(), triangle.begin(), triangle.end());
+    return client.put_object(scene, "ground" + std::to_string(number), mesh, beside(0.0));
+  };
+  int meshes = 0;
+  SceneAnswer full;
+  for (; meshes < 100; ++meshes) {
+    full = put("yard", meshes);
+    if (!full.ok()) break;
+  }
+  EXPECT_EQ(full.status, Status::kLimit) << full.error;
+  ASSERT_GT(meshes, 2);
+  EXPECT_EQ(bits_of(client.plan(request_of("office-free-door", "office"))),
+            expected.at("office-free-door"));
+  const SceneAnswer removed = client.remove_object("yard", "ground0");
+  EXPECT_TRUE(removed.ok()) << removed.error;
+  const SceneAnswer unloaded = client.unload_scene("yard");
+  EXPECT_TRUE(unloaded.ok()) << unloaded.error;
+  EXPECT_TRUE(eventually([&] { return put("hall", 1000).ok(); }));
+  EXPECT_TRUE(put("hall", 1001).ok());
+  await_planners(1);
+}
+
 TEST_F(FleetFaultsTest, AKilledFrontHasTheSameScenesAgain) {
   start_front();
   start_planners(1);

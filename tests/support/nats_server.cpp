@@ -123,6 +123,14 @@ NatsServer& NatsCluster::server(const std::string& name) {
   throw std::runtime_error("no server has the name " + name);
 }
 
+NatsServer& NatsCluster::first_leader_of(const std::string& stream) {
+  const std::string words = "stream leader for '$G > " + stream + "'";
+  for (const auto& server : servers_) {
+    if (server->output().find(words) != std::string::npos) return *server;
+  }
+  throw std::runtime_error("no server says that it leads " + stream);
+}
+
 TestCertificates::TestCertificates() {
   run({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
        "-days", "2", "-subj", "/CN=test authority", "-keyout", file("ca.key"), "-out", ca()});

@@ -60,6 +60,8 @@ class NatsCluster {
 
   [[nodiscard]] std::vector<std::string> urls() const;
   NatsServer& server(const std::string& name);
+  /// The server that was chosen first to lead a stream, and still does unless one has failed.
+  NatsServer& first_leader_of(const std::string& stream);
 
  private:
   std::vector<std::string> names_;

@@ -27,6 +27,13 @@ Keeping not_kept(AppendResult appended) {
 
 }  // namespace
 
+DurableScenes::DurableScenes(SceneLog& log, std::chrono::milliseconds patience)
+    : log_(log), patience_(patience), sources_(log) {
+  log_.on_lost_blob([this](const BlobId& id) { return sources_.blob_again(id); });
+}
+
+DurableScenes::~DurableScenes() { log_.on_lost_blob({}); }
+
 base::Result<std::vector<SceneHistory>> DurableScenes::load(const SceneHistory::Limits& limits) {
   const base::Result<std::vector<LoggedScene>> logged = log_.scenes();
   if (!logged) return base::Failure{logged.error};
@@ -60,7 +67,7 @@ base::Result<SceneHistory> DurableScenes::history_of(const std::string& name,
   std::set<std::string> names;
   for (const RecordedObject& object : scene.objects) {
     auto source = sources_.read(object.source, scene.options, read);
-    if (!source) return base::Failure{std::move(source.error)};
+    if (!source) return base::Failure{"object '" + object.name + "': " + source.error};
     objects.push_back({object.name, *std::move(source), object.placement});
     names.insert(object.name);
   }
@@ -71,7 +78,7 @@ base::Result<SceneHistory> DurableScenes::history_of(const std::string& name,
       std::shared_ptr<const ObjectSource> source;
       if (change.source) {
         auto found = sources_.read(*change.source, scene.options, read);
-        if (!found) return base::Failure{std::move(found.error)};
+        if (!found) return base::Failure{"object '" + change.object + "': " + found.error};
         source = *std::move(found);
         names.insert(change.object);
       } else if (!names.contains(change.object)) {
@@ -164,7 +171,7 @@ Keeping DurableScenes::keep_changes(const Snapshot& before, const Snapshot& next
 }
 
 void DurableScenes::summarize(const std::string& name, Kept& kept, std::uint64_t oldest_revision) {
-  if (kept.entries < kEntriesPerSummary) return;
+  if (kept.entries < kEntriesPerSummary && !log_.lacks_blobs_of(name)) return;
   kept.scene.forget_before(oldest_revision);
   const AppendResult done = log_.summarize(name, kept.scene.newest_revision(),
                                            change_record_of(kept.scene), kept.scene.needs());
@@ -259,7 +266,9 @@ base::Result<SceneStore::OthersWork> DurableScenes::read_revision(const LogUpdat
     std::shared_ptr<const ObjectSource> source;
     if (change.source) {
       auto found = sources_.read(*change.source, kept.scene.options, read);
-      if (!found) return damaged_scene(update.scene, found.error);
+      if (!found) {
+        return damaged_scene(update.scene, "object '" + change.object + "': " + found.error);
+      }
       source = *std::move(found);
     }
     changes.push_back({change.kind, change.object, std::move(source), change.placement});

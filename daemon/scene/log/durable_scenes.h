@@ -31,8 +31,10 @@ class DurableScenes : public SceneJournal {
   /// Refers to `log`, which must outlive it. `patience`: how long `await_other` waits; 0 if no
   /// other process writes the log.
   explicit DurableScenes(SceneLog& log,
-                         std::chrono::milliseconds patience = std::chrono::milliseconds(0))
-      : log_(log), patience_(patience), sources_(log) {}
+                         std::chrono::milliseconds patience = std::chrono::milliseconds(0));
+  ~DurableScenes() override;
+  DurableScenes(const DurableScenes&) = delete;
+  DurableScenes& operator=(const DurableScenes&) = delete;
 
   /// Leaves the occupancy mirrors out of all scenes that are read from now on, which saves time and
   /// memory where nobody asks for occupancy. Digests are the same. Requires that nothing is kept by

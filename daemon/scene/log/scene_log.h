@@ -86,6 +86,19 @@ class SceneLog {
   /// The highest revision of all scenes that were removed.
   [[nodiscard]] virtual std::uint64_t highest_removed() = 0;
 
+  /// Returns a blob that the owner of the log still has, in other form; nothing if it has not.
+  using LostBlob = std::function<std::optional<Blob>(const BlobId&)>;
+  /// Lets the log ask for blobs that it has lost, from any thread. An empty function ends that:
+  /// the one before does not run any more when this has returned.
+  virtual void on_lost_blob(LostBlob find) { static_cast<void>(find); }
+
+  /// Whether the log has lost blobs of a scene that the owner has not either, so that a summary
+  /// which does not need them is of use.
+  [[nodiscard]] virtual bool lacks_blobs_of(std::string_view scene) {
+    static_cast<void>(scene);
+    return false;
+  }
+
   /// All scenes in order of name. Fails if anything in the log is damaged, with what is lost and
   /// how to go on: it is never read in part.
   virtual base::Result<std::vector<LoggedScene>> scenes() = 0;

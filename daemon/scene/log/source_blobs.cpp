@@ -25,10 +25,9 @@ std::optional<SourceBlobs::Known> SourceBlobs::find(
   return found->second;
 }
 
-void SourceBlobs::remember(const std::shared_ptr<const ObjectSource>& source, const BlobId& id,
-                           int differences) {
+void SourceBlobs::remember(const std::shared_ptr<const ObjectSource>& source, Known known) {
   const std::lock_guard lock(mutex_);
-  known_.insert_or_assign(source.get(), Known{source, id, differences});
+  known_.insert_or_assign(source.get(), std::move(known));
 }
 
 AppendResult SourceBlobs::keep(const std::shared_ptr<const ObjectSource>& source,
@@ -39,17 +38,40 @@ AppendResult SourceBlobs::keep(const std::shared_ptr<const ObjectSource>& source
   }
   const std::optional<Known> base = before ? find(before) : std::nullopt;
   if (const std::optional<Blob> small = base ? difference(*source, *before, *base) : std::nullopt) {
-    return put(source, *small, base->differences + 1, id);
+    return put(source, *small, {source, {}, base->differences + 1, before}, id);
   }
-  return put(source, {record_of(*source), {}}, 0, id);
+  return put(source, {record_of(*source), {}}, {source, {}, 0, {}}, id);
 }
 
 AppendResult SourceBlobs::put(const std::shared_ptr<const ObjectSource>& source, const Blob& blob,
-                              int differences, BlobId& id) {
+                              Known known, BlobId& id) {
   id = blob_id_of(blob.bytes);
+  known.id = id;
   AppendResult done = log_.put_blob(id, blob);
-  if (done.fault == AppendFault::kNone) remember(source, id, differences);
+  if (done.fault == AppendFault::kNone) remember(source, std::move(known));
   return done;
+}
+
+std::optional<Blob> SourceBlobs::blob_again(const BlobId& id) {
+  std::shared_ptr<const ObjectSource> source;
+  std::shared_ptr<const ObjectSource> before;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [place, known] : known_) {
+      if (known.id != id) continue;
+      source = known.source.lock();
+      before = known.before.lock();
+      if (source != nullptr) break;
+    }
+  }
+  if (source == nullptr) return std::nullopt;
+  Blob blob{record_of(*source), {}};
+  if (blob_id_of(blob.bytes) == id) return blob;
+  const std::optional<Known> base = before ? find(before) : std::nullopt;
+  if (!base || source->map_O == nullptr || before->map_O == nullptr) return std::nullopt;
+  std::optional<Bytes> difference = record_of_difference(*source, *before, base->id);
+  if (!difference || blob_id_of(*difference) != id) return std::nullopt;
+  return Blob{*std::move(difference), {base->id}};
 }
 
 std::optional<Blob> SourceBlobs::difference(const ObjectSource& source, const ObjectSource& before,
@@ -88,8 +110,8 @@ base::Result<std::shared_ptr<const ObjectSource>> SourceBlobs::read(const BlobId
   for (const auto& [part, bytes] : std::views::reverse(chain)) {
     base::Result<std::shared_ptr<const ObjectSource>> made = source_from(bytes, source, options);
     if (!made) return base::Failure{std::move(made.error)};
+    remember(*made, {*made, part, ++differences, source});
     source = *std::move(made);
-    remember(source, part, ++differences);
     read.emplace(part, source);
   }
   return source;
@@ -108,7 +130,7 @@ void SourceBlobs::read_whole(std::span<const BlobId> ids, const ObjectOptions& o
   });
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (made[i] == nullptr) continue;
-    remember(made[i], ids[i], 0);
+    remember(made[i], {made[i], ids[i], 0, {}});
     read.emplace(ids[i], std::move(made[i]));
   }
 }

@@ -39,6 +39,10 @@ class SourceBlobs {
   /// Adds a content to `read` if its blob is known.
   void add_known(const std::shared_ptr<const ObjectSource>& source, Read& read);
 
+  /// Makes the blob of a content that somebody still holds, and whose blob was kept or read here.
+  /// Nothing if there is none, or if it was kept as a difference from one that is gone.
+  [[nodiscard]] std::optional<Blob> blob_again(const BlobId& id);
+
   /// Forgets the contents that no scene holds any more.
   void forget_unused();
 
@@ -46,14 +50,14 @@ class SourceBlobs {
   struct Known {
     std::weak_ptr<const ObjectSource> source;
     BlobId id{};
-    int differences = 0;  ///< between this and a whole record
+    int differences = 0;                       ///< between this and a whole record
+    std::weak_ptr<const ObjectSource> before;  ///< that the last of them is from; else null
   };
 
   [[nodiscard]] std::optional<Known> find(const std::shared_ptr<const ObjectSource>& source);
-  void remember(const std::shared_ptr<const ObjectSource>& source, const BlobId& id,
-                int differences);
-  AppendResult put(const std::shared_ptr<const ObjectSource>& source, const Blob& blob,
-                   int differences, BlobId& id);
+  void remember(const std::shared_ptr<const ObjectSource>& source, Known known);
+  AppendResult put(const std::shared_ptr<const ObjectSource>& source, const Blob& blob, Known known,
+                   BlobId& id);
   /// Returns the difference between two maps as a blob; nothing if a whole record is better.
   std::optional<Blob> difference(const ObjectSource& source, const ObjectSource& before,
                                  const Known& base);

@@ -34,10 +34,15 @@ AppendResult NatsLog::Parts::conflict(std::string_view scene, std::uint64_t newe
                                       ", not at " + std::to_string(expected)};
 }
 
-AppendResult NatsLog::Parts::unclear(const std::string& reason) const {
-  return {AppendFault::kBroken, place() + " cannot be reached: " + reason +
-                                    ". The change may still take effect; send the same request "
-                                    "again to know"};
+AppendResult NatsLog::Parts::given_up(const std::string& reason, bool is_unclear) const {
+  const std::string stall = connection_.stall();
+  AppendResult result =
+      append_fault(stall.empty() ? StreamFault::kUnreachable : StreamFault::kStalled, stall);
+  if (stall.empty()) result.error = place() + " cannot be reached: " + reason;
+  if (is_unclear) {
+    result.error += ". The change may still take effect; send the same request again to know";
+  }
+  return result;
 }
 
 NatsLog::Parts::Head NatsLog::Parts::head_of(std::string_view scene, const MessageId& id) const {
@@ -73,7 +78,21 @@ AppendResult NatsLog::Parts::put_blob(const BlobId& id, const Blob& blob, Patien
   if (held.held == NatsBlobs::Held::kUnreachable) return std::move(held.fault);
   AppendResult missing = missing_need(blob.needs, end);
   if (missing.fault != AppendFault::kNone) return missing;
-  return blobs_.put(id, blob, end);
+  AppendResult done = blobs_.put(id, blob, end);
+  if (done.fault != AppendFault::kFull || !connection_.stall().empty()) return done;
+  const AppendResult dropped = drop_unused_blobs(true);
+  return dropped.fault == AppendFault::kNone ? blobs_.put(id, blob, end) : done;
+}
+
+bool NatsLog::Parts::may_make_room(const LogMessage& message, const AppendResult& fault,
+                                   PatienceEnd end) {
+  // Of a disk that is full, deleted messages free nothing at once.
+  const bool is_limit = fault.fault == AppendFault::kFull && connection_.stall().empty() &&
+                        fault.error.find("no space left") == std::string::npos;
+  if (!is_limit) return false;
+  if (message.kind != Kind::kEntry) return reserve_.release(0, end);
+  const bool is_small = message.needs.empty() && !message.blob;
+  return is_small && reserve_.release(NatsReserve::kLastPieces, end);
 }
 
 AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expected,
@@ -82,9 +101,7 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
     return {AppendFault::kBroken, place() + " takes no scene with a name of that size"};
   }
   const std::string unchecked = check_tail(end);
-  if (!unchecked.empty()) {
-    return {AppendFault::kBroken, place() + " cannot be reached: " + unchecked};
-  }
+  if (!unchecked.empty()) return given_up(unchecked, false);
   // This process may not know yet that another one has changed the scene; then the server says so.
   const std::uint64_t newest = head_of(scene, message.id).revision;
   if (newest != expected) return conflict(scene, newest, expected);
@@ -97,19 +114,19 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
     return {};
   }
   message.blob = blob_id_of(record);
-  return put_blob(*message.blob, {record, {}}, end);
+  AppendResult put = put_blob(*message.blob, {record, {}}, end);
+  while (may_make_room(message, put, end)) put = put_blob(*message.blob, {record, {}}, end);
+  if (put.fault == AppendFault::kNone) keep_record(*message.blob, record);
+  return put;
 }
 
 AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
                                     LogMessage message, PatienceEnd end) {
   bool is_unclear = false;
-  const auto give_up = [&](const std::string& reason) {
-    if (is_unclear) return unclear(reason);
-    return AppendResult{AppendFault::kBroken, place() + " cannot be reached: " + reason};
-  };
+  const auto begin = std::chrono::steady_clock::now();
   for (;;) {
     const std::string unchecked = check_tail(end);
-    if (!unchecked.empty()) return give_up(unchecked);
+    if (!unchecked.empty()) return given_up(unchecked, is_unclear);
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
@@ -119,6 +136,11 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     const Bytes bytes = bytes_of(message);
     const auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes),
                                        head.sequence, rest_of(end));
+    // This process was stopped for longer than a blob is kept that nobody names.
+    if (!message.needs.empty() &&
+        std::chrono::steady_clock::now() > begin + *options_.blob_grace / 2) {
+      must_check_ = true;
+    }
     if (done && options_.replicas == 1) {
       const std::lock_guard lock(mutex_);
       SceneChain& chain = chains_[std::string(scene)];
@@ -128,12 +150,17 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     // A cluster may have accepted two at once, of which the first one counts: see which that is.
     if (done || done.fault == StreamFault::kConflict) {
       const std::string fault = refresh(std::string(scene), end);
-      if (!fault.empty()) return give_up(fault);
+      if (!fault.empty()) return given_up(fault, is_unclear);
       continue;
     }
-    if (done.fault != StreamFault::kUnreachable) return append_fault(done.fault, done.error);
+    if (done.fault == StreamFault::kStalled) return given_up(done.error, is_unclear);
+    if (done.fault != StreamFault::kUnreachable) {
+      AppendResult refused = append_fault(done.fault, done.error);
+      if (may_make_room(message, refused, end)) continue;
+      return refused;
+    }
     is_unclear = true;
-    if (!pause_before_retry(end)) return give_up(done.error);
+    if (!pause_before_retry(end)) return given_up(done.error, is_unclear);
   }
 }
 
@@ -205,6 +232,7 @@ AppendResult NatsLog::Parts::replace_all(std::string_view scene, LogMessage mess
   AppendResult fault = prepare(scene, revision, message, record, end);
   if (fault.fault == AppendFault::kNone) fault = commit(scene, revision, std::move(message), end);
   if (fault.fault == AppendFault::kNone) purge_before_last(scene, id, end);
+  if (fault.fault == AppendFault::kNone && reserve_.is_incomplete()) reserve_.fill(end);
   return fault;
 }
 

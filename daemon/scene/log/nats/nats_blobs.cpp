@@ -20,8 +20,6 @@ constexpr std::size_t kMessageOverhead = 4096;
 constexpr std::size_t kMostPartBytes = std::size_t{512} << 10U;
 /// A blob of up to this size is in part 0: one message, not two.
 constexpr std::size_t kMostContentInHead = std::size_t{64} << 10U;
-/// Longer than the server may take to sync its files (two minutes by default).
-constexpr std::chrono::minutes kRecentTime{5};
 constexpr std::size_t kMostRecentBytes = std::size_t{512} << 20U;
 
 std::span<const std::uint8_t> payload_of(std::span<const std::byte> bytes) {
@@ -59,6 +57,8 @@ AppendResult append_fault(StreamFault fault, const std::string& error) {
     case StreamFault::kFull:
       return {AppendFault::kFull, "the log of the fleet has no room left (" + error +
                                       "): make room on the disks of NATS, or raise its limits"};
+    case StreamFault::kStalled:
+      return {AppendFault::kFull, "the log of the fleet cannot be written: " + error};
     case StreamFault::kUnreachable:
     case StreamFault::kRefused:
       break;
@@ -95,8 +95,8 @@ void NatsBlobs::remember(Recent recent) {
   recent_bytes_ += recent.bytes();
   recent_.push_back(std::move(recent));
   const bool is_too_much = recent_bytes_ > kMostRecentBytes;
-  while (!recent_.empty() &&
-         (recent_bytes_ > kMostRecentBytes || recent_.front().when + kRecentTime < Clock::now())) {
+  while (!recent_.empty() && (recent_bytes_ > kMostRecentBytes ||
+                              recent_.front().when + options_.recent_time < Clock::now())) {
     recent_bytes_ -= recent_.front().bytes();
     recent_.pop_front();
   }
@@ -212,7 +212,11 @@ NatsBlobs::HoldResult NatsBlobs::hold(const BlobId& id, const IsNeeded& is_neede
 base::Result<Bytes> NatsBlobs::read(const BlobId& id, PatienceEnd end) {
   const auto found = find_part(id, 0, end);
   if (!found) return base::Failure{"the log of the fleet cannot be read: " + found.error};
-  if (!*found) return base::Failure{"a mesh or map is not in the log of the fleet"};
+  if (!*found)
+    return base::Failure{
+        "its mesh or map is not in the log of the fleet any more. Put it again or unload the "
+        "scene, "
+        "with a front that runs, or restore backups of both streams in NATS"};
   base::Result<BlobHead> head = blob_head_from(std::as_bytes(std::span((*found)->payload)));
   if (!head) return damaged_blob(head.error);
   base::Result<Bytes> bytes =
@@ -242,27 +246,47 @@ base::Result<Bytes> NatsBlobs::read_parts(const BlobId& id, const BlobHead& head
   return bytes;
 }
 
+nats::StreamResult<std::vector<BlobId>> NatsBlobs::needs_of(const BlobId& id, PatienceEnd end) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = needs_.find(id); known != needs_.end()) return known->second;
+  }
+  const auto found = last(subject(id, 0), end);
+  if (!found) return {found.fault, found.error};
+  if (!*found) return std::vector<BlobId>{};
+  base::Result<BlobHead> head = blob_head_from(std::as_bytes(std::span((*found)->payload)));
+  if (!head) return {StreamFault::kRefused, head.error};
+  const std::lock_guard lock(mutex_);
+  return needs_[id] = std::move(head->needs);
+}
+
+nats::StreamResult<std::set<BlobId>> NatsBlobs::all(PatienceEnd end) {
+  const auto subjects = stream_->subjects(options_.prefix + ".*.0", rest_of(end));
+  if (!subjects) return {subjects.fault, subjects.error};
+  std::set<BlobId> ids;
+  for (const auto& [subject, count] : *subjects) {
+    const std::size_t begin = options_.prefix.size() + 1;
+    const std::size_t dot = std::min(subject.find('.', begin), subject.size());
+    const auto id = blob_id_from_token(std::string_view(subject).substr(begin, dot - begin));
+    if (id) ids.insert(*id);
+  }
+  return ids;
+}
+
+bool NatsBlobs::has_marks() {
+  const std::lock_guard alone(drop_mutex_);
+  return !marks_.empty();
+}
+
 std::string NatsBlobs::use(const BlobId& id, std::set<BlobId>& used, PatienceEnd end) {
   std::vector<BlobId> next{id};
   while (!next.empty()) {
     const BlobId each = next.back();
     next.pop_back();
     if (!used.insert(each).second) continue;
-    {
-      const std::lock_guard lock(mutex_);
-      if (const auto known = needs_.find(each); known != needs_.end()) {
-        next.insert(next.end(), known->second.begin(), known->second.end());
-        continue;
-      }
-    }
-    const auto found = last(subject(each, 0), end);
-    if (!found) return found.error;
-    if (!*found) continue;
-    const auto head = blob_head_from(std::as_bytes(std::span((*found)->payload)));
-    if (!head) return head.error;
-    next.insert(next.end(), head->needs.begin(), head->needs.end());
-    const std::lock_guard lock(mutex_);
-    needs_[each] = head->needs;
+    const auto needs = needs_of(each, end);
+    if (!needs) return needs.error;
+    next.insert(next.end(), needs->begin(), needs->end());
   }
   return "";
 }
@@ -311,11 +335,16 @@ AppendResult NatsBlobs::drop(const BlobId& id, std::uint32_t last_part, bool is_
   forget(id);
   marks_.erase(mark);
   if (is_whole) {
-    // By its sequence: if another process has just written part 0 again, it is another message. The
-    // other parts are dropped later, as those of a blob without part 0: a cluster may accept a part
-    // 0 that another process has sent before it knows that this one is gone.
+    // By its sequence: if another process has just written part 0 again, it is another message. In
+    // a cluster, the other parts are dropped later, as those of a blob without part 0: a cluster
+    // may accept a part 0 that another process has sent before it knows that this one is gone.
     const auto removed = stream_->remove(sequence, rest_of(end));
-    return removed ? AppendResult{} : append_fault(removed.fault, removed.error);
+    if (!removed) return append_fault(removed.fault, removed.error);
+    if (!*removed || !options_.is_alone) return {};
+    // Who writes the blob again now writes all of its parts, which come later than its part 0 did.
+    const auto parts =
+        stream_->purge(options_.prefix + "." + token_of(id) + ".>", sequence, rest_of(end));
+    return parts ? AppendResult{} : append_fault(parts.fault, parts.error);
   }
   // Parts that another process writes meanwhile come later.
   const auto purged =
@@ -331,7 +360,7 @@ std::string NatsBlobs::repair(PatienceEnd end) {
     const std::lock_guard lock(mutex_);
     held_.clear();
     for (const Recent& each : recent_) {
-      if (each.when + kRecentTime >= Clock::now()) recent.push_back(each);
+      if (each.when + options_.recent_time >= Clock::now()) recent.push_back(each);
     }
   }
   if (recent.empty()) return "";

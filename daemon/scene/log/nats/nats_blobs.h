@@ -38,8 +38,10 @@ bool pause_before_retry(PatienceEnd end);
 class NatsBlobs {
  public:
   struct Options {
-    std::string prefix;  ///< of the subjects
+    std::string prefix;    ///< of the subjects
+    bool is_alone = true;  ///< one server keeps them, so messages are in one order
     std::chrono::milliseconds grace;
+    std::chrono::milliseconds recent_time;  ///< for which blobs are kept that were written
     std::function<void(const std::string&)> warn;
   };
   NatsBlobs(nats::Connection& connection, std::unique_ptr<nats::Stream> stream, Options options);
@@ -60,6 +62,13 @@ class NatsBlobs {
 
   /// Drops the blobs that are not in `roots`, and that no blob needs that is used.
   AppendResult drop_unused(const std::set<BlobId>& roots, PatienceEnd end);
+
+  /// The blobs that are at the server, by their parts 0.
+  nats::StreamResult<std::set<BlobId>> all(PatienceEnd end);
+  /// What a blob needs, which is there.
+  nats::StreamResult<std::vector<BlobId>> needs_of(const BlobId& id, PatienceEnd end);
+  /// Whether blobs are about to be dropped.
+  [[nodiscard]] bool has_marks();
 
   /// Writes again the blobs of the last minutes that the server has lost. Returns why that failed.
   std::string repair(PatienceEnd end);

@@ -17,6 +17,8 @@ constexpr milliseconds kFaultPause{50};
 /// How often the log is asked whether it has lost its end without a loss of the connection, as a
 /// cluster may.
 constexpr milliseconds kLookPause{1000};
+/// How often it is tried to put back what is missing.
+constexpr milliseconds kCarePause{2000};
 /// For one request: a follower that waits does not know what is new.
 constexpr milliseconds kFollowWait{1000};
 constexpr std::uint64_t kEndOfNews = std::numeric_limits<std::uint64_t>::max();
@@ -57,7 +59,8 @@ void NatsLog::Parts::stop_following() {
 }
 
 bool NatsLog::Parts::is_in_touch() const {
-  return has_read_all_ && is_tail_checked() && connection_.is_connected();
+  const std::lock_guard lock(mutex_);
+  return has_read_all_ && is_tail_checked() && connection_.is_connected() && lost_.empty();
 }
 
 void NatsLog::Parts::wake_follower() {
@@ -82,12 +85,30 @@ void NatsLog::Parts::run_follower() {
   bool is_up_to_date = false;
   do {
     is_up_to_date = false;
-    if (connection_.is_connected() && check_tail(Clock::now() + kFollowWait).empty()) {
+    if (is_not_stalled() && connection_.is_connected() &&
+        check_tail(Clock::now() + kFollowWait).empty()) {
       is_up_to_date = follow_once();
     }
     has_read_all_ = is_up_to_date;
-    if (is_up_to_date) look_for_losses();
+    if (is_up_to_date) {
+      {
+        const std::lock_guard lock(mutex_);
+        read_all_at_ = Clock::now();
+      }
+      look_for_losses();
+      keep_house();
+    }
   } while (wait_for_news(is_up_to_date ? kPollPause : kFaultPause));
+}
+
+bool NatsLog::Parts::is_not_stalled() {
+  const std::string stall = connection_.stall();
+  if (stall.empty() == was_stalled_) {
+    was_stalled_ = !stall.empty();
+    warn(was_stalled_ ? "changes of scenes are refused: " + stall
+                      : "JetStream of the server answers again");
+  }
+  return stall.empty();
 }
 
 bool NatsLog::Parts::follow_once() {
@@ -165,6 +186,22 @@ bool NatsLog::Parts::pass_on(const std::string& scene, LogMessage message, std::
 
 void NatsLog::Parts::warn_of_damage(const std::string& scene, const std::string& what) {
   if (damaged_.insert(scene).second) warn(damaged("scene '" + scene + "', " + what).error);
+}
+
+void NatsLog::Parts::keep_house() {
+  bool must_drop = false;
+  bool has_lost = false;
+  {
+    const std::lock_guard lock(mutex_);
+    must_drop = must_drop_;
+    has_lost = !lost_.empty();
+  }
+  if (must_drop || blobs_.has_marks()) static_cast<void>(drop_unused_blobs(false));
+  if (Clock::now() < last_care_ + kCarePause) return;
+  last_care_ = Clock::now();
+  if (reserve_.is_incomplete()) reserve_.fill(Clock::now() + kFollowWait);
+  // The user may have put the object again, or unloaded the scene.
+  if (has_lost) static_cast<void>(repair_contents(patience_end()));
 }
 
 void NatsLog::Parts::look_for_losses() {

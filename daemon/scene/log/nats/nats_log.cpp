@@ -13,8 +13,15 @@ namespace {
 
 using nats::StreamFault;
 
-/// A process drops unused blobs no more often than this.
-constexpr std::chrono::minutes kDropPause{1};
+/// A process drops unused blobs this often while the grace of one of them runs.
+constexpr int kDropsPerGrace = 4;
+/// A blob that is held is named within a quarter of the grace and the patience of an append. The
+/// process that drops it has read the log before that, within another patience, and what the first
+/// one knew of the log was `kTrustedTime` old.
+constexpr int kGracePatiences = 4;
+constexpr std::chrono::seconds kGraceBeyondPatience{10};
+/// What was read of the log is trusted for so long to tell whether a blob is needed.
+constexpr std::chrono::seconds kTrustedTime{5};
 constexpr std::uint64_t kEndOfLog = std::numeric_limits<std::uint64_t>::max();
 /// Reads of a scene before a missing change counts as lost.
 constexpr int kMostReads = 3;
@@ -52,8 +59,12 @@ base::Result<std::unique_ptr<NatsLog>> NatsLog::open(nats::Connection& connectio
   if (!stream) return base::Failure{std::move(stream.error)};
   auto blob_stream = nats::Stream::ensure(connection, blobs, options.patience);
   if (!blob_stream) return base::Failure{std::move(blob_stream.error)};
-  return std::unique_ptr<NatsLog>(new NatsLog(
-      std::make_unique<Parts>(connection, options, *std::move(stream), *std::move(blob_stream))));
+  NatsLogOptions complete = options;
+  if (!complete.blob_grace) {
+    complete.blob_grace = kGracePatiences * options.patience + kGraceBeyondPatience;
+  }
+  return std::unique_ptr<NatsLog>(new NatsLog(std::make_unique<Parts>(
+      connection, std::move(complete), *std::move(stream), *std::move(blob_stream))));
 }
 
 NatsLog::NatsLog(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -84,7 +95,9 @@ std::string NatsLog::note(std::string_view key) { return parts_->note(key); }
 AppendResult NatsLog::set_note(std::string_view key, std::string_view text) {
   return parts_->set_note(key, text);
 }
-AppendResult NatsLog::drop_unused_blobs() { return parts_->drop_unused_blobs(); }
+AppendResult NatsLog::drop_unused_blobs() { return parts_->drop_unused_blobs(false); }
+void NatsLog::on_lost_blob(LostBlob find) { parts_->on_lost_blob(std::move(find)); }
+bool NatsLog::lacks_blobs_of(std::string_view scene) { return parts_->lacks_blobs_of(scene); }
 void NatsLog::follow(Take take) { parts_->follow(std::move(take)); }
 void NatsLog::stop_following() { parts_->stop_following(); }
 std::uint64_t NatsLog::followed() const { return parts_->followed(); }
@@ -100,8 +113,12 @@ NatsLog::Parts::Parts(nats::Connection& connection, NatsLogOptions options,
       options_(std::move(options)),
       stream_(std::move(stream)),
       blobs_(connection, std::move(blob_stream),
-             {options_.fleet + ".blob", options_.blob_grace, options_.warn}),
-      checked_generation_(connection.generation()) {}
+             {options_.fleet + ".blob", options_.replicas == 1, *options_.blob_grace,
+              options_.recent_time, options_.warn}),
+      reserve_(*stream_, options_.fleet + ".log.reserve", options_.most_bytes),
+      checked_generation_(connection.generation()) {
+  reserve_.fill(patience_end());
+}
 
 NatsLog::Parts::~Parts() { stop_following(); }
 
@@ -218,7 +235,9 @@ base::Failure NatsLog::Parts::damaged(const std::string& what) const {
 
 base::Result<Bytes> NatsLog::Parts::record_of(const LogMessage& message, PatienceEnd end) {
   if (!message.blob) return message.record;
-  return blobs_.read(*message.blob, end);
+  base::Result<Bytes> record = blobs_.read(*message.blob, end);
+  if (record) keep_record(*message.blob, *record);
+  return record;
 }
 
 base::Result<LoggedScene> NatsLog::Parts::logged(const std::string& name, const SceneChain& chain,
@@ -262,6 +281,10 @@ AppendResult NatsLog::Parts::set_note(std::string_view key, std::string_view tex
     const auto done =
         stream_->publish(note_subject(key), payload_of_text(text), std::nullopt, rest_of(end));
     if (done) {
+      {
+        const std::lock_guard lock(mutex_);
+        notes_[std::string(key)] = {std::string(text), *done};
+      }
       // The notes before it are of no use; they are purged with the next one if this fails.
       static_cast<void>(stream_->purge(note_subject(key), *done, rest_of(end)));
       return {};
@@ -274,6 +297,8 @@ AppendResult NatsLog::Parts::set_note(std::string_view key, std::string_view tex
 
 bool NatsLog::Parts::is_needed(const BlobId& id) const {
   const std::lock_guard lock(mutex_);
+  // Others may have removed what needs it.
+  if (read_all_at_ + kTrustedTime < std::chrono::steady_clock::now()) return false;
   for (const auto& [name, chain] : chains_) {
     for (const ChainLink& link : chain.links()) {
       if (link.message.blob == id || std::ranges::count(link.message.needs, id) > 0) return true;
@@ -287,13 +312,17 @@ NatsBlobs::HoldResult NatsLog::Parts::hold(const BlobId& id, PatienceEnd end) {
       id, [this](const BlobId& each) { return is_needed(each); }, end);
 }
 
-AppendResult NatsLog::Parts::drop_unused_blobs() {
+AppendResult NatsLog::Parts::drop_unused_blobs(bool is_urgent) {
   const auto now = std::chrono::steady_clock::now();
   {
     const std::lock_guard lock(mutex_);
-    const auto pause = std::min<std::chrono::milliseconds>(kDropPause, options_.blob_grace);
-    if (last_drop_ && now < *last_drop_ + pause) return {};
+    // The follower does it later.
+    must_drop_ = true;
+    if (!is_urgent && last_drop_ && now < *last_drop_ + *options_.blob_grace / kDropsPerGrace) {
+      return {};
+    }
     last_drop_ = now;
+    must_drop_ = false;
   }
   const PatienceEnd end = patience_end();
   // What other processes have just appended may need blobs, too.
@@ -305,10 +334,11 @@ AppendResult NatsLog::Parts::drop_unused_blobs() {
     if (!chain.is_whole()) {
       return {AppendFault::kBroken, damaged("scene '" + name + "' " + chain.fault()).error};
     }
-    for (const ChainLink& link : chain.links()) {
-      roots.insert(link.message.needs.begin(), link.message.needs.end());
-      if (link.message.blob) roots.insert(*link.message.blob);
-    }
+    add_needs(chain, roots);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(records_, [&](const auto& each) { return !roots.contains(each.first); });
   }
   return blobs_.drop_unused(roots, end);
 }

@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/base/result.h"
 #include "daemon/nats/connection.h"
@@ -21,8 +24,11 @@ struct NatsLogOptions {
   /// How long an append waits for the server, through lost connections, before it gives up.
   std::chrono::milliseconds patience{5'000};
   /// Blobs that nothing names are kept for this long, because another process may be about to name
-  /// them.
-  std::chrono::milliseconds blob_grace{10 * 60'000};
+  /// them. Unset: four times the patience and ten seconds, which is longer than a change may take.
+  std::optional<std::chrono::milliseconds> blob_grace;
+  /// Blobs that were put are kept here for this long, because the server may lose them until it has
+  /// synced its files.
+  std::chrono::milliseconds recent_time{5 * 60'000};
   /// Called when the log repairs or cannot repair something, with a sentence for the user. May be
   /// empty. Called on any thread.
   std::function<void(const std::string&)> warn;
@@ -41,9 +47,13 @@ struct NatsLogOptions {
 /// last, so a blob with part 0 is whole. Records that do not fit into a message are blobs, too.
 ///
 /// A server that syncs its files every two minutes only (NATS 2.9) loses the last changes if its
-/// machine loses power. So each process keeps the entries since the last summary, and the blobs of
-/// the last five minutes that it put; when it finds that the log has lost some, it appends them
-/// again. Then positions may be lower than before. Notes are not repaired.
+/// machine loses power. So each process keeps the entries since the last summary, the blobs of the
+/// last five minutes that it put, and the notes that it set; other blobs it makes again of the
+/// scenes that it has (`on_lost_blob`). When it finds that the log has lost some of that, it puts
+/// them there again. Then positions may be lower than before.
+///
+/// `<fleet>.log.reserve.<piece>` are messages that are deleted where a limit is reached, so that
+/// removals and summaries are possible (`nats_reserve.h`).
 class NatsLog final : public SharedLog {
  public:
   /// Makes the streams, or uses those that are there. `connection` must outlive it. Fails if the
@@ -64,6 +74,8 @@ class NatsLog final : public SharedLog {
   [[nodiscard]] std::string note(std::string_view key) override;
   AppendResult set_note(std::string_view key, std::string_view text) override;
   AppendResult drop_unused_blobs() override;
+  void on_lost_blob(LostBlob find) override;
+  [[nodiscard]] bool lacks_blobs_of(std::string_view scene) override;
 
   void follow(Take take) override;
   void stop_following() override;

@@ -18,6 +18,7 @@
 
 #include "daemon/scene/log/nats/nats_blobs.h"
 #include "daemon/scene/log/nats/nats_log.h"
+#include "daemon/scene/log/nats/nats_reserve.h"
 #include "daemon/scene/log/nats/scene_chain.h"
 
 namespace camway::scene {
@@ -25,9 +26,20 @@ namespace camway::scene {
 /// The scenes of a log, by name.
 using SceneChains = std::map<std::string, SceneChain, std::less<>>;
 
-/// What is behind `NatsLog`, in three files: `nats_log.cpp` opens and reads, `nats_appends.cpp`
-/// appends, `nats_follow.cpp` follows, and `nats_repair.cpp` finds out after each loss of the
-/// connection whether the server has lost something. Thread-safe.
+/// Scenes of which blobs are lost, and how many.
+using LostBlobs = std::map<std::string, std::size_t, std::less<>>;
+
+/// What is known of blobs while they are repaired.
+struct BlobRepair {
+  std::set<BlobId> there;           ///< at the server
+  std::map<BlobId, bool> is_whole;  ///< whether a blob and all that it needs are there
+  std::set<BlobId> lost;
+  std::size_t repaired = 0;
+};
+
+/// What is behind `NatsLog`: `nats_log.cpp` opens and reads, `nats_appends.cpp` appends,
+/// `nats_follow.cpp` follows, `nats_repair.cpp` finds out after each loss of the connection whether
+/// the server has lost changes, and `nats_lost.cpp` the same of blobs and notes. Thread-safe.
 class NatsLog::Parts {
  public:
   Parts(nats::Connection& connection, NatsLogOptions options, std::unique_ptr<nats::Stream> stream,
@@ -45,7 +57,8 @@ class NatsLog::Parts {
   base::Result<std::vector<LoggedScene>> scenes();
   std::string note(std::string_view key);
   AppendResult set_note(std::string_view key, std::string_view text);
-  AppendResult drop_unused_blobs();
+  /// Drops blobs if that is due; if `is_urgent`, in any case.
+  AppendResult drop_unused_blobs(bool is_urgent);
   [[nodiscard]] std::uint64_t highest_removed() const;
   [[nodiscard]] std::uint64_t position_of(std::string_view scene) const;
   [[nodiscard]] NatsBlobs::HoldResult hold(const BlobId& id, PatienceEnd end);
@@ -56,6 +69,10 @@ class NatsLog::Parts {
                          const std::vector<BlobId>& needs);
   AppendResult remove(std::string_view scene, std::uint64_t revision);
   AppendResult put_blob(const BlobId& id, const Blob& blob, PatienceEnd end);
+
+  // nats_lost.cpp
+  void on_lost_blob(SceneLog::LostBlob find);
+  [[nodiscard]] bool lacks_blobs_of(std::string_view scene) const;
 
   // nats_follow.cpp
   void follow(SharedLog::Take take);
@@ -107,13 +124,17 @@ class NatsLog::Parts {
                        const Bytes& record, PatienceEnd end);
   /// Appends a message that takes the place of all before, and purges those.
   AppendResult replace_all(std::string_view scene, LogMessage message, const Bytes& record);
+  /// Releases a piece of the reserve if that helps a message that was refused. Returns whether to
+  /// try again.
+  bool may_make_room(const LogMessage& message, const AppendResult& fault, PatienceEnd end);
   AppendResult missing_need(const std::vector<BlobId>& needs, PatienceEnd end);
   /// Looks at the server for what it has of a scene that is not known.
   std::string refresh(const std::string& scene, PatienceEnd end);
   void purge_before_last(std::string_view scene, const MessageId& id, PatienceEnd end);
   [[nodiscard]] AppendResult conflict(std::string_view scene, std::uint64_t newest,
                                       std::uint64_t expected) const;
-  [[nodiscard]] AppendResult unclear(const std::string& reason) const;
+  /// The result of an append that got no answer. `is_unclear`: it may have been made.
+  [[nodiscard]] AppendResult given_up(const std::string& reason, bool is_unclear) const;
 
   /// Returns once the server has all that this process knows to be kept, or why that is not known.
   std::string check_tail(PatienceEnd end);
@@ -126,6 +147,24 @@ class NatsLog::Parts {
                            const SceneChain& known, SceneChain& found, bool& is_done,
                            PatienceEnd end);
 
+  /// The blobs that a chain names.
+  static void add_needs(const SceneChain& chain, std::set<BlobId>& needs);
+  /// Keeps a record that is a blob, since nobody else could make it again.
+  void keep_record(const BlobId& id, const Bytes& record);
+  /// A blob that this process has, or can make again.
+  std::optional<Blob> blob_again(const BlobId& id);
+  /// Puts the blobs and notes again that the server has lost. Returns why that is not possible now.
+  std::string repair_contents(PatienceEnd end);
+  /// Puts all blobs again that these need, as far as they are known here. Returns whether all are
+  /// there then.
+  nats::StreamResult<bool> repair_blobs(const std::set<BlobId>& roots, BlobRepair& repair,
+                                        PatienceEnd end);
+  /// Notes which blobs nobody has, and tells the user if that has changed.
+  void note_lost(const LostBlobs& lost);
+  std::string repair_notes(PatienceEnd end);
+  /// What is due from time to time while all is read.
+  void keep_house();
+
   void run_follower();
   /// Reads what is new. Returns whether all was read.
   bool follow_once();
@@ -134,6 +173,9 @@ class NatsLog::Parts {
   /// again.
   bool pass_on(const std::string& scene, LogMessage message, std::uint64_t sequence);
   void look_for_losses();
+  /// Tells the user once that the server does not answer for its streams, and once that it does
+  /// again. Returns whether it does.
+  bool is_not_stalled();
   void warn_of_damage(const std::string& scene, const std::string& what);
   /// Returns false when the follower has to end.
   bool wait_for_news(std::chrono::milliseconds most);
@@ -144,10 +186,23 @@ class NatsLog::Parts {
   const NatsLogOptions options_;
   const std::unique_ptr<nats::Stream> stream_;
   NatsBlobs blobs_;
+  NatsReserve reserve_;
 
   mutable std::mutex mutex_;  ///< guards what follows; not held while a server is asked
   Chains chains_;
   std::optional<std::chrono::steady_clock::time_point> last_drop_;
+  bool must_drop_ = false;
+  std::chrono::steady_clock::time_point read_all_at_{};  ///< when the follower has read all
+  std::map<BlobId, std::shared_ptr<const Bytes>> records_;
+  struct Note {
+    std::string text;
+    std::uint64_t sequence = 0;
+  };
+  std::map<std::string, Note> notes_;  ///< that this process has set
+  LostBlobs lost_;                     ///< scenes with blobs that nobody has, and how many
+
+  std::mutex lost_blob_mutex_;  ///< guards lost_blob_, also while it runs
+  SceneLog::LostBlob lost_blob_;
 
   std::mutex check_mutex_;  ///< guards is_checking_
   std::condition_variable check_done_;
@@ -168,6 +223,8 @@ class NatsLog::Parts {
   std::uint64_t next_sequence_ = 1;
   bool is_interrupted_ = false;  ///< the next messages have to be read again
   std::chrono::steady_clock::time_point last_look_{};
+  std::chrono::steady_clock::time_point last_care_{};
+  bool was_stalled_ = false;       ///< the user was told
   std::set<std::string> gaps_;     ///< scenes with a change that does not follow the one before
   std::set<std::string> damaged_;  ///< scenes of which the user was told
   std::unique_ptr<nats::Subscription> subscription_;

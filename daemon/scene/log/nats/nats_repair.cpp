@@ -36,7 +36,8 @@ std::string NatsLog::Parts::check_tail(PatienceEnd end) {
   std::string fault;
   do {
     fault = check_now(end);
-  } while ((!fault.empty() || !is_tail_checked()) && pause_before_retry(end));
+  } while ((!fault.empty() || !is_tail_checked()) && connection_.stall().empty() &&
+           pause_before_retry(end));
   if (fault.empty() && !is_tail_checked()) fault = "the connection to NATS was lost";
   const std::lock_guard lock(check_mutex_);
   is_checking_ = false;
@@ -50,6 +51,8 @@ std::string NatsLog::Parts::check_now(PatienceEnd end) {
   const std::uint64_t generation = connection_.generation();
   std::string fault = stream_->ensure_again(rest_of(end));
   if (fault.empty()) fault = blobs_.repair(end);
+  // Before the changes that need them, so that nobody finds those without.
+  if (fault.empty()) fault = repair_contents(end);
   Chains known;
   {
     const std::lock_guard lock(mutex_);
@@ -64,6 +67,8 @@ std::string NatsLog::Parts::check_now(PatienceEnd end) {
   for (auto& [scene, chain] : known) {
     if (fault.empty()) fault = repair(scene, std::move(chain), std::move(found[scene]), end);
   }
+  // Others may have made changes that this process did not know.
+  if (fault.empty()) fault = repair_contents(end);
   if (!fault.empty()) {
     must_check_ = true;
     return fault;

@@ -136,6 +136,17 @@ std::string fault_of_needs(SqliteDatabase& database) {
   return database.failure() ? database.failure()->text : "";
 }
 
+/// Returns which scene needs a blob, directly or through another one: ", which scene 'a' needs".
+/// Empty if none does.
+std::string words_of_user(SqliteDatabase& database, const BlobId& id) {
+  SqliteQuery user = database.query(
+      "WITH RECURSIVE users(id) AS (VALUES(?) UNION "
+      "  SELECT blob_needs.owner FROM users JOIN blob_needs ON blob_needs.blob=users.id) "
+      "SELECT scene FROM entry_needs JOIN users ON blob=users.id UNION "
+      "SELECT scene FROM summary_needs JOIN users ON blob=users.id ORDER BY scene LIMIT 1");
+  return user.with(id).next() ? ", which " + scene_words(user.text(0)) + " needs" : "";
+}
+
 std::string fault_of_rows(SqliteDatabase& database, Scenes& scenes) {
   const auto heads = read_heads(database);
   if (database.failure()) return database.failure()->text;
@@ -181,9 +192,11 @@ std::string fault_of_blobs(SqliteDatabase& database) {
     const auto id = rows.array<BlobId>(0);
     if (!id) return "the name of a mesh or map is damaged";
     const base::Result<Blob> blob = read_blob(database, *id);
-    if (!blob) return blob.error;
+    if (!blob) return blob.error + words_of_user(database, *id);
     // The digest of the row is faster. It would not notice a name that was wrong from the start.
-    if (blob_id_of(blob->bytes) != *id) return "a mesh or map has other bytes than its name says";
+    if (blob_id_of(blob->bytes) != *id) {
+      return "a mesh or map has other bytes than its name says" + words_of_user(database, *id);
+    }
   }
   return rows.has_failed() ? words_of_failure(database) : "";
 }

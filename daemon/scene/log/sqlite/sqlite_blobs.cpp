@@ -58,7 +58,7 @@ base::Result<Bytes> SqliteLog::blob(const BlobId& id) {
 
 AppendResult SqliteLog::drop_unused_blobs() {
   const std::scoped_lock lock(mutex_);
-  return write([&] {
+  return write_beyond_limit([&] {
     SqliteQuery drop = database_->query(
         "WITH RECURSIVE used(id) AS ("
         "  SELECT blob FROM entry_needs UNION SELECT blob FROM summary_needs"

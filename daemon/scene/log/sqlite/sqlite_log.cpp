@@ -118,7 +118,8 @@ AppendResult SqliteLog::append(std::string_view scene, const LogEntry& entry) {
   }
   AppendResult too_large = fault_of_size(entry.record.size());
   if (too_large.fault != AppendFault::kNone) return too_large;
-  return write([&] { return insert_entry(scene, entry); });
+  const auto insert = [&] { return insert_entry(scene, entry); };
+  return entry.needs.empty() ? write_beyond_limit(insert) : write(insert);
 }
 
 AppendResult SqliteLog::insert_entry(std::string_view scene, const LogEntry& entry) {
@@ -148,7 +149,7 @@ AppendResult SqliteLog::summarize(std::string_view scene, std::uint64_t revision
   const std::scoped_lock lock(mutex_);
   AppendResult too_large = fault_of_size(summary.size());
   if (too_large.fault != AppendFault::kNone) return too_large;
-  return write([&] { return replace_by_summary(scene, revision, summary, needs); });
+  return write_beyond_limit([&] { return replace_by_summary(scene, revision, summary, needs); });
 }
 
 AppendResult SqliteLog::replace_by_summary(std::string_view scene, std::uint64_t revision,
@@ -183,7 +184,7 @@ AppendResult SqliteLog::replace_by_summary(std::string_view scene, std::uint64_t
 
 AppendResult SqliteLog::remove(std::string_view scene, std::uint64_t revision) {
   const std::scoped_lock lock(mutex_);
-  AppendResult result = write([&] { return delete_scene(scene, revision); });
+  AppendResult result = write_beyond_limit([&] { return delete_scene(scene, revision); });
   if (result.fault == AppendFault::kNone) highest_removed_ = std::max(highest_removed_, revision);
   return result;
 }
@@ -279,6 +280,15 @@ AppendResult SqliteLog::write(const std::function<AppendResult()>& change) {
   // The change is durable. Without this number its loss would not be noticed until the next one is
   // written; to refuse the change, though, would leave the store without what its log has.
   static_cast<void>(answered_->write(commits_));
+  return result;
+}
+
+AppendResult SqliteLog::write_beyond_limit(const std::function<AppendResult()>& change) {
+  AppendResult result = write(change);
+  if (result.fault != AppendFault::kFull) return result;
+  if (!limit_size(*database_, limits_.most_bytes + kReserveBytes)) return result;
+  result = write(change);
+  static_cast<void>(limit_size(*database_, limits_.most_bytes));
   return result;
 }
 

@@ -23,7 +23,9 @@
 namespace camway::scene {
 
 struct SqliteLogLimits {
-  /// Size of `scenes.sqlite` (setting `state.most_bytes`). SQLite's file of recent changes beside
+  /// Size of `scenes.sqlite` (setting `state.most_bytes`). Removals, summaries, and changes without
+  /// new blobs may go beyond it by `SqliteLog::kReserveBytes`, so that they are possible when it is
+  /// reached. SQLite's file of recent changes beside
   /// it is not counted: it is seldom larger than 64 MiB and the largest blob together.
   std::uint64_t most_bytes = std::uint64_t{16} << 30;
   /// Size of one blob, record or summary. SQLite's own limit is 10^9 bytes for a whole row.
@@ -48,6 +50,8 @@ struct SqliteLogContent {
 /// may be there afterwards, as a whole.
 class SqliteLog final : public SceneLog {
  public:
+  static constexpr std::uint64_t kReserveBytes = std::uint64_t{1} << 20;
+
   /// Opens the log of a folder for changes. Makes the folder, with mode 0700, and the log if they
   /// are missing. Fails if another process has it open for changes, if it is damaged, or if a newer
   /// program wrote it. Reads the whole file.
@@ -100,6 +104,9 @@ class SqliteLog final : public SceneLog {
   /// Makes a change, all of it or nothing. `change` returns the fault that it found itself, or that
   /// of the database.
   AppendResult write(const std::function<AppendResult()>& change);
+  /// The same for a change that makes room, or needs little: where the limit is reached, it may use
+  /// the reserve.
+  AppendResult write_beyond_limit(const std::function<AppendResult()>& change);
   [[nodiscard]] AppendResult database_fault() const;
   [[nodiscard]] AppendResult fault_of_size(std::size_t bytes) const;
   AppendResult missing_need(const std::vector<BlobId>& needs);

@@ -92,6 +92,16 @@ base::Result<std::string> version_of_log(SqliteDatabase& database) {
   return version;
 }
 
+bool limit_size(SqliteDatabase& database, std::uint64_t most_bytes) {
+  // SQLite's own bound of the number of pages.
+  constexpr std::uint64_t kMostPages = 4294967294;
+  const std::string page_bytes = database.first_text("PRAGMA page_size");
+  if (page_bytes.empty()) return false;
+  const std::uint64_t pages =
+      std::clamp(most_bytes / std::uint64_t{std::stoull(page_bytes)}, std::uint64_t{1}, kMostPages);
+  return database.run(("PRAGMA max_page_count=" + std::to_string(pages)).c_str());
+}
+
 bool prepare_for_changes(SqliteDatabase& database, std::uint64_t most_bytes) {
   // With WAL and FULL, a commit is durable when it returns. secure_delete would write zeros over
   // the bytes of dropped blobs, which are no secret. journal_size_limit cuts the file of recent
@@ -99,14 +109,8 @@ bool prepare_for_changes(SqliteDatabase& database, std::uint64_t most_bytes) {
   constexpr const char* kSettings =
       "PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=OFF; "
       "PRAGMA journal_size_limit=67108864";
-  // SQLite's own bound of the number of pages.
-  constexpr std::uint64_t kMostPages = 4294967294;
   if (database.first_text("PRAGMA journal_mode=WAL") != "wal") return false;
-  const std::string page_bytes = database.first_text("PRAGMA page_size");
-  if (page_bytes.empty() || !database.run(kSettings)) return false;
-  const std::uint64_t pages =
-      std::clamp(most_bytes / std::uint64_t{std::stoull(page_bytes)}, std::uint64_t{1}, kMostPages);
-  return database.run(("PRAGMA max_page_count=" + std::to_string(pages)).c_str());
+  return database.run(kSettings) && limit_size(database, most_bytes);
 }
 
 }  // namespace camway::scene

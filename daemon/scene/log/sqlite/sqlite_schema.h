@@ -24,6 +24,10 @@ base::Result<bool> create_log_database(const std::filesystem::path& file);
 /// Returns the version of the tables of a file. Fails if the file is no log, whatever its content.
 base::Result<std::string> version_of_log(SqliteDatabase& database);
 
+/// Sets the size limit, which is never below the size that the file has. Returns false after a
+/// failure.
+bool limit_size(SqliteDatabase& database, std::uint64_t most_bytes);
+
 /// Sets how changes become durable, and the size limit. Returns false after a failure.
 bool prepare_for_changes(SqliteDatabase& database, std::uint64_t most_bytes);
 

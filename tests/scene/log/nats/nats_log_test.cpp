@@ -162,18 +162,23 @@ TEST_F(NatsLogTest, NoticesADamagedLog) {
     ASSERT_EQ(writer->append("office", sample_entry(i, i + 1, "a")).error, "");
   }
   const auto raw = stream(writer.connection(), "LOG");
-  ASSERT_TRUE(raw->remove(3, kLogWait));
+  // The first messages are the reserve.
+  const auto first = raw->last("camway.log.reserve.15", kLogWait);
+  ASSERT_TRUE(first && *first);
+  const std::uint64_t before = (*first)->sequence;
+  ASSERT_TRUE(raw->remove(before + 3, kLogWait));
   const std::string end =
       ". Restore backups of the streams camway_LOG and camway_BLOBS in NATS, or delete both to "
       "begin anew";
   EXPECT_EQ(writer->scenes().error,
             "the log of fleet 'camway' is damaged: scene 'office' lost its changes after revision "
-            "2 until revision 3, before message 4" +
-                end);
+            "2 until revision 3, before message " +
+                std::to_string(before + 4) + end);
   ASSERT_TRUE(raw->publish("camway.log.scene.00", {}, std::nullopt, kLogWait));
   EXPECT_EQ(writer->scenes().error,
-            "the log of fleet 'camway' is damaged: scene '" + std::string(1, '\0') +
-                "', message 6: a message is damaged, or a newer camwayd wrote it" + end);
+            "the log of fleet 'camway' is damaged: scene '" + std::string(1, '\0') + "', message " +
+                std::to_string(before + 6) + ": a message is damaged, or a newer camwayd wrote it" +
+                end);
 }
 
 TEST_F(NatsLogTest, SaysThatItIsFull) {
