@@ -17,6 +17,7 @@ std::string KeptState::load_into(scene::SceneStore& store, service::Log& log) {
   base::Result<std::vector<scene::SceneHistory>> histories = scenes_.load(store.limits().history);
   if (!histories) return std::move(histories.error);
   store.begin_above(log_->highest_removed());
+  store.remember_removals(log_->removals());
   log.info("scenes are durable", {{"kept_in", place_}, {"scenes", histories->size()}});
   for (scene::SceneHistory& history : *histories) {
     const scene::StoreResult adopted = store.adopt(std::move(history));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/scene/log/nats/nats_log_parts.h"
+#include "daemon/scene/log/removal_requests.h"
 
 namespace camway::scene {
 namespace {
@@ -217,11 +218,20 @@ AppendResult NatsLog::Parts::summarize(std::string_view scene, std::uint64_t rev
   return replace_all(scene, std::move(message), summary);
 }
 
-AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revision) {
+AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revision,
+                                    std::string_view request) {
   LogMessage message;
   message.kind = Kind::kRemoval;
   message.revision = revision;
-  return replace_all(scene, std::move(message), {});
+  std::string requests;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = chains_.find(scene);
+    if (found != chains_.end()) requests = removals_text(found->second);
+  }
+  requests = with_removal(requests, request);
+  const auto bytes = std::as_bytes(std::span<const char>(requests));
+  return replace_all(scene, std::move(message), {bytes.begin(), bytes.end()});
 }
 
 }  // namespace camway::scene
