@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "daemon/fleet/fleet_news.h"
 #include "daemon/scene/log/nats/nats_log.h"
 #include "lcmtypes/wire/channels.h"
 
@@ -96,13 +98,15 @@ FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> conne
       shared_log_(log.get()),
       state_(std::make_unique<KeptState>(fmt::format("fleet '{}'", options.name), std::move(log),
                                          options.patience)) {
-  connection_->on_change([log = service_log_](bool is_connected) {
-    if (is_connected) {
-      log->info("connected to the fleet again");
-    } else {
-      log->warn("the servers of the fleet cannot be reached; trying again");
-    }
-  });
+  // Called on one thread at a time.
+  connection_->on_change(
+      [news = std::make_shared<fleet::ConnectionLog>(service_log_)](bool is_connected) {
+        if (is_connected) {
+          news->made_again(std::nullopt);
+        } else {
+          news->lost(fleet::ConnectionLog::Clock::now());
+        }
+      });
 }
 
 std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store,

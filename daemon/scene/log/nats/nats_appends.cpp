@@ -35,10 +35,11 @@ AppendResult NatsLog::Parts::conflict(std::string_view scene, std::uint64_t newe
                                       ", not at " + std::to_string(expected)};
 }
 
-AppendResult NatsLog::Parts::unclear(const std::string& reason) const {
+AppendResult NatsLog::Parts::unreachable(const std::string& reason, bool may_be_sent) const {
   return {AppendFault::kBroken, place() + " cannot be reached: " + reason +
-                                    ". The change may still take effect; send the same request "
-                                    "again to know"};
+                                    (may_be_sent ? ". The change may still take effect; send the "
+                                                   "same request again to know"
+                                                 : "; nothing was changed")};
 }
 
 NatsLog::Parts::Head NatsLog::Parts::head_of(std::string_view scene, const MessageId& id) const {
@@ -83,9 +84,7 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
     return {AppendFault::kBroken, place() + " takes no scene with a name of that size"};
   }
   const std::string unchecked = check_tail(end);
-  if (!unchecked.empty()) {
-    return {AppendFault::kBroken, place() + " cannot be reached: " + unchecked};
-  }
+  if (!unchecked.empty()) return unreachable(unchecked, /*may_be_sent=*/false);
   // This process may not know yet that another one has changed the scene; then the server says so.
   const std::uint64_t newest = head_of(scene, message.id).revision;
   if (newest != expected) return conflict(scene, newest, expected);
@@ -103,14 +102,14 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
 
 AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
                                     LogMessage message, PatienceEnd end) {
-  bool is_unclear = false;
-  const auto give_up = [&](const std::string& reason) {
-    if (is_unclear) return unclear(reason);
-    return AppendResult{AppendFault::kBroken, place() + " cannot be reached: " + reason};
-  };
+  bool may_be_sent = false;
   for (;;) {
     const std::string unchecked = check_tail(end);
-    if (!unchecked.empty()) return give_up(unchecked);
+    if (!unchecked.empty()) return unreachable(unchecked, may_be_sent);
+    if (!connection_.is_connected()) {
+      if (pause_before_retry(end)) continue;
+      return unreachable("there is no connection to NATS", may_be_sent);
+    }
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
@@ -121,21 +120,29 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     const auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes),
                                        head.sequence, rest_of(end));
     if (done && options_.replicas == 1) {
-      const std::lock_guard lock(mutex_);
-      SceneChain& chain = chains_[std::string(scene)];
-      if (*done > chain.last_sequence()) chain.take(std::move(message), *done);
+      take_own(scene, std::move(message), *done);
       return {};
     }
+    const bool is_refused = !done && done.fault != StreamFault::kUnreachable;
     // A cluster may have accepted two at once, of which the first one counts: see which that is.
     if (done || done.fault == StreamFault::kConflict) {
+      may_be_sent = may_be_sent || done;
       const std::string fault = refresh(std::string(scene), end);
-      if (!fault.empty()) return give_up(fault);
-      continue;
+      if (!fault.empty()) return unreachable(fault, may_be_sent);
+    } else if (is_refused && !may_be_sent) {
+      return append_fault(done.fault, done.error);
+    } else {
+      // A refusal is not the answer to a message that was sent before.
+      may_be_sent = true;
+      if (is_refused || !pause_before_retry(end)) return unreachable(done.error, may_be_sent);
     }
-    if (done.fault != StreamFault::kUnreachable) return append_fault(done.fault, done.error);
-    is_unclear = true;
-    if (!pause_before_retry(end)) return give_up(done.error);
   }
+}
+
+void NatsLog::Parts::take_own(std::string_view scene, LogMessage message, std::uint64_t sequence) {
+  const std::lock_guard lock(mutex_);
+  SceneChain& chain = chains_[std::string(scene)];
+  if (sequence > chain.last_sequence()) chain.take(std::move(message), sequence);
 }
 
 std::string NatsLog::Parts::refresh(const std::string& scene, PatienceEnd end) {

@@ -117,7 +117,9 @@ class NatsLog::Parts {
   void purge_before_last(std::string_view scene, const MessageId& id, PatienceEnd end);
   [[nodiscard]] AppendResult conflict(std::string_view scene, std::uint64_t newest,
                                       std::uint64_t expected) const;
-  [[nodiscard]] AppendResult unclear(const std::string& reason) const;
+  [[nodiscard]] AppendResult unreachable(const std::string& reason, bool may_be_sent) const;
+  /// Adds a message to what is known, unless the follower did.
+  void take_own(std::string_view scene, LogMessage message, std::uint64_t sequence);
 
   /// Returns once the server has all that this process knows to be kept, or why that is not known.
   std::string check_tail(PatienceEnd end);
