@@ -56,6 +56,21 @@ scene::NatsLogOptions log_options(const FleetOptions& options,
   return log_options;
 }
 
+/// Logs a change that another process has made.
+void log_change(const scene::Snapshot& scene, bool is_removed, const scene::SceneStore& store,
+                service::LimitedLog& log) {
+  scene::ChangeNote note{.operation = "unload"};
+  if (!is_removed) {
+    const scene::SceneStore::Kept kept = store.kept(scene.name);
+    if (!kept.revisions.empty()) note = kept.revisions.back().note;
+  }
+  log.write("another process changed a scene", {{"client", note.client},
+                                                {"operation", note.operation},
+                                                {"scene", scene.name},
+                                                {"object", note.object},
+                                                {"revision", scene.revision}});
+}
+
 }  // namespace
 
 std::string member_id(const DaemonOptions& options) {
@@ -93,6 +108,7 @@ FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> conne
                          std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
                          std::shared_ptr<service::Log> service_log)
     : id_(std::move(id)),
+      role_(options.role),
       service_log_(std::move(service_log)),
       connection_(std::move(connection)),
       shared_log_(log.get()),
@@ -110,13 +126,23 @@ FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> conne
 }
 
 std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store,
+                                                          const service::LimitedLog::Limits& limits,
                                                           scene::SceneFollower::Advanced advanced) {
+  scene::SceneFollower::Changed changed;
+  if (role_ == FleetRole::kFront) {
+    // Called on the follower's thread alone, since limited logs are not thread-safe.
+    const auto lines = std::make_shared<service::LimitedLog>(service_log_, service::LogLevel::kInfo,
+                                                             "changes of others", limits);
+    changed = [lines, &store](const scene::Snapshot& scene, bool is_removed) {
+      log_change(scene, is_removed, store, *lines);
+    };
+  }
   return std::make_unique<scene::SceneFollower>(
       *shared_log_, state_->scenes(), store,
       [log = service_log_](const std::string& warning) {
         log->error("a change of the fleet is missing here", {{"reason", warning}});
       },
-      std::move(advanced));
+      std::move(advanced), std::move(changed));
 }
 
 }  // namespace camway::process

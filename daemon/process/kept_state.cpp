@@ -22,10 +22,11 @@ std::string KeptState::load_into(scene::SceneStore& store, service::Log& log) {
   for (scene::SceneHistory& history : *histories) {
     const scene::StoreResult adopted = store.adopt(std::move(history));
     if (!adopted.snapshot) return adopted.error;
-    log.info("scene found in the state", {{"scene", adopted.snapshot->name},
-                                          {"revision", adopted.snapshot->revision},
-                                          {"objects", adopted.snapshot->objects.size()},
-                                          {"digest", adopted.snapshot->digest}});
+    log.info(is_shared_ ? "scene found in the fleet" : "scene found in the state",
+             {{"scene", adopted.snapshot->name},
+              {"revision", adopted.snapshot->revision},
+              {"objects", adopted.snapshot->objects.size()},
+              {"digest", adopted.snapshot->digest}});
   }
   return {};
 }
