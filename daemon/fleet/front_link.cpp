@@ -18,6 +18,10 @@ std::int64_t first_job_number() {
   return static_cast<std::int64_t>(random() & kPositive) << 32;
 }
 
+/// Planners say something four times a second. If all of them became silent at once, none was heard
+/// for longer when the first one counts as lost.
+constexpr std::chrono::milliseconds kLatelyHeard{500};
+
 /// More than two words of a front that is alive, which come every tenth of a second.
 constexpr std::chrono::milliseconds kFrontWait{350};
 
@@ -74,7 +78,8 @@ FrontLink::FrontLink(nats::Bus& bus, PlannerBoard& board, Subjects subjects, std
       front_id_(std::move(front_id)),
       next_job_(first_job_number()),
       trouble_(log, service::LogLevel::kWarn, "planners", {}),
-      alarms_(log, service::LogLevel::kError, "differing answers", {}) {}
+      alarms_(log, service::LogLevel::kError, "differing answers", {}),
+      news_(log) {}
 
 bool FrontLink::open() {
   answers_ = bus_.subscribe(
@@ -154,6 +159,10 @@ void FrontLink::on_status(std::span<const std::uint8_t> bytes) try {
   const base::Result<planner_status_t> status = read_status(bytes);
   if (status) {
     board_.note(*status);
+    if (status->is_leaving == 0 || status->workers > 0) {
+      const std::lock_guard lock(log_mutex_);
+      news_.planner_heard(status->planner_id);
+    }
     if (!board_.takes_version(status->version)) warn_of_version(*status);
   } else {
     warn("a status of a planner cannot be read", {{"reason", status.error}});
@@ -229,8 +238,29 @@ void FrontLink::warn(std::string_view event, service::LogFields fields) {
   trouble_.write(event, fields);
 }
 
-void FrontLink::report_suppressed() {
+void FrontLink::planner_lost(PlannerLoss::Reason reason, const std::string& planner,
+                             const plan_request_t& request) {
+  if (!bus_.is_connected()) return;
+  const bool is_bus_heard = board_.is_any_heard_within(kLatelyHeard);
   const std::lock_guard lock(log_mutex_);
+  news_.planner_lost({reason, planner, request.client_id, request.request_id, is_bus_heard},
+                     FleetNews::Clock::now());
+}
+
+void FrontLink::connection_changed(bool is_connected) {
+  const auto now = FleetNews::Clock::now();
+  const std::lock_guard lock(log_mutex_);
+  if (is_connected) {
+    news_.connection_made(now);
+  } else {
+    news_.connection_lost(now);
+  }
+}
+
+void FrontLink::tick() {
+  const int planners = board_.alive();
+  const std::lock_guard lock(log_mutex_);
+  news_.tick(planners, FleetNews::Clock::now());
   trouble_.report_suppressed();
   alarms_.report_suppressed();
 }

@@ -18,6 +18,7 @@
 
 #include "daemon/fleet/answer_comparer.h"
 #include "daemon/fleet/fleet_messages.h"
+#include "daemon/fleet/fleet_news.h"
 #include "daemon/fleet/fleet_parts.h"
 #include "daemon/fleet/planner_board.h"
 #include "daemon/fleet/subjects.h"
@@ -98,8 +99,14 @@ class FrontLink {
 
   /// Logs trouble with a planner. Limited, since planners can provoke it.
   void warn(std::string_view event, service::LogFields fields);
-  /// Logs how many such lines were left out. To be called now and then.
-  void report_suppressed();
+  /// Logs that a planner is lost to a request, unless that is no news (`FleetNews`), or the
+  /// connection is lost, which is logged.
+  void planner_lost(PlannerLoss::Reason reason, const std::string& planner,
+                    const plan_request_t& request);
+  /// Takes in that the connection was lost or made again.
+  void connection_changed(bool is_connected);
+  /// Logs what is due. To be called several times a second.
+  void tick();
 
  private:
   void raise_alarm(const AnswerMark& given, const AnswerMark& other);
@@ -126,6 +133,7 @@ class FrontLink {
   mutable std::mutex log_mutex_;  ///< guards the members down to counts_
   service::LimitedLog trouble_;
   service::LimitedLog alarms_;
+  FleetNews news_;
   FrontCounts counts_;
 
   // Last: their handlers use all above.

@@ -128,6 +128,20 @@ int PlannerBoard::capacity_locked() const {
   return is_any_alive ? std::max(slots, 1) : 0;
 }
 
+int PlannerBoard::alive() const {
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = now_();
+  return static_cast<int>(std::ranges::count_if(
+      planners_, [&](const auto& entry) { return is_alive(entry.second, now); }));
+}
+
+bool PlannerBoard::is_any_heard_within(std::chrono::milliseconds time) const {
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = now_();
+  return std::ranges::any_of(planners_,
+                             [&](const auto& entry) { return now - entry.second.heard <= time; });
+}
+
 std::vector<fleet_planner_t> PlannerBoard::planners(std::int64_t newest) const {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = now_();

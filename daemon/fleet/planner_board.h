@@ -85,6 +85,11 @@ class PlannerBoard {
   /// jobs, without those that other fronts use; at least 1 if there is such a planner, else 0.
   [[nodiscard]] int capacity() const;
 
+  /// Returns how many planners are alive.
+  [[nodiscard]] int alive() const;
+  /// Returns whether any planner was heard within this time.
+  [[nodiscard]] bool is_any_heard_within(std::chrono::milliseconds time) const;
+
   /// Returns the planners that are not forgotten, by id. `newest`: position of the log that the
   /// front has read.
   [[nodiscard]] std::vector<fleet_planner_t> planners(std::int64_t newest) const;

@@ -26,7 +26,7 @@ void keep_ticking(const std::stop_token& stop, PlannerBoard& board, FrontLink& l
     stopped.wait_for(lock, stop, kTick, [] { return false; });
     board.tick();
     link.say_alive();
-    link.report_suppressed();
+    link.tick();
   }
 }
 

@@ -69,6 +69,10 @@ class RemoteAnswerer final : public service::PlanAnswerer {
   /// Thread-safe.
   void claim_id(bool claims) { link_.claim_id(claims); }
 
+  /// Takes in that the bus was lost or made again, for the log.
+  /// Thread-safe.
+  void connection_changed(bool is_connected) { link_.connection_changed(is_connected); }
+
   [[nodiscard]] FrontCounts counts() const { return link_.counts(); }
 
   /// Adds the fleet to a status: role, counts and planners. `newest`: the position of the log that

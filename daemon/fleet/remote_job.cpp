@@ -221,7 +221,7 @@ void RemoteJob::ask(const PlannerBoard::Planner& planner) {
   asked_.insert(planner.id);
   if (send()) return;
   avoided_.insert(planner);
-  lose_planner("the bus did not take the job");
+  lose_planner(PlannerLoss::Reason::kNotTaken);
 }
 
 void RemoteJob::count_sent_again() {
@@ -244,31 +244,28 @@ void RemoteJob::look_after_planner() {
   const Clock::time_point now = Clock::now();
   if (board_.has_ended(*planner_)) {
     if (!ended_since_) ended_since_ = now;
-    if (now - *ended_since_ >= kLastAnswerWait) lose_planner("it has ended");
+    if (now - *ended_since_ >= kLastAnswerWait) lose_planner(PlannerLoss::Reason::kEnded);
     return;
   }
   if (board_.is_lost(*planner_)) {
-    lose_planner("it was not heard");
+    lose_planner(PlannerLoss::Reason::kSilent);
     return;
   }
   if (now >= ends_ || now - heard_ < front_.options_.patience_silent) return;
   if (repeats_ >= kMostRepeats) {
     // It lives, so it would be chosen again.
     avoided_.insert(*planner_);
-    lose_planner("it says nothing of the job");
+    lose_planner(PlannerLoss::Reason::kIdle);
     return;
   }
   ++repeats_;
   count_sent_again();
-  if (!send()) lose_planner("the bus did not take the job");
+  if (!send()) lose_planner(PlannerLoss::Reason::kNotTaken);
 }
 
-void RemoteJob::lose_planner(std::string_view why) {
+void RemoteJob::lose_planner(PlannerLoss::Reason why) {
   has_lost_one_ = true;
-  link_.warn("a planner is lost to a request", {{"planner", planner_->id},
-                                                {"client", request_.client_id},
-                                                {"request", request_.request_id},
-                                                {"reason", why}});
+  link_.planner_lost(why, planner_->id, request_);
   leave_planner(PlannerBoard::Return::kEnded);
 }
 

@@ -45,7 +45,7 @@ class RemoteJob {
   void count_sent_again();
   /// Looks whether the planner that has the job still works at it.
   void look_after_planner();
-  void lose_planner(std::string_view why);
+  void lose_planner(PlannerLoss::Reason why);
   void leave_planner(PlannerBoard::Return why);
 
   [[nodiscard]] bool is_of_planner(const JobEvent& event) const {

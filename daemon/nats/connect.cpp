@@ -173,6 +173,15 @@ std::string words_of(natsStatus status) {
   return lower_case(std::string(end == std::string_view::npos ? all : all.substr(end + 3)));
 }
 
+/// Returns the library's words for the reason of a failure, or better ones where they mean little.
+std::string reason_of(natsStatus status, const ConnectOptions& options) {
+  std::string words = words_of(status);
+  const bool has_ended = words.find("expected 'pong', got ''") != std::string::npos;
+  if (!has_ended || !options.certificate_file.empty()) return words;
+  return "the server ended the connection: it may demand a client certificate "
+         "(fleet.certificate_file)";
+}
+
 /// Whether it is of no use to try again, since the server or a file says no.
 bool is_refusal(natsStatus status) {
   return status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED ||
@@ -196,7 +205,7 @@ FirstConnection try_servers(const ConnectOptions& options,
     static_cast<void>(closure.release());
     return {NatsHandle(connection, natsConnection_Destroy), "", false};
   }
-  return {nullptr, words_of(status), !is_set || is_refusal(status)};
+  return {nullptr, reason_of(status, options), !is_set || is_refusal(status)};
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "daemon/planning/request/request.h"
+#include "daemon/process/settings/bounds_text.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/mirror/scene_mirror.h"
@@ -60,6 +63,16 @@ std::shared_ptr<const scene::ObjectSource> source_of(scene::ImportResult read,
   }
   return scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh), std::move(read.report),
                             options);
+}
+
+std::string text_of(const std::optional<double>& number) {
+  return number ? fmt::format("{}", *number) : "none";
+}
+
+/// Returns whether a scene was made with the options that are said of the whole scene.
+bool has_options(const scene::Snapshot& kept, const SceneArgument& scene) {
+  return kept.options.occupancy_resolution_m == scene.options.occupancy_resolution_m &&
+         kept.options.bounds == scene.options.bounds;
 }
 
 bool same(const SceneArgument& a, const SceneArgument& b) {
@@ -138,7 +151,24 @@ void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) 
   }
 }
 
+// The note of this process says first that it drops the scene, and forgets the scene last. So if
+// the process ends in between, the next one begins again; and of two processes that drop a scene at
+// once, the second one to say so sees that the other one does, too, and removes it. A process that
+// begins to want the scene between the look at the notes and the removal loses it until its next
+// start.
 void ConfiguredScenes::remove(const std::string& name) {
+  origins_.mark_dropped(name, true);
+  const base::Result<std::string> other = origins_.other_owner_of(name);
+  if (!other) {
+    log_->warn("scene is not unloaded: it is not known whether another front configures it",
+               {{"scene", name}, {"reason", other.error}});
+    return;
+  }
+  if (!other->empty()) {
+    origins_.erase(name);
+    log_->info("scene kept: another front configures it", {{"scene", name}, {"front", *other}});
+    return;
+  }
   const scene::StoreResult removed = store_.remove(name);
   if (!removed.snapshot && removed.fault != scene::StoreFault::kUnknownScene) {
     log_->error("scene cannot be unloaded", {{"scene", name}, {"reason", removed.error}});
@@ -219,14 +249,25 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
 
 bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token& stop) {
   const SceneArgument& scene = wanted.scene;
-  const bool is_held =
-      std::ranges::any_of(held_, [&](const Held& held) { return held.scene.name == scene.name; });
-  const std::optional<FileStamp> stamp = stamp_in_log(scene);
+  if (std::ranges::any_of(held_, [&](const Held& held) { return held.scene.name == scene.name; })) {
+    return false;
+  }
+  const std::optional<SceneOrigins::Origin> origin = origins_.find(scene.name);
+  // Before the scene is looked for: others that drop it have to see that it is wanted.
+  if (is_shared_ && !origin) origins_.set(scene, {});
+  origins_.mark_dropped(scene.name, false);
   const auto kept = store_.find(scene.name);
-  if (is_held || !stamp || !kept) return false;
+  if (!kept || (!origin && !is_shared_)) return false;
+  const bool has_other_options =
+      origin && !origin->arguments.ends_with(SceneOrigins::scene_options_of(scene));
+  if (has_other_options && !has_options(*kept, scene)) return false;
   log_->info("scene kept",
              {{"scene", scene.name}, {"revision", kept->revision}, {"digest", kept->digest}});
-  if (*stamp == wanted.stamp) return true;
+  warn_of_options(*kept, scene);
+  if (origin && origin->stamp == wanted.stamp &&
+      origin->arguments == SceneOrigins::arguments_of(scene)) {
+    return true;
+  }
   if (wanted.stamp == FileStamp{}) {
     log_->warn("scene file is gone, what was kept of it stays",
                {{"scene", scene.name}, {"file", scene.file.string()}});
@@ -236,11 +277,15 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
   return true;
 }
 
-std::optional<FileStamp> ConfiguredScenes::stamp_in_log(const SceneArgument& scene) const {
-  const std::optional<SceneOrigins::Origin> origin = origins_.find(scene.name);
-  if (!origin) return is_shared_ ? std::optional(FileStamp()) : std::nullopt;
-  if (origin->arguments != SceneOrigins::arguments_of(scene)) return std::nullopt;
-  return origin->stamp;
+void ConfiguredScenes::warn_of_options(const scene::Snapshot& kept, const SceneArgument& scene) {
+  const auto warn = [&](std::string_view option, const std::string& made, const std::string& said) {
+    if (made == said) return;
+    log_->warn("scene was made with another option, which it keeps: unload it to have it made anew",
+               {{"scene", scene.name}, {"option", option}, {"kept", made}, {"configured", said}});
+  };
+  warn("occupancy_resolution_m", text_of(kept.options.occupancy_resolution_m),
+       text_of(scene.options.occupancy_resolution_m));
+  warn("bounds", bounds_text(kept.options.bounds), bounds_text(scene.options.bounds));
 }
 
 std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,

@@ -33,14 +33,16 @@ class ConfiguredScenes {
         is_shared_(!owner.empty()) {}
 
   /// Makes the store hold `wanted`, and removes the scenes of earlier calls, and of earlier
-  /// processes with the same log, that are no longer wanted. A scene that the log has is taken from
-  /// there. Where its file has changed since, the new content replaces that of the file, and what
-  /// clients added stays; where it cannot be read, the scene stays as it was, with a warning. Loads
-  /// scenes that are new, that are to be read with other options or whose file changed, and logs
-  /// what was read and assumed. If a scene cannot be loaded, or a stop is requested, changes
-  /// nothing but files that scenes of the log were made of, and returns false; a fault is logged
-  /// with the file and the reason. Also returns false if the store has no room for a scene; then
-  /// only that one is left out.
+  /// processes with the same log, that are no longer wanted, unless another process that shares the
+  /// log wants them. A scene that the log has is taken from there. Where its file or the options to
+  /// read it have changed since, the new content replaces that of the file, and what clients added
+  /// stays; where it cannot be read, the scene stays as it was, with a warning. Loads scenes that
+  /// are new, whose own options changed (occupancy, bounds), or that changed in any way since an
+  /// earlier call, and logs what was read and assumed. Warns of options of a scene that another
+  /// process or a client made in another way. If a scene cannot be loaded, or a stop is requested,
+  /// changes nothing but files that scenes of the log were made of, and returns false; a fault is
+  /// logged with the file and the reason. Also returns false if the store has no room for a scene;
+  /// then only that one is left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
   /// Returns the first scene that the last `update` could not load or hold, with the reason. Empty
@@ -76,8 +78,8 @@ class ConfiguredScenes {
                                                             const std::stop_token& stop);
   /// Warns if a scene that is put anew has objects of clients.
   void warn_of_losses(const std::string& name);
-  /// Returns what the scene was last read from, if it is in the log.
-  [[nodiscard]] std::optional<FileStamp> stamp_in_log(const SceneArgument& scene) const;
+  /// Warns of options with which the scene that is kept was not made.
+  void warn_of_options(const scene::Snapshot& kept, const SceneArgument& scene);
   void note_fault(const std::string& scene, const std::string& reason);
   void remove(const std::string& name);
   void remove_all_but(const std::vector<SceneArgument>& wanted);

@@ -230,12 +230,7 @@ class ServingDaemon {
   service::ServiceHooks hooks() {
     service::ServiceHooks hooks;
     hooks.ready = [this] {
-      log_->info("serving", {{"url", options_.lcm_url},
-                             {"prefix", options_.service.prefix},
-                             {"workers", options_.service.workers},
-                             {"scene_workers", options_.service.scene_workers},
-                             {"queue", options_.service.queue.jobs},
-                             {"client_queue", options_.service.queue.jobs_of_a_client}});
+      log_serving();
       manager_.ready("serving");
     };
     hooks.stopping = [this] {
@@ -246,6 +241,18 @@ class ServingDaemon {
     hooks.status = [this](status_t& status) { complete(status); };
     hooks.alive_period = manager_.alive_period();
     return hooks;
+  }
+
+  /// The workers of a front plan only while no planner can.
+  void log_serving() const {
+    log_->info("serving",
+               {{"url", options_.lcm_url},
+                {"prefix", options_.service.prefix},
+                {front_ ? "workers_without_planners" : "workers", options_.service.workers},
+                {"scene_workers", options_.service.scene_workers},
+                {"queue", options_.service.queue.jobs},
+                {"client_queue", options_.service.queue.jobs_of_a_client}});
+    if (front_) log_->info("planners plan", {{"planners", front_->planners()}});
   }
 
   /// Adds to a status what the service itself does not know.

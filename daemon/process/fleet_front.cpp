@@ -32,6 +32,10 @@ std::unique_ptr<FleetFront> FleetFront::open_or_log(const DaemonOptions& options
     return nullptr;
   }
   front->answerer_ = *std::move(opened);
+  // In the place of what the member logs: a front knows its planners, too.
+  member.connection().on_change([answerer = std::weak_ptr(front->answerer_)](bool is_connected) {
+    if (const auto alive = answerer.lock()) alive->connection_changed(is_connected);
+  });
   return front;
 }
 

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "daemon/fleet/fleet_news.h"
 #include "daemon/scene/log/nats/nats_log.h"
 #include "lcmtypes/wire/channels.h"
 
@@ -54,6 +56,21 @@ scene::NatsLogOptions log_options(const FleetOptions& options,
   return log_options;
 }
 
+/// Logs a change that another process has made.
+void log_change(const scene::Snapshot& scene, bool is_removed, const scene::SceneStore& store,
+                service::LimitedLog& log) {
+  scene::ChangeNote note{.operation = "unload"};
+  if (!is_removed) {
+    const scene::SceneStore::Kept kept = store.kept(scene.name);
+    if (!kept.revisions.empty()) note = kept.revisions.back().note;
+  }
+  log.write("another process changed a scene", {{"client", note.client},
+                                                {"operation", note.operation},
+                                                {"scene", scene.name},
+                                                {"object", note.object},
+                                                {"revision", scene.revision}});
+}
+
 }  // namespace
 
 std::string member_id(const DaemonOptions& options) {
@@ -91,28 +108,41 @@ FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> conne
                          std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
                          std::shared_ptr<service::Log> service_log)
     : id_(std::move(id)),
+      role_(options.role),
       service_log_(std::move(service_log)),
       connection_(std::move(connection)),
       shared_log_(log.get()),
       state_(std::make_unique<KeptState>(fmt::format("fleet '{}'", options.name), std::move(log),
                                          options.patience)) {
-  connection_->on_change([log = service_log_](bool is_connected) {
-    if (is_connected) {
-      log->info("connected to the fleet again");
-    } else {
-      log->warn("the servers of the fleet cannot be reached; trying again");
-    }
-  });
+  // Called on one thread at a time.
+  connection_->on_change(
+      [news = std::make_shared<fleet::ConnectionLog>(service_log_)](bool is_connected) {
+        if (is_connected) {
+          news->made_again(std::nullopt);
+        } else {
+          news->lost(fleet::ConnectionLog::Clock::now());
+        }
+      });
 }
 
 std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store,
+                                                          const service::LimitedLog::Limits& limits,
                                                           scene::SceneFollower::Advanced advanced) {
+  scene::SceneFollower::Changed changed;
+  if (role_ == FleetRole::kFront) {
+    // Called on the follower's thread alone, since limited logs are not thread-safe.
+    const auto lines = std::make_shared<service::LimitedLog>(service_log_, service::LogLevel::kInfo,
+                                                             "changes of others", limits);
+    changed = [lines, &store](const scene::Snapshot& scene, bool is_removed) {
+      log_change(scene, is_removed, store, *lines);
+    };
+  }
   return std::make_unique<scene::SceneFollower>(
       *shared_log_, state_->scenes(), store,
       [log = service_log_](const std::string& warning) {
         log->error("a change of the fleet is missing here", {{"reason", warning}});
       },
-      std::move(advanced));
+      std::move(advanced), std::move(changed));
 }
 
 }  // namespace camway::process

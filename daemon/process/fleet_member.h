@@ -9,6 +9,7 @@
 #include "daemon/process/settings/daemon_options.h"
 #include "daemon/scene/log/scene_follower.h"
 #include "daemon/scene/log/shared_log.h"
+#include "daemon/service/log/limited_log.h"
 #include "daemon/service/log/log.h"
 
 namespace camway::process {
@@ -32,9 +33,10 @@ class FleetMember {
 
   /// Brings the changes of other processes into `store` as long as the returned object lives.
   /// Requires that the state was loaded into the store, and that both outlive it. `advanced` is as
-  /// in `SceneFollower`.
+  /// in `SceneFollower`. A front logs each of these changes, within `limits`.
   [[nodiscard]] std::unique_ptr<scene::SceneFollower> follow(
-      scene::SceneStore& store, scene::SceneFollower::Advanced advanced = {});
+      scene::SceneStore& store, const service::LimitedLog::Limits& limits,
+      scene::SceneFollower::Advanced advanced = {});
 
  private:
   FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
@@ -42,6 +44,7 @@ class FleetMember {
               std::shared_ptr<service::Log> service_log);
 
   const std::string id_;
+  const FleetRole role_;
   const std::shared_ptr<service::Log> service_log_;
   const std::unique_ptr<nats::Connection> connection_;
   scene::SharedLog* const shared_log_;  ///< owned by `state_`

@@ -26,7 +26,10 @@ class KeptState {
   /// daemon; `patience` is that of `DurableScenes`.
   KeptState(std::string place, std::unique_ptr<scene::SceneLog> log,
             std::chrono::milliseconds patience)
-      : place_(std::move(place)), log_(std::move(log)), scenes_(*log_, patience) {}
+      : place_(std::move(place)),
+        is_shared_(patience.count() > 0),
+        log_(std::move(log)),
+        scenes_(*log_, patience) {}
 
   /// The log and the scenes in it live as long as this.
   [[nodiscard]] scene::SceneLog& log() { return *log_; }
@@ -38,6 +41,7 @@ class KeptState {
 
  private:
   const std::string place_;
+  const bool is_shared_;  ///< other processes write the log, too
   std::unique_ptr<scene::SceneLog> log_;
   scene::DurableScenes scenes_;
 };

@@ -86,7 +86,8 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
       !fault.empty()) {
     return state_fault(options, fault, *log);
   }
-  const auto follower = keeper.fleet ? keeper.fleet->follow(scenes) : nullptr;
+  const auto follower =
+      keeper.fleet ? keeper.fleet->follow(scenes, options.service.log_limits) : nullptr;
   process::ConfiguredScenes configured(scenes, log, open_cache(options, *log),
                                        state != nullptr ? &state->log() : nullptr,
                                        keeper.fleet ? process::member_id(options) : "");

@@ -107,10 +107,11 @@ int run_planner(const DaemonOptions& options, const std::shared_ptr<service::Log
     log->error("no jobs can be taken", {{"reason", server.error}});
     return kExitNoFleet;
   }
-  const auto follower = member->follow(scenes, [&](std::uint64_t followed) {
-    position.store(followed);
-    (*server)->position_changed();
-  });
+  const auto follower =
+      member->follow(scenes, options.service.log_limits, [&](std::uint64_t followed) {
+        position.store(followed);
+        (*server)->position_changed();
+      });
   plan_until_stopped(**server, options, *log);
   return EXIT_SUCCESS;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "daemon/process/settings/scene_argument.h"
 #include "daemon/scene/log/scene_log.h"
 
@@ -36,23 +37,33 @@ class SceneOrigins {
   struct Origin {
     std::string arguments;  ///< `arguments_of` the scene
     FileStamp stamp;
+    bool is_dropped = false;  ///< the scene is no longer wanted, but may not be removed yet
   };
   /// Returns the origin of a scene; nothing if it is not known.
   [[nodiscard]] std::optional<Origin> find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> names() const;
 
   void set(const SceneArgument& scene, const FileStamp& stamp);
+  /// Notes that the scene is no longer wanted, or that it is wanted after all.
+  void mark_dropped(const std::string& name, bool is_dropped);
   void erase(const std::string& name);
+
+  /// Returns another owner whose note has the scene, and wants it; empty if there is none. Fails if
+  /// the notes cannot be read.
+  [[nodiscard]] base::Result<std::string> other_owner_of(const std::string& name) const;
 
   /// Returns a text that is equal for scenes that are read alike from the same file.
   static std::string arguments_of(const SceneArgument& scene);
   /// Returns a text that is equal for scenes that are read alike.
   static std::string options_of(const SceneArgument& scene);
+  /// Returns the end of both texts: options of the whole scene, not of the object of the file.
+  static std::string scene_options_of(const SceneArgument& scene);
 
  private:
   void save();
 
   scene::SceneLog* log_;
+  const bool is_shared_;
   const std::string note_key_;
   std::map<std::string, Origin, std::less<>> origins_;
 };

@@ -27,12 +27,15 @@ scene::Keeping WarningJournal::keep_changes(const scene::Snapshot& before,
   return warned(before.name, journal_.keep_changes(before, next, changes, note, oldest_revision));
 }
 
-scene::Keeping WarningJournal::keep_removal(const scene::Snapshot& last) {
-  return warned(last.name, journal_.keep_removal(last));
+scene::Keeping WarningJournal::keep_removal(const scene::Snapshot& last,
+                                            const std::string& request) {
+  return warned(last.name, journal_.keep_removal(last, request));
 }
 
 bool WarningJournal::await_other(const std::string& scene, std::uint64_t revision) {
   return journal_.await_other(scene, revision);
 }
+
+bool WarningJournal::catch_up() { return journal_.catch_up(); }
 
 }  // namespace camway::process

@@ -24,8 +24,9 @@ class WarningJournal : public scene::SceneJournal {
   scene::Keeping keep_changes(const scene::Snapshot& before, const scene::Snapshot& next,
                               const scene::SceneChanges& changes, const scene::ChangeNote& note,
                               std::uint64_t oldest_revision) override;
-  scene::Keeping keep_removal(const scene::Snapshot& last) override;
+  scene::Keeping keep_removal(const scene::Snapshot& last, const std::string& request) override;
   bool await_other(const std::string& scene, std::uint64_t revision) override;
+  bool catch_up() override;
 
  private:
   scene::Keeping warned(const std::string& scene, scene::Keeping keeping);

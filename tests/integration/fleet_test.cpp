@@ -531,6 +531,42 @@ TEST_F(FleetTest, AFrontWhoseIdAnotherOneHasChangesNoScene) {
   EXPECT_EQ(three.wait(), 0);
 }
 
+TEST_F(FleetTest, ASceneStaysWhileAFrontConfiguresIt) {
+  start_front("ONE");
+  start_front("TWO");
+  front("ONE").signal(SIGTERM);
+  ASSERT_EQ(front("ONE").wait(), 0);
+  Process without({CAMWAYD_BINARY, "--role", "front", "--fleet", server_.url(), "--prefix", "ONE",
+                   "--scene", "maze=" + scene_file("maze")},
+                  file("without.log"));
+  Client client(of_prefix("ONE"));
+  ASSERT_TRUE(eventually([&] { return client.describe_scene("maze").ok(); }));
+  EXPECT_THAT(without.output(), HasSubstr("scene kept: another front configures it"));
+  EXPECT_TRUE(client.describe_scene("office").ok());
+  EXPECT_TRUE(Client(of_prefix("TWO")).describe_scene("office").ok());
+  without.signal(SIGTERM);
+  EXPECT_EQ(without.wait(), 0);
+}
+
+TEST_F(FleetTest, AChangeThroughAnotherFrontIsKnownAtOnceAndLogged) {
+  start_front("ONE");
+  start_front("TWO");
+  Client one(of_prefix("ONE"));
+  Client two(of_prefix("TWO"));
+  for (int i = 0; i < 30; ++i) {
+    const std::string yard = "yard" + std::to_string(i);
+    ASSERT_TRUE(one.load_scene(yard, {}).ok());
+    const SceneAnswer put = two.put_object(yard, "crate", SceneBox{{1, 1, 1}}, beside(0.0));
+    ASSERT_TRUE(put.ok()) << put.error;
+    const SceneAnswer moved = one.move_object(yard, "crate", beside(1.0));
+    ASSERT_TRUE(moved.ok()) << moved.error;
+    ASSERT_TRUE(two.unload_scene(yard).ok());
+    EXPECT_EQ(one.move_object(yard, "crate", beside(2.0)).status, Status::kUnknownScene);
+  }
+  EXPECT_THAT(front("TWO").output(), HasSubstr("another process changed a scene"));
+  EXPECT_THAT(front("TWO").output(), HasSubstr("operation=move scene=yard0 object=crate"));
+}
+
 TEST_F(FleetTest, SaysWhyThereIsNoWayIntoTheFleet) {
   server_.kill();
   write_file(file("planner.toml"), "[fleet]\npatience_s = 0.5\n");

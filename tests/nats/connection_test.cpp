@@ -183,6 +183,9 @@ TEST(NatsConnection, HasACertificateOfItsOwn) {
   ConnectOptions options = options_for({"tls://localhost:" + std::to_string(server.port())});
   options.ca_file = certificates.ca();
   EXPECT_NE(why_not(options), "");
+  EXPECT_NE(why_not(options).find("it may demand a client certificate (fleet.certificate_file)"),
+            std::string::npos)
+      << why_not(options);
   options.certificate_file = certificates.client();
   options.key_file = certificates.client_key();
   EXPECT_NE(connected(options), nullptr);

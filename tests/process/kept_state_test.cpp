@@ -99,12 +99,39 @@ TEST_F(KeptStateTest, AFileThatIsGoneLeavesWhatWasKept) {
   EXPECT_THAT(log_.text(), HasSubstr("scene file is gone"));
 }
 
-TEST_F(KeptStateTest, OtherOptionsBeginAHistory) {
+TEST_F(KeptStateTest, AnotherWayToReadTheFileReplacesItsOwnObject) {
   first_process();
   Started next(state(), log_);
   ASSERT_TRUE(next.configured->update({room(2.0)}));
+  EXPECT_EQ(next.store.find("room")->revision, 3U);
+  EXPECT_DOUBLE_EQ(next.store.find("room")->find("room")->source->report.scale, 2.0);
+  EXPECT_NE(next.store.find("room")->find("crate"), nullptr);
+}
+
+TEST_F(KeptStateTest, OtherOptionsOfTheSceneBeginAHistory) {
+  first_process();
+  Started next(state(), log_);
+  SceneArgument with_map = room();
+  with_map.options.occupancy_resolution_m = 0.5;
+  ASSERT_TRUE(next.configured->update({with_map}));
   EXPECT_EQ(next.store.find("room")->revision, 3U) << "revisions never fall";
+  EXPECT_TRUE(next.store.find("room")->occupancy);
   EXPECT_EQ(next.store.find("room")->find("crate"), nullptr);
+}
+
+TEST_F(KeptStateTest, RemembersWhoRemovedAScene) {
+  first_process();
+  {
+    Started next(state(), log_);
+    ASSERT_TRUE(next.store.remove("room", {}, "request 1").snapshot);
+  }
+  Started last(state(), log_);
+  EXPECT_TRUE(last.store.removed_by("request 1"));
+  EXPECT_FALSE(last.store.removed_by("request 2"));
+  // A new scene of that name is not the one that the request removed.
+  ASSERT_TRUE(last.configured->update({room()}));
+  EXPECT_EQ(last.store.remove("room", {}, "request 1").fault, scene::StoreFault::kNone);
+  EXPECT_TRUE(last.store.find("room"));
 }
 
 TEST_F(KeptStateTest, ASceneThatIsNotConfiguredAnyMoreGoes) {

@@ -68,8 +68,9 @@ planning::PlanResult echo_result(const planning::PlanRequest& request) {
 }
 
 RunningService::RunningService(const service::ServiceConfig& config, FakePlanner::Result result,
-                               service::ServiceHooks hooks, const scene::SceneStoreLimits& limits)
-    : scenes(limits), planner(std::move(result)), channels{config.prefix} {
+                               service::ServiceHooks hooks, const scene::SceneStoreLimits& limits,
+                               scene::SceneJournal* journal)
+    : scenes(limits, journal), planner(std::move(result)), channels{config.prefix} {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));
   service_.emplace(

@@ -60,7 +60,8 @@ class RunningService {
   explicit RunningService(const service::ServiceConfig& config = {},
                           FakePlanner::Result result = echo_result,
                           service::ServiceHooks hooks = {},
-                          const scene::SceneStoreLimits& limits = {});
+                          const scene::SceneStoreLimits& limits = {},
+                          scene::SceneJournal* journal = nullptr);
   /// `planner` is not asked then.
   RunningService(const service::ServiceConfig& config,
                  std::shared_ptr<service::PlanAnswerer> answerer);

@@ -22,6 +22,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
+#include "tools/camway/plan/plan_summary.h"
 #include "tools/camway/scene/scene_text.h"
 
 namespace camway::tools {
@@ -240,12 +241,13 @@ void print_fleet(const DaemonStatus& status) {
     return planner.silent_s < kPlannerSilence_s;
   });
   fmt::print(
-      "fleet        {} planners; {} requests were sent again, {} planned by the front; {}\n", heard,
-      status.jobs_sent_again, status.planned_here,
+      "fleet        {}; {} sent again, {} planned by the front; {}\n",
+      plural(static_cast<std::size_t>(heard), "planner"),
+      plural(static_cast<std::size_t>(status.jobs_sent_again), "request"), status.planned_here,
       status.log_in_touch ? "the log of scenes is in touch" : "the log of scenes is OUT OF REACH");
   if (status.differing_answers > 0) {
-    fmt::print("differing    {} requests had DIFFERENT ANSWERS of two planners; see the log\n",
-               status.differing_answers);
+    fmt::print("differing    {} had DIFFERENT ANSWERS of two planners; see the log\n",
+               plural(static_cast<std::size_t>(status.differing_answers), "request"));
   }
   for (const FleetPlanner& planner : status.planners) {
     fmt::print("  {}: {} of {} plan, host {}, process {}, {}{}{}, {}\n", planner.id,

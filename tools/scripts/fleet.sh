@@ -108,6 +108,8 @@ for ((number = 1; number <= planners; ++number)); do
   await_line "$folder/planner-$number.log" "planning" "${parts[number + 1]}" ||
     fail "planner $number does not start: see $folder/planner-$number.log"
 done
-say "ready: front, $planners planners, server $kServer; logs in $folder"
+plural=s
+if [[ $planners == 1 ]]; then plural=; fi
+say "ready: front, $planners planner$plural, server $kServer; logs in $folder"
 wait -n "${parts[0]}" "${parts[1]}" || true
 fail "the front or the server of NATS ended: see $folder"

@@ -13,8 +13,11 @@ namespace camway::process {
 /// Returns the faults of values that contradict each other.
 std::vector<std::string> contradictions(const DaemonOptions& options);
 
-/// Returns the faults of the key file and of the address for metrics if this machine lacks them.
-/// Changes nothing.
+/// Returns the faults of the files for the way into a fleet that cannot be read. Changes nothing.
+std::vector<std::string> missing_fleet_files(const DaemonOptions& options);
+
+/// Returns the faults of these files, of the key file and of the address for metrics if this
+/// machine lacks them. Changes nothing.
 std::vector<std::string> missing_things(const DaemonOptions& options);
 
 }  // namespace camway::process

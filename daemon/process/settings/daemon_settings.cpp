@@ -58,20 +58,41 @@ std::string fault_of_member(const std::string& text) {
                      wire::kMaxClientIdLength);
 }
 
-std::string fault_of_servers(const std::string& text) {
-  for (const std::string& server : servers_of(text)) {
-    if (!server.starts_with("nats://") && !server.starts_with("tls://")) {
-      return fmt::format("'{}' begins neither with nats:// nor with tls://",
-                         wire::printable(server));
-    }
-  }
-  return {};
-}
-
 /// Returns a list of URLs without the names and passwords of users in them.
 std::string without_users(std::string list) {
   static const std::regex kUser("://[^/@,]*@");
   return std::regex_replace(list, kUser, "://");
+}
+
+/// Returns what is wrong with the URL of a server of NATS.
+std::string fault_of_server(const std::string& server) {
+  constexpr int kLargestPort = 65'535;
+  const auto fault = [&](std::string_view what) {
+    return fmt::format("'{}' {}", wire::printable(without_users(server)), what);
+  };
+  // User and password, a host or an address of IPv6 in brackets, and a port.
+  static const std::regex kForm(
+      R"((?:nats|tls)://(?:[^/@]*@)?(\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]*)(?::([^/:]*))?/?)");
+  if (!server.starts_with("nats://") && !server.starts_with("tls://")) {
+    return fault("begins neither with nats:// nor with tls://");
+  }
+  std::smatch parts;
+  if (!std::regex_match(server, parts, kForm)) return fault("must be nats://HOST:PORT");
+  if (parts[1].length() == 0) return fault("names no host");
+  if (!parts[2].matched) return {};
+  const std::string port = parts[2].str();
+  int number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  const bool is_port = error == std::errc{} && end == port.data() + port.size() && number >= 1 &&
+                       number <= kLargestPort;
+  return is_port ? "" : fault(fmt::format("must have a port within 1 to {}", kLargestPort));
+}
+
+std::string fault_of_servers(const std::string& text) {
+  for (const std::string& server : servers_of(text)) {
+    if (std::string fault = fault_of_server(server); !fault.empty()) return fault;
+  }
+  return {};
 }
 
 std::string fault_of_address(const std::string& text) {

@@ -183,8 +183,8 @@ void DurableScenes::summarize(const std::string& name, Kept& kept, std::uint64_t
   sources_.forget_unused();
 }
 
-Keeping DurableScenes::keep_removal(const Snapshot& last) {
-  AppendResult removed = log_.remove(last.name, last.revision);
+Keeping DurableScenes::keep_removal(const Snapshot& last, const std::string& request) {
+  AppendResult removed = log_.remove(last.name, last.revision, request);
   if (removed.fault != AppendFault::kNone) return not_kept(std::move(removed));
   note_newest(last.name, 0);
   forget(last.name);

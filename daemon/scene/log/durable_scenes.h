@@ -28,8 +28,8 @@ namespace camway::scene {
 /// Thread-safe, as `SceneJournal` demands.
 class DurableScenes : public SceneJournal {
  public:
-  /// Refers to `log`, which must outlive it. `patience`: how long `await_other` waits; 0 if no
-  /// other process writes the log.
+  /// Refers to `log`, which must outlive it. `patience`: how long `await_other` and `catch_up`
+  /// wait; 0 if no other process writes the log.
   explicit DurableScenes(SceneLog& log,
                          std::chrono::milliseconds patience = std::chrono::milliseconds(0));
   ~DurableScenes() override;
@@ -55,8 +55,9 @@ class DurableScenes : public SceneJournal {
   Keeping keep_scene(const Snapshot& first, std::uint64_t before, const ChangeNote& note) override;
   Keeping keep_changes(const Snapshot& before, const Snapshot& next, const SceneChanges& changes,
                        const ChangeNote& note, std::uint64_t oldest_revision) override;
-  Keeping keep_removal(const Snapshot& last) override;
+  Keeping keep_removal(const Snapshot& last, const std::string& request) override;
   bool await_other(const std::string& scene, std::uint64_t revision) override;
+  bool catch_up() override { return log_.catch_up(patience_); }
 
  private:
   struct Kept {

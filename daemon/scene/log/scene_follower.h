@@ -20,11 +20,15 @@ class SceneFollower {
   /// were warned of.
   using Advanced = std::function<void(std::uint64_t position)>;
 
+  /// Called when a change that another process has made is in the store: with the newest snapshot
+  /// of the scene, or the last one of a scene that was removed.
+  using Changed = std::function<void(const Snapshot& scene, bool is_removed)>;
+
   /// Requires that `log`, `scenes` and `store` outlive this, that `scenes` keeps `store` in `log`
-  /// or nothing does, and that the scenes of the log were loaded into the store. `warn` and
-  /// `advanced` are called on another thread; `advanced` when `position` has changed.
+  /// or nothing does, and that the scenes of the log were loaded into the store. `warn`,
+  /// `advanced` and `changed` are called on another thread; `advanced` when `position` has changed.
   SceneFollower(SharedLog& log, DurableScenes& scenes, SceneStore& store, Warn warn,
-                Advanced advanced = {});
+                Advanced advanced = {}, Changed changed = {});
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -37,6 +41,7 @@ class SceneFollower {
   SceneStore& store_;
   const Warn warn_;
   const Advanced advanced_;
+  const Changed changed_;
   std::uint64_t position_;
 };
 

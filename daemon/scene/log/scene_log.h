@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,10 +83,14 @@ class SceneLog {
   /// blobs. Requires that a change made `revision`, and that no summary of a later one is there.
   virtual AppendResult summarize(std::string_view scene, std::uint64_t revision,
                                  const Bytes& summary, const std::vector<BlobId>& needs) = 0;
-  /// Removes a scene if its newest revision is `revision`, and remembers the revision.
-  virtual AppendResult remove(std::string_view scene, std::uint64_t revision) = 0;
+  /// Removes a scene if its newest revision is `revision`, and remembers the revision and the
+  /// `request` for it (`ChangeNote::request`); empty: none.
+  virtual AppendResult remove(std::string_view scene, std::uint64_t revision,
+                              std::string_view request = {}) = 0;
   /// The highest revision of all scenes that were removed.
   [[nodiscard]] virtual std::uint64_t highest_removed() = 0;
+  /// The requests of the last removals, some hundred (`removal_requests.h`).
+  [[nodiscard]] virtual std::vector<std::string> removals() = 0;
 
   /// Returns a blob that the owner of the log still has, in other form; nothing if it has not.
   using LostBlob = std::function<std::optional<Blob>(const BlobId&)>;
@@ -106,6 +112,14 @@ class SceneLog {
   /// A text that is kept under a key; empty if there is none.
   [[nodiscard]] virtual std::string note(std::string_view key) = 0;
   virtual AppendResult set_note(std::string_view key, std::string_view text) = 0;
+  /// All notes whose keys begin with `prefix`, by key, without empty ones. Fails if they cannot be
+  /// read.
+  virtual base::Result<std::map<std::string, std::string>> notes(std::string_view prefix) = 0;
+
+  /// Waits until this process has taken in all that other processes had appended when this was
+  /// called. Returns false if that takes longer than `patience`, or if no other process writes the
+  /// log.
+  virtual bool catch_up(std::chrono::milliseconds /*patience*/) { return false; }
 
   /// Drops the blobs that nothing needs, directly or through another blob.
   virtual AppendResult drop_unused_blobs() = 0;

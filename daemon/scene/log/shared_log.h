@@ -14,7 +14,8 @@ struct LogUpdate {
   enum class Kind : std::uint8_t {
     kEntry,    ///< `entry` was appended
     kSummary,  ///< `entry.record` is a summary up to `entry.revision`; the rest of it is empty
-    kRemoval   ///< the scene was removed at `entry.revision`; the rest of it is empty
+    kRemoval   ///< the scene was removed at `entry.revision`; `entry.record` is a text of
+               ///< requests (`removal_requests.h`), the rest of it is empty
   };
   Kind kind = Kind::kEntry;
   std::string scene;

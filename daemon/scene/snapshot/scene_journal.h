@@ -41,12 +41,17 @@ class SceneJournal {
                                const SceneChanges& changes, const ChangeNote& note,
                                std::uint64_t oldest_revision) = 0;
 
-  /// Keeps that a scene is removed, whose newest snapshot is `last`.
-  virtual Keeping keep_removal(const Snapshot& last) = 0;
+  /// Keeps that a scene is removed, whose newest snapshot is `last`. `request` names the request
+  /// for it (`ChangeNote::request`); empty: none.
+  virtual Keeping keep_removal(const Snapshot& last, const std::string& request) = 0;
 
   /// Waits until another process's change of a scene has arrived, whose newest revision was
   /// `revision` here (0: there was none). Returns false if none comes.
   virtual bool await_other(const std::string& scene, std::uint64_t revision) = 0;
+
+  /// Waits until all changes have arrived that other processes had made when this was called.
+  /// Returns false if that takes too long, or if no other process changes scenes.
+  virtual bool catch_up() = 0;
 };
 
 }  // namespace camway::scene

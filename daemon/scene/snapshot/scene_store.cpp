@@ -34,6 +34,9 @@ StoreResult result_of(Keeping keeping) {
 /// a change, so all together never stand still.
 constexpr std::chrono::seconds kOutrunPatience{30};
 
+/// Requests of removals that are remembered, about as many as changes of one scene.
+constexpr std::size_t kMostRemovals = 1024;
+
 }  // namespace
 
 SceneStore::ChangeLock::ChangeLock(SceneStore& store, std::string_view scene) : store_(store) {
@@ -325,21 +328,40 @@ void SceneStore::forget_history() {
   }
 }
 
-StoreResult SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
-  return until_not_outrun(scene, [&] { return remove_once(scene, ticket); });
+StoreResult SceneStore::remove(std::string_view scene, const ChangeTicket& ticket,
+                               const std::string& request) {
+  return until_not_outrun(scene, [&] { return remove_once(scene, ticket, request); });
 }
 
-StoreResult SceneStore::remove_once(std::string_view scene, const ChangeTicket& ticket) {
+StoreResult SceneStore::remove_once(std::string_view scene, const ChangeTicket& ticket,
+                                    const std::string& request) {
   const ChangeLock turn(*this, scene);
+  // There may be a new scene of that name.
+  if (removed_by(request)) return {};
   const std::shared_ptr<const Snapshot> last = find(scene);
   if (!last) return unknown(scene);
   if (!ticket.try_commit()) return cancelled();
   if (journal_ != nullptr) {
-    Keeping keeping = journal_->keep_removal(*last);
+    Keeping keeping = journal_->keep_removal(*last, request);
     if (keeping.fault != KeepFault::kNone) return result_of(std::move(keeping));
   }
+  if (!request.empty()) remember_removals({request});
   take_out(scene, last->revision);
   return {last, StoreFault::kNone, ""};
+}
+
+bool SceneStore::removed_by(const std::string& request) const {
+  const std::lock_guard lock(mutex_);
+  return !request.empty() && std::ranges::count(removals_, request) > 0;
+}
+
+void SceneStore::remember_removals(const std::vector<std::string>& requests) {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& request : requests) {
+    if (std::ranges::count(removals_, request) > 0) continue;
+    removals_.push_back(request);
+    if (removals_.size() > kMostRemovals) removals_.pop_front();
+  }
 }
 
 void SceneStore::take_out(std::string_view scene, std::uint64_t last_revision) {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -103,8 +104,18 @@ class SceneStore {
   [[nodiscard]] std::shared_ptr<const Snapshot> changed_by(std::string_view scene,
                                                            const std::string& request) const;
 
-  /// Removes a scene. Returns its last snapshot.
-  StoreResult remove(std::string_view scene, const ChangeTicket& ticket = {});
+  /// Removes a scene. Returns its last snapshot; neither a snapshot nor a fault if `request`, which
+  /// is as `ChangeNote::request`, has removed it before.
+  StoreResult remove(std::string_view scene, const ChangeTicket& ticket = {},
+                     const std::string& request = "");
+  /// Returns whether this request made one of the last removals.
+  [[nodiscard]] bool removed_by(const std::string& request) const;
+  /// Takes in requests that have removed scenes, of earlier or of other processes.
+  void remember_removals(const std::vector<std::string>& requests);
+
+  /// Waits for the changes that other processes have made, as `SceneJournal::catch_up` does.
+  /// Returns false without a journal.
+  bool catch_up() { return journal_ != nullptr && journal_->catch_up(); }
 
   /// Changes that another process has made, and kept in the journal, of the newest revision.
   struct OthersChanges {
@@ -183,7 +194,8 @@ class SceneStore {
                           const ChangeTicket& ticket);
   StoreResult restore_once(std::string_view scene, std::uint64_t revision, ChangeNote note,
                            const ChangeTicket& ticket);
-  StoreResult remove_once(std::string_view scene, const ChangeTicket& ticket);
+  StoreResult remove_once(std::string_view scene, const ChangeTicket& ticket,
+                          const std::string& request);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
   /// Requires that the caller holds the scene's `ChangeLock` and that `before` is its newest
   /// snapshot.
@@ -247,6 +259,7 @@ class SceneStore {
   Scenes scenes_;
   Usage total_;                        ///< sum over `scenes_`, and what is reserved
   std::uint64_t highest_removed_ = 0;  ///< highest revision of removed scenes
+  std::deque<std::string> removals_;   ///< requests of the last removals, oldest first
 };
 
 }  // namespace camway::scene

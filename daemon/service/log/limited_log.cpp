@@ -5,14 +5,15 @@
 
 namespace camway::service {
 
-void LimitedLog::write(std::string_view event, LogFields fields, Clock::time_point now) {
-  if (!log_->writes(level_)) return;
+bool LimitedLog::write(std::string_view event, LogFields fields, Clock::time_point now) {
+  if (!log_->writes(level_)) return false;
   report_suppressed(now);
   if (!bucket_.take(now)) {
     ++suppressed_;
-    return;
+    return false;
   }
   log_->write(level_, event, fields);
+  return true;
 }
 
 void LimitedLog::report_suppressed(Clock::time_point now) {

@@ -34,8 +34,8 @@ class LimitedLog {
         kind_(std::move(kind)),
         bucket_(limits.lines_per_s, limits.burst_lines) {}
 
-  /// Logs a line, or only counts it.
-  void write(std::string_view event, LogFields fields = {}, Clock::time_point now = Clock::now());
+  /// Logs a line, or only counts it. Returns whether it was logged.
+  bool write(std::string_view event, LogFields fields = {}, Clock::time_point now = Clock::now());
 
   /// Logs how many lines were suppressed since the last report, if there are any, a report is due
   /// and the limit permits a line. The owner must call it from time to time, because after the last

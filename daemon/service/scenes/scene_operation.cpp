@@ -59,6 +59,13 @@ std::string warnings_of(const scene::ImportReport& report) {
   return text;
 }
 
+/// Returns whether a change may be refused only because this process has not read yet what another
+/// one has made of the scene.
+bool is_refused_for_its_scene(const Answer& answer) {
+  return answer.status == Answer::STATUS_UNKNOWN_SCENE || answer.status == Answer::STATUS_INVALID ||
+         answer.status == Answer::STATUS_NO_MAP;
+}
+
 /// Carries out one request.
 class SceneOperation {
  public:
@@ -179,7 +186,8 @@ class SceneOperation {
   }
 
   Answer unload() {
-    const scene::StoreResult removed = scenes_.remove(request_.scene, context_.ticket);
+    const scene::StoreResult removed =
+        scenes_.remove(request_.scene, context_.ticket, request_name(request_));
     if (removed.fault == scene::StoreFault::kUnknownScene) {
       return unknown_scene_answer(request_, scenes_);
     }
@@ -334,8 +342,14 @@ const char* operation_name(const scene_request_t& request) {
 
 SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
                    const OperationContext& context) {
+  const auto before = context.scenes.find(request.scene);
   SceneOperation operation(request, upload, context);
   Answer answer = operation.run();
+  if (!is_query(request) && is_refused_for_its_scene(answer) && context.scenes.catch_up()) {
+    const bool is_same_scene = context.scenes.find(request.scene) == before;
+    // An unknown scene may have been removed by this very request, through another process.
+    if (!is_same_scene || answer.status == Answer::STATUS_UNKNOWN_SCENE) answer = operation.run();
+  }
   return {std::move(answer), operation.take_map()};
 }
 

@@ -210,11 +210,16 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
                                   {"status", messages::status_name(answer.status)},
                                   {"revision", answer.scene.revision},
                                   {"message", answer.message}});
+  // The client is told to send it again, to know whether it was made.
+  const bool is_unclear = answer.status == scene_response_t::STATUS_INTERNAL_ERROR;
   const bool changed = !is_query(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
-  if (!is_query(request)) {
-    forget(key_of(request));
+  if (is_query(request)) return;
+  forget(key_of(request));
+  if (is_unclear) {
+    cache_.forget(key_of(request));
+  } else {
     cache_.finish(key_of(request), std::move(pages));
   }
 }

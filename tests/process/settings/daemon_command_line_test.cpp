@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
@@ -225,6 +227,27 @@ TEST_F(DaemonOptionsFile, RolesOfAFleetNeedAndRefuseSettings) {
               ElementsAre(HasSubstr("--fleet: has no effect without a role")));
   EXPECT_THAT(parse({"--role", "front", "--fleet", "a:4222"}).faults,
               ElementsAre(AllOf(HasSubstr("--fleet"), HasSubstr("'a:4222'"))));
+  for (const auto& [server, fault] : std::vector<std::pair<std::string, std::string>>{
+           {"nats://a:99999", "must have a port within 1 to 65535"},
+           {"nats://a:0", "must have a port within 1 to 65535"},
+           {"tls://a:", "must have a port within 1 to 65535"},
+           {"tls://[::1]:x", "must have a port within 1 to 65535"},
+           {"nats://user:secret@:4222", "'nats://:4222' names no host"},
+           {"nats://", "names no host"},
+           {"nats://a b:4222", "must be nats://HOST:PORT"},
+           {"nats://a:4222/path", "must be nats://HOST:PORT"},
+           {"nats://[::1:4222", "must be nats://HOST:PORT"}}) {
+    const std::string list = "nats://good:4222," + server;
+    EXPECT_THAT(parse({"--role", "front", "--fleet", list.c_str()}).faults,
+                ElementsAre(AllOf(HasSubstr("--fleet"), HasSubstr(fault))))
+        << server;
+  }
+  for (const char* const server :
+       {"nats://a", "tls://a.b-c_d:65535", "nats://[::1]:4222", "nats://[fe80::1]",
+        "nats://user:pass@a:1", "nats://token@a", "nats://10.0.0.1:4222/"}) {
+    EXPECT_THAT(parse({"--role", "front", "--fleet", server}).faults, ::testing::IsEmpty())
+        << server;
+  }
   EXPECT_THAT(parse({"--role", "planner", "--fleet", "nats://a", "--scene", "a=x.obj", "--state",
                      "folder", "--prefix", "OTHER"})
                   .faults,
@@ -249,6 +272,29 @@ key_file = "key.pem"
   EXPECT_THAT(parse({"--config", other.c_str()}).faults,
               ElementsAre(HasSubstr("d.toml:5: fleet.key_file: a certificate and its key"),
                           HasSubstr("d.toml:4: fleet.replicas: must be 1, 3 or 5")));
+}
+
+TEST_F(DaemonOptionsFile, FilesForTheWayIntoAFleetHaveToBeReadable) {
+  for (const char* const key : {"credentials_file", "ca_file"}) {
+    const std::string missing =
+        write("e.toml", std::string("[fleet]\nrole = \"planner\"\n") + "servers = \"nats://a\"\n" +
+                            key + " = \"none.pem\"\n");
+    for (const bool only_check : {false, true}) {
+      std::vector<const char*> arguments{"--config", missing.c_str()};
+      if (only_check) arguments.push_back("--check-config");
+      EXPECT_THAT(parse(arguments).faults,
+                  ElementsAre(AllOf(HasSubstr(std::string("e.toml:4: fleet.") + key + ": "),
+                                    HasSubstr("none.pem cannot be read: No such file"))))
+          << key;
+    }
+  }
+  const std::string pair = write("f.toml",
+                                 "[fleet]\nrole = \"front\"\nservers = \"nats://a\"\n"
+                                 "certificate_file = \"here.pem\"\nkey_file = \".\"\n");
+  write("here.pem", "text");
+  EXPECT_THAT(parse({"--config", pair.c_str()}).faults,
+              ElementsAre(AllOf(HasSubstr("f.toml:5: fleet.key_file: "),
+                                HasSubstr("cannot be read: Is a directory"))));
 }
 
 TEST(DaemonOptions, ServersOfAFleetAreAList) {

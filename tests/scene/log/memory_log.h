@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/scene/log/removal_requests.h"
 #include "daemon/scene/log/scene_log.h"
 
 namespace camway::testing {
@@ -20,7 +21,7 @@ class MemoryLog final : public scene::SceneLog {
   using AppendResult = scene::AppendResult;
   using BlobId = scene::BlobId;
 
-  /// The fault of all calls of `append` and `put_blob` while it is set.
+  /// The fault of all calls of `append`, `put_blob` and `notes` while it is set.
   AppendFault fault = AppendFault::kNone;
 
   AppendResult put_blob(const BlobId& id, const scene::Blob& blob) override {
@@ -67,14 +68,20 @@ class MemoryLog final : public scene::SceneLog {
     found->second.summary_needs = needs;
     return {};
   }
-  AppendResult remove(std::string_view name, std::uint64_t revision) override {
+  AppendResult remove(std::string_view name, std::uint64_t revision,
+                      std::string_view request) override {
     const std::lock_guard lock(mutex_);
     if (revision == 0 || head(name) != revision) return {AppendFault::kConflict, "revision"};
+    removals_ = scene::with_removal(removals_, request);
     scenes_.erase(std::string(name));
     highest_removed_ = std::max(highest_removed_, revision);
     return {};
   }
   std::uint64_t highest_removed() override { return highest_removed_; }
+  std::vector<std::string> removals() override {
+    const std::lock_guard lock(mutex_);
+    return scene::removals_in(removals_);
+  }
   base::Result<std::vector<scene::LoggedScene>> scenes() override {
     const std::lock_guard lock(mutex_);
     std::vector<scene::LoggedScene> list;
@@ -85,6 +92,14 @@ class MemoryLog final : public scene::SceneLog {
   AppendResult set_note(std::string_view key, std::string_view text) override {
     notes_[std::string(key)] = text;
     return {};
+  }
+  base::Result<std::map<std::string, std::string>> notes(std::string_view prefix) override {
+    if (fault != AppendFault::kNone) return base::Failure{"no disk"};
+    std::map<std::string, std::string> found;
+    for (const auto& [key, text] : notes_) {
+      if (key.starts_with(prefix) && !text.empty()) found.emplace(key, text);
+    }
+    return found;
   }
   AppendResult drop_unused_blobs() override {
     const std::lock_guard lock(mutex_);
@@ -137,6 +152,7 @@ class MemoryLog final : public scene::SceneLog {
   std::map<std::string, Kept> scenes_;
   std::map<BlobId, scene::Blob> blobs_;
   std::map<std::string, std::string> notes_;
+  std::string removals_;
   std::uint64_t highest_removed_ = 0;
 };
 

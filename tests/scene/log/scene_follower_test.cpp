@@ -40,14 +40,23 @@ class Member {
     auto histories = scenes_.load(limits.history);
     EXPECT_TRUE(histories) << histories.error;
     store_.begin_above(log_.highest_removed());
+    store_.remember_removals(log_.removals());
     for (SceneHistory& history : *histories) store_.adopt(std::move(history));
   }
 
   void begin() {
-    follower_.emplace(log_, scenes_, store_, [this](const std::string& warning) {
-      const std::lock_guard lock(mutex_);
-      warnings_.push_back(warning);
-    });
+    follower_.emplace(
+        log_, scenes_, store_,
+        [this](const std::string& warning) {
+          const std::lock_guard lock(mutex_);
+          warnings_.push_back(warning);
+        },
+        SceneFollower::Advanced(),
+        [this](const Snapshot& scene, bool is_removed) {
+          const std::lock_guard lock(mutex_);
+          told_.push_back(scene.name + " " + std::to_string(scene.revision) +
+                          (is_removed ? " removed" : ""));
+        });
   }
   /// Waits until it has read all of the log.
   void catch_up(const SharedMemory& shared) {
@@ -63,13 +72,19 @@ class Member {
     const std::lock_guard lock(mutex_);
     return warnings_;
   }
+  /// The changes of others that it was told of.
+  std::vector<std::string> told() {
+    const std::lock_guard lock(mutex_);
+    return told_;
+  }
 
  private:
   SharedMemoryLog log_;
   DurableScenes scenes_;
   SceneStore store_;
-  std::mutex mutex_;  ///< guards warnings_
+  std::mutex mutex_;  ///< guards the next two
   std::vector<std::string> warnings_;
+  std::vector<std::string> told_;
   std::optional<SceneFollower> follower_;
 };
 
@@ -181,6 +196,69 @@ TEST(SceneFollower, FindsASceneAfterItsEntriesWereReplaced) {
   const StoreResult again = slow.store().put(assemble("attic", 1, {}, {}));
   ASSERT_EQ(again.error, "");
   EXPECT_GT(again.snapshot->revision, 1U);
+}
+
+TEST(SceneFollower, CatchesUpWithOthers) {
+  const auto shared = std::make_shared<SharedMemory>();
+  Member one(shared);
+  Member two(shared);
+  one.begin();
+  two.begin();
+  testing::Random random(8);
+  ASSERT_TRUE(one.store().put(assemble("room", 1, {}, {})).snapshot);
+  for (int i = 0; i < 200; ++i) {
+    const StoreResult made = one.store().change("room", put("crate", testing::random_box(random)));
+    ASSERT_TRUE(two.store().catch_up());
+    ASSERT_EQ(two.store().find("room")->revision, made.snapshot->revision);
+  }
+  SceneStore alone;
+  EXPECT_FALSE(alone.catch_up());
+}
+
+TEST(SceneFollower, ARequestRemovesOneSceneWhicheverMemberGetsIt) {
+  const auto shared = std::make_shared<SharedMemory>();
+  Member one(shared);
+  Member two(shared);
+  one.begin();
+  two.begin();
+  for (int i = 0; i < 30; ++i) {
+    const std::string request = "request " + std::to_string(i);
+    ASSERT_TRUE(one.store().put(assemble("room", 1, {}, {})).snapshot);
+    ASSERT_TRUE(two.store().catch_up());
+    {
+      const std::jthread other([&] { two.store().remove("room", {}, request); });
+      one.store().remove("room", {}, request);
+    }
+    // A new scene of that name stays, whoever is asked again.
+    ASSERT_TRUE(one.store().put(assemble("room", 1, {}, {})).snapshot);
+    EXPECT_EQ(two.store().remove("room", {}, request).error, "");
+    EXPECT_EQ(one.store().remove("room", {}, request).error, "");
+    ASSERT_TRUE(two.store().catch_up());
+    ASSERT_TRUE(one.store().catch_up());
+    ASSERT_TRUE(one.store().find("room"));
+    ASSERT_TRUE(two.store().find("room"));
+    Member late(shared);
+    EXPECT_TRUE(late.store().removed_by(request));
+    ASSERT_TRUE(one.store().remove("room").snapshot);
+  }
+}
+
+TEST(SceneFollower, TellsOfTheChangesOfOthersAlone) {
+  const auto shared = std::make_shared<SharedMemory>();
+  Member one(shared);
+  Member two(shared);
+  one.begin();
+  two.begin();
+  testing::Random random(9);
+  ASSERT_TRUE(one.store().put(assemble("room", 1, {}, {})).snapshot);
+  ASSERT_TRUE(two.store().catch_up());
+  ASSERT_TRUE(two.store().change("room", put("crate", testing::random_box(random))).snapshot);
+  ASSERT_TRUE(one.store().catch_up());
+  ASSERT_TRUE(one.store().remove("room").snapshot);
+  ASSERT_TRUE(two.store().catch_up());
+  ASSERT_TRUE(one.store().catch_up());
+  EXPECT_THAT(one.told(), ::testing::ElementsAre("room 2"));
+  EXPECT_THAT(two.told(), ::testing::ElementsAre("room 1", "room 2 removed"));
 }
 
 TEST(SceneFollower, LeavesOutMirrorsAndHasTheSameDigests) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -64,15 +67,19 @@ class SharedMemoryLog final : public scene::SharedLog {
     shared_->add(scene::LogUpdate::Kind::kSummary, name, {0, revision, summary, {}});
     return done;
   }
-  scene::AppendResult remove(std::string_view name, std::uint64_t revision) override {
+  scene::AppendResult remove(std::string_view name, std::uint64_t revision,
+                             std::string_view request) override {
     const std::lock_guard lock(shared_->mutex);
-    scene::AppendResult done = shared_->log.remove(name, revision);
+    scene::AppendResult done = shared_->log.remove(name, revision, request);
     if (!done.error.empty()) return done;
     std::erase_if(shared_->updates, [&](const auto& update) { return update.scene == name; });
-    shared_->add(scene::LogUpdate::Kind::kRemoval, name, {0, revision, {}, {}});
+    const auto bytes = std::as_bytes(std::span<const char>(request.data(), request.size()));
+    shared_->add(scene::LogUpdate::Kind::kRemoval, name,
+                 {0, revision, {bytes.begin(), bytes.end()}, {}});
     return done;
   }
   std::uint64_t highest_removed() override { return shared_->log.highest_removed(); }
+  std::vector<std::string> removals() override { return shared_->log.removals(); }
   base::Result<std::vector<scene::LoggedScene>> scenes() override {
     const std::lock_guard lock(shared_->mutex);
     followed_ = shared_->position;
@@ -81,6 +88,14 @@ class SharedMemoryLog final : public scene::SharedLog {
   std::string note(std::string_view key) override { return shared_->log.note(key); }
   scene::AppendResult set_note(std::string_view key, std::string_view text) override {
     return shared_->log.set_note(key, text);
+  }
+  base::Result<std::map<std::string, std::string>> notes(std::string_view prefix) override {
+    return shared_->log.notes(prefix);
+  }
+  bool catch_up(std::chrono::milliseconds patience) override {
+    std::unique_lock lock(shared_->mutex);
+    const std::uint64_t end = shared_->position;
+    return shared_->changed.wait_for(lock, patience, [&] { return followed_ >= end; });
   }
   scene::AppendResult drop_unused_blobs() override { return {}; }
 
@@ -92,6 +107,7 @@ class SharedMemoryLog final : public scene::SharedLog {
             std::ranges::upper_bound(shared_->updates, followed_, {}, &scene::LogUpdate::position);
         if (next == shared_->updates.end()) {
           followed_ = shared_->position;
+          shared_->changed.notify_all();
           continue;
         }
         const scene::LogUpdate update = *next;
@@ -99,6 +115,7 @@ class SharedMemoryLog final : public scene::SharedLog {
         take(update);
         lock.lock();
         followed_ = update.position;
+        shared_->changed.notify_all();
       }
     });
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/scene/log/nats/nats_log_parts.h"
+#include "daemon/scene/log/removal_requests.h"
 
 namespace camway::scene {
 namespace {
@@ -34,14 +35,14 @@ AppendResult NatsLog::Parts::conflict(std::string_view scene, std::uint64_t newe
                                       ", not at " + std::to_string(expected)};
 }
 
-AppendResult NatsLog::Parts::given_up(const std::string& reason, bool is_unclear) const {
+AppendResult NatsLog::Parts::given_up(const std::string& reason, bool may_be_sent) const {
   const std::string stall = connection_.stall();
   AppendResult result =
       append_fault(stall.empty() ? StreamFault::kUnreachable : StreamFault::kStalled, stall);
   if (stall.empty()) result.error = place() + " cannot be reached: " + reason;
-  if (is_unclear) {
-    result.error += ". The change may still take effect; send the same request again to know";
-  }
+  result.error += may_be_sent
+                      ? ". The change may still take effect; send the same request again to know"
+                      : "; nothing was changed";
   return result;
 }
 
@@ -101,7 +102,7 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
     return {AppendFault::kBroken, place() + " takes no scene with a name of that size"};
   }
   const std::string unchecked = check_tail(end);
-  if (!unchecked.empty()) return given_up(unchecked, false);
+  if (!unchecked.empty()) return given_up(unchecked, /*may_be_sent=*/false);
   // This process may not know yet that another one has changed the scene; then the server says so.
   const std::uint64_t newest = head_of(scene, message.id).revision;
   if (newest != expected) return conflict(scene, newest, expected);
@@ -122,11 +123,15 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
 
 AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
                                     LogMessage message, PatienceEnd end) {
-  bool is_unclear = false;
+  bool may_be_sent = false;
   const auto begin = std::chrono::steady_clock::now();
   for (;;) {
     const std::string unchecked = check_tail(end);
-    if (!unchecked.empty()) return given_up(unchecked, is_unclear);
+    if (!unchecked.empty()) return given_up(unchecked, may_be_sent);
+    if (!connection_.is_connected()) {
+      if (pause_before_retry(end)) continue;
+      return given_up("there is no connection to NATS", may_be_sent);
+    }
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
@@ -142,26 +147,33 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
       must_check_ = true;
     }
     if (done && options_.replicas == 1) {
-      const std::lock_guard lock(mutex_);
-      SceneChain& chain = chains_[std::string(scene)];
-      if (*done > chain.last_sequence()) chain.take(std::move(message), *done);
+      take_own(scene, std::move(message), *done);
       return {};
     }
     // A cluster may have accepted two at once, of which the first one counts: see which that is.
     if (done || done.fault == StreamFault::kConflict) {
+      may_be_sent = may_be_sent || done;
       const std::string fault = refresh(std::string(scene), end);
-      if (!fault.empty()) return given_up(fault, is_unclear);
+      if (!fault.empty()) return given_up(fault, may_be_sent);
       continue;
     }
-    if (done.fault == StreamFault::kStalled) return given_up(done.error, is_unclear);
-    if (done.fault != StreamFault::kUnreachable) {
-      AppendResult refused = append_fault(done.fault, done.error);
-      if (may_make_room(message, refused, end)) continue;
-      return refused;
+    if (done.fault == StreamFault::kStalled) return given_up(done.error, may_be_sent);
+    if (done.fault == StreamFault::kUnreachable) {
+      may_be_sent = true;
+      if (!pause_before_retry(end)) return given_up(done.error, may_be_sent);
+      continue;
     }
-    is_unclear = true;
-    if (!pause_before_retry(end)) return given_up(done.error, is_unclear);
+    AppendResult refused = append_fault(done.fault, done.error);
+    if (may_make_room(message, refused, end)) continue;
+    // A refusal is not the answer to a message that was sent before.
+    return may_be_sent ? given_up(done.error, may_be_sent) : refused;
   }
+}
+
+void NatsLog::Parts::take_own(std::string_view scene, LogMessage message, std::uint64_t sequence) {
+  const std::lock_guard lock(mutex_);
+  SceneChain& chain = chains_[std::string(scene)];
+  if (sequence > chain.last_sequence()) chain.take(std::move(message), sequence);
 }
 
 std::string NatsLog::Parts::refresh(const std::string& scene, PatienceEnd end) {
@@ -245,11 +257,20 @@ AppendResult NatsLog::Parts::summarize(std::string_view scene, std::uint64_t rev
   return replace_all(scene, std::move(message), summary);
 }
 
-AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revision) {
+AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revision,
+                                    std::string_view request) {
   LogMessage message;
   message.kind = Kind::kRemoval;
   message.revision = revision;
-  return replace_all(scene, std::move(message), {});
+  std::string requests;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = chains_.find(scene);
+    if (found != chains_.end()) requests = removals_text(found->second);
+  }
+  requests = with_removal(requests, request);
+  const auto bytes = std::as_bytes(std::span<const char>(requests));
+  return replace_all(scene, std::move(message), {bytes.begin(), bytes.end()});
 }
 
 }  // namespace camway::scene

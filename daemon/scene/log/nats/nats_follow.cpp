@@ -39,6 +39,10 @@ LogUpdate::Kind kind_of(LogMessage::Kind kind) {
 
 void NatsLog::Parts::follow(SharedLog::Take take) {
   take_ = std::move(take);
+  {
+    const std::lock_guard lock(news_mutex_);
+    is_following_ = true;
+  }
   next_sequence_ = followed_ + 1;
   // The tail may have been checked between `scenes` and now; then what is known is right, and the
   // position is that of `scenes` on the same connection.
@@ -63,6 +67,32 @@ bool NatsLog::Parts::is_in_touch() const {
   return has_read_all_ && is_tail_checked() && connection_.is_connected() && lost_.empty();
 }
 
+// A pass that begins now sees all that is in the log now.
+bool NatsLog::Parts::catch_up(milliseconds patience) {
+  std::unique_lock lock(news_mutex_);
+  const auto is_hopeless = [this] {
+    return !is_following_ || is_stopped_ || !connection_.is_connected();
+  };
+  if (is_hopeless()) return false;
+  const std::uint64_t wanted = passes_begun_ + 1;
+  has_news_ = true;
+  news_.notify_all();
+  const auto is_done = [&] { return last_whole_pass_ >= wanted; };
+  news_.wait_for(lock, patience, [&] { return is_done() || is_hopeless(); });
+  return is_done();
+}
+
+std::uint64_t NatsLog::Parts::begin_pass() {
+  const std::lock_guard lock(news_mutex_);
+  return ++passes_begun_;
+}
+
+void NatsLog::Parts::end_pass(std::uint64_t pass, bool has_read_all) {
+  const std::lock_guard lock(news_mutex_);
+  if (has_read_all) last_whole_pass_ = pass;
+  news_.notify_all();
+}
+
 void NatsLog::Parts::wake_follower() {
   const std::lock_guard lock(news_mutex_);
   has_news_ = true;
@@ -85,11 +115,13 @@ void NatsLog::Parts::run_follower() {
   bool is_up_to_date = false;
   do {
     is_up_to_date = false;
+    const std::uint64_t pass = begin_pass();
     if (is_not_stalled() && connection_.is_connected() &&
         check_tail(Clock::now() + kFollowWait).empty()) {
       is_up_to_date = follow_once();
     }
     has_read_all_ = is_up_to_date;
+    end_pass(pass, is_up_to_date);
     if (is_up_to_date) {
       {
         const std::lock_guard lock(mutex_);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/scene/log/nats/nats_log_parts.h"
+#include "daemon/scene/log/removal_requests.h"
 
 namespace camway::scene {
 namespace {
@@ -86,9 +87,11 @@ AppendResult NatsLog::summarize(std::string_view scene, std::uint64_t revision,
                                 const Bytes& summary, const std::vector<BlobId>& needs) {
   return parts_->summarize(scene, revision, summary, needs);
 }
-AppendResult NatsLog::remove(std::string_view scene, std::uint64_t revision) {
-  return parts_->remove(scene, revision);
+AppendResult NatsLog::remove(std::string_view scene, std::uint64_t revision,
+                             std::string_view request) {
+  return parts_->remove(scene, revision, request);
 }
+std::vector<std::string> NatsLog::removals() { return parts_->removals(); }
 std::uint64_t NatsLog::highest_removed() { return parts_->highest_removed(); }
 base::Result<std::vector<LoggedScene>> NatsLog::scenes() { return parts_->scenes(); }
 std::string NatsLog::note(std::string_view key) { return parts_->note(key); }
@@ -98,6 +101,10 @@ AppendResult NatsLog::set_note(std::string_view key, std::string_view text) {
 AppendResult NatsLog::drop_unused_blobs() { return parts_->drop_unused_blobs(false); }
 void NatsLog::on_lost_blob(LostBlob find) { parts_->on_lost_blob(std::move(find)); }
 bool NatsLog::lacks_blobs_of(std::string_view scene) { return parts_->lacks_blobs_of(scene); }
+base::Result<std::map<std::string, std::string>> NatsLog::notes(std::string_view prefix) {
+  return parts_->notes(prefix);
+}
+bool NatsLog::catch_up(std::chrono::milliseconds patience) { return parts_->catch_up(patience); }
 void NatsLog::follow(Take take) { parts_->follow(std::move(take)); }
 void NatsLog::stop_following() { parts_->stop_following(); }
 std::uint64_t NatsLog::followed() const { return parts_->followed(); }
@@ -129,6 +136,8 @@ std::string NatsLog::Parts::scene_subject(std::string_view scene) const {
 }
 
 std::string NatsLog::Parts::scene_filter() const { return options_.fleet + ".log.scene.>"; }
+
+std::string NatsLog::Parts::note_filter() const { return options_.fleet + ".log.note.>"; }
 
 std::string NatsLog::Parts::note_subject(std::string_view key) const {
   return options_.fleet + ".log.note." + token_of(key);
@@ -272,6 +281,28 @@ std::string NatsLog::Parts::note(std::string_view key) {
   }
 }
 
+base::Result<std::map<std::string, std::string>> NatsLog::Parts::notes(std::string_view prefix) {
+  const PatienceEnd end = patience_end();
+  for (;;) {
+    std::map<std::string, std::string> found;
+    const auto take = [&](const nats::StoredMessage& stored) {
+      const std::size_t dot = stored.subject.rfind('.');
+      const auto key = text_from_token(std::string_view(stored.subject).substr(dot + 1));
+      if (!key || !key->starts_with(prefix)) return;
+      // The last one of a key counts.
+      found[*key] = std::string(stored.payload.begin(), stored.payload.end());
+    };
+    const auto read = stream_->read(1, kEndOfLog, note_filter(), take, rest_of(end));
+    if (read) {
+      std::erase_if(found, [](const auto& note) { return note.second.empty(); });
+      return found;
+    }
+    if (read.fault != StreamFault::kUnreachable || !pause_before_retry(end)) {
+      return base::Failure{place() + " cannot be read: " + read.error};
+    }
+  }
+}
+
 AppendResult NatsLog::Parts::set_note(std::string_view key, std::string_view text) {
   if (key.size() > kMostNameBytes) {
     return {AppendFault::kBroken, place() + " takes no note with a key of that size"};
@@ -285,8 +316,9 @@ AppendResult NatsLog::Parts::set_note(std::string_view key, std::string_view tex
         const std::lock_guard lock(mutex_);
         notes_[std::string(key)] = {std::string(text), *done};
       }
-      // The notes before it are of no use; they are purged with the next one if this fails.
-      static_cast<void>(stream_->purge(note_subject(key), *done, rest_of(end)));
+      // The notes before it are of no use; they are purged with the next one if this fails. A purge
+      // up to the first message would be one of all.
+      if (*done > 1) static_cast<void>(stream_->purge(note_subject(key), *done, rest_of(end)));
       return {};
     }
     if (done.fault != StreamFault::kUnreachable || !pause_before_retry(end)) {
@@ -348,6 +380,17 @@ std::uint64_t NatsLog::Parts::highest_removed() const {
   std::uint64_t highest = 0;
   for (const auto& [name, chain] : chains_) highest = std::max(highest, chain.removed());
   return highest;
+}
+
+std::vector<std::string> NatsLog::Parts::removals() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> requests;
+  for (const auto& [name, chain] : chains_) {
+    for (std::string& request : removals_in(removals_text(chain))) {
+      requests.push_back(std::move(request));
+    }
+  }
+  return requests;
 }
 
 std::uint64_t NatsLog::Parts::position_of(std::string_view scene) const {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,11 +69,16 @@ class NatsLog final : public SharedLog {
   AppendResult append(std::string_view scene, const LogEntry& entry) override;
   AppendResult summarize(std::string_view scene, std::uint64_t revision, const Bytes& summary,
                          const std::vector<BlobId>& needs) override;
-  AppendResult remove(std::string_view scene, std::uint64_t revision) override;
+  AppendResult remove(std::string_view scene, std::uint64_t revision,
+                      std::string_view request = {}) override;
   [[nodiscard]] std::uint64_t highest_removed() override;
+  /// Those of a scene are forgotten with the first summary of a later scene of its name.
+  [[nodiscard]] std::vector<std::string> removals() override;
   base::Result<std::vector<LoggedScene>> scenes() override;
   [[nodiscard]] std::string note(std::string_view key) override;
   AppendResult set_note(std::string_view key, std::string_view text) override;
+  base::Result<std::map<std::string, std::string>> notes(std::string_view prefix) override;
+  bool catch_up(std::chrono::milliseconds patience) override;
   AppendResult drop_unused_blobs() override;
   void on_lost_blob(LostBlob find) override;
   [[nodiscard]] bool lacks_blobs_of(std::string_view scene) override;

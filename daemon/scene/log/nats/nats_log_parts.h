@@ -57,9 +57,11 @@ class NatsLog::Parts {
   base::Result<std::vector<LoggedScene>> scenes();
   std::string note(std::string_view key);
   AppendResult set_note(std::string_view key, std::string_view text);
+  base::Result<std::map<std::string, std::string>> notes(std::string_view prefix);
   /// Drops blobs if that is due; if `is_urgent`, in any case.
   AppendResult drop_unused_blobs(bool is_urgent);
   [[nodiscard]] std::uint64_t highest_removed() const;
+  [[nodiscard]] std::vector<std::string> removals() const;
   [[nodiscard]] std::uint64_t position_of(std::string_view scene) const;
   [[nodiscard]] NatsBlobs::HoldResult hold(const BlobId& id, PatienceEnd end);
 
@@ -67,7 +69,7 @@ class NatsLog::Parts {
   AppendResult append(std::string_view scene, const LogEntry& entry);
   AppendResult summarize(std::string_view scene, std::uint64_t revision, const Bytes& summary,
                          const std::vector<BlobId>& needs);
-  AppendResult remove(std::string_view scene, std::uint64_t revision);
+  AppendResult remove(std::string_view scene, std::uint64_t revision, std::string_view request);
   AppendResult put_blob(const BlobId& id, const Blob& blob, PatienceEnd end);
 
   // nats_lost.cpp
@@ -79,6 +81,7 @@ class NatsLog::Parts {
   void stop_following();
   [[nodiscard]] std::uint64_t followed() const { return followed_; }
   [[nodiscard]] bool is_in_touch() const;
+  bool catch_up(std::chrono::milliseconds patience);
 
  private:
   using Chains = SceneChains;
@@ -86,6 +89,7 @@ class NatsLog::Parts {
   [[nodiscard]] std::string place() const;
   [[nodiscard]] std::string scene_subject(std::string_view scene) const;
   [[nodiscard]] std::string scene_filter() const;
+  [[nodiscard]] std::string note_filter() const;
   [[nodiscard]] std::string note_subject(std::string_view key) const;
   void warn(const std::string& sentence) const;
 
@@ -133,8 +137,10 @@ class NatsLog::Parts {
   void purge_before_last(std::string_view scene, const MessageId& id, PatienceEnd end);
   [[nodiscard]] AppendResult conflict(std::string_view scene, std::uint64_t newest,
                                       std::uint64_t expected) const;
-  /// The result of an append that got no answer. `is_unclear`: it may have been made.
-  [[nodiscard]] AppendResult given_up(const std::string& reason, bool is_unclear) const;
+  /// The result of an append that got no answer, or none that counts.
+  [[nodiscard]] AppendResult given_up(const std::string& reason, bool may_be_sent) const;
+  /// Adds a message to what is known, unless the follower did.
+  void take_own(std::string_view scene, LogMessage message, std::uint64_t sequence);
 
   /// Returns once the server has all that this process knows to be kept, or why that is not known.
   std::string check_tail(PatienceEnd end);
@@ -180,6 +186,8 @@ class NatsLog::Parts {
   /// Returns false when the follower has to end.
   bool wait_for_news(std::chrono::milliseconds most);
   void wake_follower();
+  std::uint64_t begin_pass();
+  void end_pass(std::uint64_t pass, bool has_read_all);
   bool is_stopped();
 
   nats::Connection& connection_;
@@ -217,6 +225,10 @@ class NatsLog::Parts {
   std::mutex news_mutex_;  ///< guards what follows
   std::condition_variable news_;
   bool has_news_ = false;
+  bool is_following_ = false;
+  // The follower reads the log again and again, from where it is to the end.
+  std::uint64_t passes_begun_ = 0;
+  std::uint64_t last_whole_pass_ = 0;  ///< the last one that came to the end
   bool is_stopped_ = false;
   std::atomic<bool> must_read_again_ = false;  ///< from the first message on
   // The next ones belong to the follower's thread.

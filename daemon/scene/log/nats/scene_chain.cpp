@@ -103,6 +103,14 @@ void SceneChain::mark_all_as_taken() {
   for (ChainLink& link : links_) link.is_taken = true;
 }
 
+std::string removals_text(const SceneChain& chain) {
+  if (chain.links().empty()) return "";
+  const LogMessage& first = chain.links().front().message;
+  if (first.kind != LogMessage::Kind::kRemoval) return "";
+  const auto* const text = reinterpret_cast<const char*>(first.record.data());
+  return {text, first.record.size()};
+}
+
 ChainRepair repair_of(const SceneChain& known, const SceneChain& found) {
   using Repair = ChainRepair::Kind;
   const std::vector<ChainLink>& links = known.links();

@@ -71,6 +71,10 @@ class SceneChain {
   std::uint64_t removed_ = 0;
 };
 
+/// Returns the requests of the removals of a scene (`removal_requests.h`), as the removal that
+/// begins the chain has them; empty if none does.
+std::string removals_text(const SceneChain& chain);
+
 /// What to do where the log of a server has something else than this process knows to be kept.
 struct ChainRepair {
   enum class Kind : std::uint8_t {

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "daemon/scene/log/removal_requests.h"
 #include "daemon/scene/log/sqlite/log_refusal.h"
 #include "daemon/scene/log/sqlite/log_rows.h"
 #include "daemon/scene/log/sqlite/row_digest.h"
@@ -24,6 +25,9 @@ namespace fs = std::filesystem;
 
 /// SQLite's integers have a sign.
 constexpr auto kMostRevision = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+
+/// The note that keeps the requests of the last removals.
+constexpr std::string_view kRemovalsKey = "removals";
 
 AppendResult broken(std::string error) { return {AppendFault::kBroken, std::move(error)}; }
 
@@ -182,14 +186,16 @@ AppendResult SqliteLog::replace_by_summary(std::string_view scene, std::uint64_t
   return {};
 }
 
-AppendResult SqliteLog::remove(std::string_view scene, std::uint64_t revision) {
+AppendResult SqliteLog::remove(std::string_view scene, std::uint64_t revision,
+                               std::string_view request) {
   const std::scoped_lock lock(mutex_);
-  AppendResult result = write_beyond_limit([&] { return delete_scene(scene, revision); });
+  AppendResult result = write_beyond_limit([&] { return delete_scene(scene, revision, request); });
   if (result.fault == AppendFault::kNone) highest_removed_ = std::max(highest_removed_, revision);
   return result;
 }
 
-AppendResult SqliteLog::delete_scene(std::string_view scene, std::uint64_t revision) {
+AppendResult SqliteLog::delete_scene(std::string_view scene, std::uint64_t revision,
+                                     std::string_view request) {
   if (revision == 0) return {AppendFault::kConflict, "no scene has revision 0"};
   AppendResult fault = fault_of_revision(scene, revision);
   if (fault.fault != AppendFault::kNone) return fault;
@@ -202,13 +208,17 @@ AppendResult SqliteLog::delete_scene(std::string_view scene, std::uint64_t revis
           .with(highest)
           .with(digest)
           .run();
-  return is_deleted ? AppendResult{} : database_fault();
+  if (!is_deleted) return database_fault();
+  if (request.empty()) return {};
+  return write_note(kRemovalsKey, with_removal(read_note(kRemovalsKey), request));
 }
 
 std::uint64_t SqliteLog::highest_removed() {
   const std::scoped_lock lock(mutex_);
   return highest_removed_;
 }
+
+std::vector<std::string> SqliteLog::removals() { return removals_in(note(kRemovalsKey)); }
 
 base::Result<std::vector<LoggedScene>> SqliteLog::scenes() {
   const std::scoped_lock lock(mutex_);
@@ -224,25 +234,43 @@ base::Result<std::vector<LoggedScene>> SqliteLog::scenes() {
 
 std::string SqliteLog::note(std::string_view key) {
   const std::scoped_lock lock(mutex_);
+  return read_note(key);
+}
+
+std::string SqliteLog::read_note(std::string_view key) {
   SqliteQuery row = database_->query("SELECT text FROM notes WHERE key=?");
   return row.with(key).next() ? row.text(0) : "";
+}
+
+base::Result<std::map<std::string, std::string>> SqliteLog::notes(std::string_view prefix) {
+  const std::scoped_lock lock(mutex_);
+  database_->forget_failure();
+  std::map<std::string, std::string> found;
+  SqliteQuery rows = database_->query("SELECT key, text FROM notes");
+  while (rows.next()) {
+    if (rows.text(0).starts_with(prefix)) found.emplace(rows.text(0), rows.text(1));
+  }
+  if (rows.has_failed()) return base::Failure{database_fault().error};
+  return found;
 }
 
 AppendResult SqliteLog::set_note(std::string_view key, std::string_view text) {
   const std::scoped_lock lock(mutex_);
   AppendResult too_large = fault_of_size(text.size());
   if (too_large.fault != AppendFault::kNone) return too_large;
+  return write([&] { return write_note(key, text); });
+}
+
+AppendResult SqliteLog::write_note(std::string_view key, std::string_view text) {
   const base::Digest::Bytes digest = note_digest(key, text);
-  return write([&] {
-    const bool is_set =
-        text.empty() ? database_->query("DELETE FROM notes WHERE key=?").with(key).run()
-                     : database_->query("REPLACE INTO notes(key, text, digest) VALUES(?, ?, ?)")
-                           .with(key)
-                           .with(text)
-                           .with(digest)
-                           .run();
-    return is_set ? AppendResult{} : database_fault();
-  });
+  const bool is_set =
+      text.empty() ? database_->query("DELETE FROM notes WHERE key=?").with(key).run()
+                   : database_->query("REPLACE INTO notes(key, text, digest) VALUES(?, ?, ?)")
+                         .with(key)
+                         .with(text)
+                         .with(digest)
+                         .run();
+  return is_set ? AppendResult{} : database_fault();
 }
 
 AppendResult SqliteLog::fault_of_files() {

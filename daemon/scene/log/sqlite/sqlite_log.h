@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -84,12 +85,15 @@ class SqliteLog final : public SceneLog {
   AppendResult append(std::string_view scene, const LogEntry& entry) override;
   AppendResult summarize(std::string_view scene, std::uint64_t revision, const Bytes& summary,
                          const std::vector<BlobId>& needs) override;
-  AppendResult remove(std::string_view scene, std::uint64_t revision) override;
+  AppendResult remove(std::string_view scene, std::uint64_t revision,
+                      std::string_view request = {}) override;
   [[nodiscard]] std::uint64_t highest_removed() override;
+  [[nodiscard]] std::vector<std::string> removals() override;
   base::Result<std::vector<LoggedScene>> scenes() override;
   /// Also empty if the note cannot be read.
   [[nodiscard]] std::string note(std::string_view key) override;
   AppendResult set_note(std::string_view key, std::string_view text) override;
+  base::Result<std::map<std::string, std::string>> notes(std::string_view prefix) override;
   AppendResult drop_unused_blobs() override;
 
  private:
@@ -118,7 +122,10 @@ class SqliteLog final : public SceneLog {
   AppendResult insert_entry(std::string_view scene, const LogEntry& entry);
   AppendResult replace_by_summary(std::string_view scene, std::uint64_t revision,
                                   const Bytes& summary, const std::vector<BlobId>& needs);
-  AppendResult delete_scene(std::string_view scene, std::uint64_t revision);
+  AppendResult delete_scene(std::string_view scene, std::uint64_t revision,
+                            std::string_view request);
+  std::string read_note(std::string_view key);
+  AppendResult write_note(std::string_view key, std::string_view text);
 
   std::filesystem::path folder_;
   SqliteLogLimits limits_;

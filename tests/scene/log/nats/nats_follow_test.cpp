@@ -44,6 +44,23 @@ TEST(NatsFollow, BringsTheChangesOfOthersAndTheOwnOnes) {
   EXPECT_EQ(one.faults() + two.faults(), "");
 }
 
+TEST(NatsFollow, CatchesUpWithWhatOthersHaveAppended) {
+  NatsServer server;
+  FleetLog one({server.url()});
+  FleetLog two({server.url()});
+  EXPECT_FALSE(two->catch_up(milliseconds(100))) << "it does not follow";
+  two.follow();
+  for (std::uint64_t i = 1; i <= 50; ++i) {
+    ASSERT_EQ(one->append("office", sample_entry(i - 1, i, "a")).error, "");
+    ASSERT_TRUE(two->catch_up(milliseconds(10'000)));
+    ASSERT_EQ(two.revision("office"), i);
+  }
+  server.kill();
+  ASSERT_TRUE(eventually([&] { return !two.connection().is_connected(); }));
+  EXPECT_FALSE(two->catch_up(milliseconds(10'000)));
+  server.start();
+}
+
 TEST(NatsFollow, SaysHowFarItHasRead) {
   const NatsServer server;
   FleetLog one({server.url()});

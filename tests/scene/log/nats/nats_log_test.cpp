@@ -73,6 +73,34 @@ TEST_F(NatsLogTest, KeepsScenesNotesAndRemovalsBeyondARestart) {
   EXPECT_EQ(reader->note("none"), "");
 }
 
+TEST_F(NatsLogTest, ListsNotesByTheBeginOfTheirKeys) {
+  FleetLog one = log();
+  ASSERT_EQ(one->set_note("of one", "1").error, "");
+  ASSERT_EQ(one->set_note("of two", "old").error, "");
+  ASSERT_EQ(one->set_note("of two", "2").error, "");
+  ASSERT_EQ(one->set_note("of three", "3").error, "");
+  ASSERT_EQ(one->set_note("of three", "").error, "");
+  ASSERT_EQ(one->set_note("other", "4").error, "");
+  const auto notes = log()->notes("of ");
+  ASSERT_TRUE(notes) << notes.error;
+  EXPECT_EQ(*notes, (std::map<std::string, std::string>{{"of one", "1"}, {"of two", "2"}}));
+}
+
+TEST_F(NatsLogTest, RemembersTheRequestsOfRemovals) {
+  {
+    FleetLog one = log();
+    ASSERT_EQ(one->append("office", sample_entry(0, 1, "a")).error, "");
+    ASSERT_EQ(one->remove("office", 1, "first").error, "");
+    ASSERT_EQ(one->append("office", sample_entry(0, 2, "a")).error, "");
+    ASSERT_EQ(one->remove("office", 2, "second").error, "");
+    ASSERT_EQ(one->append("office", sample_entry(0, 3, "a")).error, "");
+    ASSERT_EQ(one->append("hall", sample_entry(0, 1, "a")).error, "");
+    ASSERT_EQ(one->remove("hall", 1, "third").error, "");
+    EXPECT_EQ(one->removals(), (std::vector<std::string>{"third", "first", "second"}));
+  }
+  EXPECT_EQ(log()->removals(), (std::vector<std::string>{"third", "first", "second"}));
+}
+
 TEST_F(NatsLogTest, RefusesWhatDoesNotFollow) {
   FleetLog one = log();
   FleetLog two = log();

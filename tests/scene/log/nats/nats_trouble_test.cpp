@@ -244,6 +244,23 @@ TEST(NatsTrouble, RepairsAnEmptyStore) {
   EXPECT_EQ(text_of_log(power.urls()), before + "  5 -> 6: 5\n");
 }
 
+TEST(NatsTrouble, SaysThatNothingWasChangedExactlyIfNothingWasSent) {
+  NatsServer server;
+  NatsLogOptions options;
+  options.patience = milliseconds(300);
+  FleetLog log({server.url()}, options);
+  ASSERT_EQ(log.append("office", "before").error, "");
+  server.kill();
+  ASSERT_TRUE(eventually([&] { return !log.connection().is_connected(); }));
+  const AppendResult unsent = log->append("office", sample_entry(1, 2, "unsent"));
+  EXPECT_EQ(unsent.fault, AppendFault::kBroken);
+  EXPECT_NE(unsent.error.find("nothing was changed"), std::string::npos) << unsent.error;
+  EXPECT_EQ(unsent.error.find("may still take effect"), std::string::npos) << unsent.error;
+  server.start();
+  ASSERT_TRUE(eventually([&] { return log.connection().is_connected(); }));
+  EXPECT_EQ(text_of_log({server.url()}), "office at 0: \n  0 -> 1: before\n");
+}
+
 TEST(NatsTrouble, AppendsEitherSucceedOrSaySoWhenTheServerHangs) {
   const NatsServer server;
   NatsLogOptions options;

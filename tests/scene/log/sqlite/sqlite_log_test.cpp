@@ -165,6 +165,25 @@ TEST_F(SqliteLogTest, KeepsNotes) {
   EXPECT_EQ(log_->note("other"), "");
 }
 
+TEST_F(SqliteLogTest, ListsNotesByTheBeginOfTheirKeys) {
+  ASSERT_EQ(log_->set_note("of one", "1").error, "");
+  ASSERT_EQ(log_->set_note("of two", "2").error, "");
+  ASSERT_EQ(log_->set_note("other", "3").error, "");
+  const auto notes = log_->notes("of ");
+  ASSERT_TRUE(notes) << notes.error;
+  EXPECT_EQ(*notes, (std::map<std::string, std::string>{{"of one", "1"}, {"of two", "2"}}));
+}
+
+TEST_F(SqliteLogTest, RemembersTheRequestsOfRemovals) {
+  for (const char* const scene : {"a", "b", "c"}) append(scene, sample_entry(0, 1, ""));
+  EXPECT_EQ(log_->remove("a", 1, "first").error, "");
+  EXPECT_EQ(log_->remove("b", 1).error, "");
+  EXPECT_EQ(log_->remove("c", 2, "not made").fault, AppendFault::kConflict);
+  EXPECT_EQ(log_->remove("c", 1, "second").error, "");
+  reopen();
+  EXPECT_EQ(log_->removals(), (std::vector<std::string>{"first", "second"}));
+}
+
 TEST_F(SqliteLogTest, KeepsBlobs) {
   const SampleBlob base("base");
   const SampleBlob empty("");
