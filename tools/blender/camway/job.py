@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: MIT
+"""A run from the camera to its corrected copy, in steps that leave Blender's window responsive."""
+from __future__ import annotations
+
+import pathlib
+import shutil
+import tempfile
+from typing import Iterator, Sequence
+
+import bpy
+
+from . import camera_copy, run, scene_file, shot_reader
+from .answer import Answer, Collision, changed_stretches, collisions_of, frame_words, length_words, words_of
+from .motion import Sample, jumps
+from .request import Chosen, Shot, choose_keyframes, loosened, request_of
+from .run import CamwayError
+
+# Sampled keyframes this near to a collision make room for its correction, in seconds; tried in order.
+MARGINS_S = (0.5, 2.0, 1e9)
+
+# Names of moving obstacles that a warning lists.
+_MOST_NAMES = 5
+
+
+class Job:
+    """Plans one camera. `steps` does the work, each step in some milliseconds; (share, words) is its progress.
+
+    Objects are looked up by name again after each wait: undo, which may happen meanwhile, replaces them.
+    """
+
+    def __init__(self, context: bpy.types.Context, program: str, folder: str = ""):
+        self._settings = context.scene.camway
+        camera = self._settings.camera or context.scene.camera
+        if self._settings.body == "NEAR" or camera is None:
+            shot_reader.require_perspective(camera)
+        self._program = run.find_program(program)
+        self._camera_name = camera.name
+        self._given_folder = folder
+        self._owners: dict[str, str] = {}
+        self._notes: list[str] = []
+        self.is_reading = True  # frames change: nobody should edit
+
+    @property
+    def camera(self) -> bpy.types.Object:
+        camera = bpy.data.objects.get(self._camera_name)
+        if camera is None:
+            raise CamwayError(f"{self._camera_name} is gone")
+        return camera
+
+    def steps(self, context: bpy.types.Context) -> Iterator[tuple[float, str]]:
+        folder = pathlib.Path(self._given_folder or tempfile.mkdtemp(prefix="camway_"))
+        folder.mkdir(parents=True, exist_ok=True)
+        frame = context.scene.frame_current_final
+        try:
+            shot = yield from self._read(context, folder)
+            chosen = choose_keyframes(shot, lambda keys: run.interpolate(self._program, folder, shot, keys))
+            shot_reader.frame_set(context.scene, frame)
+            self.is_reading = False
+            before = yield from self._collisions(folder, shot, chosen)
+            answer = yield from self._plan(folder, shot, chosen, before)
+            frame = context.scene.frame_current_final
+            self._finish(context, chosen, answer, before)
+        finally:
+            shot_reader.frame_set(context.scene, frame)
+            if not self._given_folder:
+                shutil.rmtree(folder, ignore_errors=True)
+
+    def _read(self, context: bpy.types.Context, folder: pathlib.Path) -> Iterator[tuple[float, str]]:
+        settings, scene, camera = context.scene.camway, context.scene, self.camera
+        options = settings.options_of_request()
+        here = scene.frame_current_final
+        reading = shot_reader.read_shot(context, camera, settings.within, settings.keys)
+        while True:
+            try:
+                yield 0.5 * next(reading), "reading the camera"
+            except StopIteration as end:
+                shot = end.value
+                break
+        shot.body, shot.options = settings.body_of_request(), options
+        yield 0.5, "writing the scene"
+        shot_reader.frame_set(scene, shot.samples[0].frame if settings.scene_at == "FIRST" else here)
+        depsgraph = context.evaluated_depsgraph_get()
+        self._owners = scene_file.write_scene(folder / "scene.obj", depsgraph, camera, settings,
+                                              shot_reader.unit_of(scene))
+        if not self._owners:
+            raise CamwayError("There is nothing in the way: no visible object has a surface.")
+        self._note_motion(context, shot)
+        if found := jumps(shot.samples, shot.within):
+            self._notes.append("the camera jumps before frame " + ", ".join(map(frame_words, found[:_MOST_NAMES])) +
+                               "; Camway plans a quick motion there")
+        return shot
+
+    def _note_motion(self, context: bpy.types.Context, shot: Shot) -> None:
+        """Warns of obstacles that are elsewhere at the middle or the end of the shot."""
+        settings, names = context.scene.camway, set()
+        depsgraph = context.evaluated_depsgraph_get()
+        here = scene_file.places(depsgraph, self.camera, settings)
+        for index in (0, len(shot.samples) // 2, -1):
+            shot_reader.frame_set(context.scene, shot.samples[index].frame)
+            names.update(scene_file.moved(here, scene_file.places(depsgraph, self.camera, settings)))
+        if names:
+            listed = ", ".join(sorted(names)[:_MOST_NAMES])
+            more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+            self._notes.append(f"moving obstacles stand still for Camway: {listed}{more}")
+
+    def _collisions(self, folder: pathlib.Path, shot: Shot, chosen: Chosen) -> Iterator[tuple[float, str]]:
+        """Returns where the artist's path collides, as `camway check` has it."""
+        request = request_of(shot, chosen.keyframes, "scene.obj")
+        checking = run.check(self._program, folder, request, chosen.path)
+        return (yield from _with_words(checking, 0.6, "looking for collisions"))["collisions"]
+
+    def _plan(self, folder: pathlib.Path, shot: Shot, chosen: Chosen,
+              before: Sequence[dict]) -> Iterator[tuple[float, str]]:
+        """Returns the answer with the most of the sampled keyframes that Camway finds a path with."""
+        first = None
+        for keyframes in _choices(shot, chosen.keyframes, before):
+            request = request_of(shot, keyframes, "scene.obj")
+            planning = run.plan(self._program, folder, request)
+            content = yield from _with_words(planning, 0.7, "planning")
+            answer = Answer(shot, [k.frame for k in keyframes], content)
+            if answer.status == "ok":
+                return answer
+            if first is None or (answer.has_path and not first.has_path):
+                first = answer
+            if set(answer.faulty_frames) & shot.fixed:
+                return answer
+        return first
+
+    def _finish(self, context: bpy.types.Context, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:
+        camera, result = self.camera, self.camera.camway
+        result.begin()
+        result.status, result.message = answer.status, answer.message
+        result.strays_m, result.strays_deg = chosen.strays
+        self._list(result, collisions_of(answer.shot, before))
+        self._list(result, [Collision(f, f, "", "keyframe in collision") for f in answer.faulty_frames])
+        result.say(f"as interpolated, the path strays up to {words_of(chosen.strays)} from your curves")
+        for note in self._notes + answer.warnings():
+            result.say(note)
+        if answer.has_path:
+            self._list(result, answer.remaining())
+            self._put(context, answer)
+        elif camera_copy.copy_of(camera):
+            result.say(f"{camera_copy.copy_of(camera).name} is still that of an earlier run")
+
+    def _put(self, context: bpy.types.Context, answer: Answer) -> None:
+        """Makes the copy and the markers, and says how well Blender plays the path."""
+        scene, camera, result = context.scene, self.camera, self.camera.camway
+        copy = camera_copy.put_on_copy(scene, camera, answer)
+        camera_copy.put_markers(scene, camera, changed_stretches(answer))
+        radius_m = answer.shot.body["radius_m"] if answer.shot.body else answer.shot.view.corner_m
+        played = camera_copy.playback_of(scene, copy, answer, radius_m)
+        result.clearance_m, result.played_m = answer.clearance_m, played.body_m
+        words = f"what Blender plays, between frames too, is within {length_words(played.body_m)} of the path"
+        if answer.is_certified:
+            is_free = played.body_m < answer.clearance_m
+            words += (", less than" if is_free else ", which is not less than")
+            words += f" its clearance of {length_words(answer.clearance_m)}" + ("" if is_free else ": ask for more")
+        result.say(words)
+        last = answer.shot.frame_at(answer.path.end_s)
+        if last > scene.frame_end + 1e-3:
+            result.say(f"the path ends at frame {frame_words(last)}, after the scene's last frame, {scene.frame_end}")
+
+    def _list(self, result, collisions: Sequence[Collision]) -> None:
+        for collision in collisions:
+            row = result.collisions.add()
+            row.begin, row.end, row.thing, row.words = collision
+            row.owner = self._owners.get(collision.thing, "")
+
+
+def _choices(shot: Shot, keyframes: list[Sample], collisions: Sequence[dict]) -> Iterator[list[Sample]]:
+    """Yields lists of keyframes to plan with, each with more room for corrections than the one before.
+
+    The first leaves room right at collisions: sampled keyframes in an obstacle would be refused.
+    """
+    stretches = [(c["t_begin"], c["t_end"]) for c in collisions]
+    seen: list[list[Sample]] = []
+    for margin_s in MARGINS_S:
+        choice = loosened(shot, keyframes, stretches, margin_s)
+        if choice not in seen:
+            seen.append(choice)
+            yield choice
+
+
+def _with_words(running: Iterator[None], share: float, words: str) -> Iterator[tuple[float, str]]:
+    """Yields progress for each step of a program that runs; returns its result."""
+    while True:
+        try:
+            next(running)
+        except StopIteration as end:
+            return end.value
+        yield share, words
