@@ -10,6 +10,10 @@ from .request import Shot
 from .run import plain
 
 
+# A path that comes back to the artist's for less than this goes on being corrected.
+_SAME_STRETCH_S = 0.25
+
+
 class Collision(NamedTuple):
     """A stretch of the artist's path that collides, or a keyframe of it."""
     begin: float
@@ -72,6 +76,19 @@ class Answer:
         return [self.frames[fault["keyframe"]] for fault in self.content.get("keyframe_faults", [])]
 
     @property
+    def rank(self) -> int:
+        """Returns how good the answer is, compared with others."""
+        return ("internal_error", "invalid", "infeasible", "timeout", "partial", "ok").index(self.status)
+
+    @property
+    def is_final(self) -> bool:
+        """Whether other sampled keyframes cannot help: the artist's own ones collide or are shut off."""
+        fixed = self.shot.fixed | {self.frames[0], self.frames[-1]}
+        if proof := self.content.get("infeasibility"):
+            return all(self.frames[proof["keyframe_" + side]] in fixed for side in ("inside", "outside"))
+        return self.status == "invalid" and not set(self.faulty_frames) - fixed or self.status == "internal_error"
+
+    @property
     def message(self) -> str:
         """Camway's own words; keyframes are named by their frames, too."""
         words = plain(self.content["message"])
@@ -128,17 +145,15 @@ def changed_stretches(answer: Answer) -> list[Stretch]:
         return [Stretch(*map(shot.frame_at, c["changed"]), Difference(c["moved_m"], c["turned_deg"]))
                 for c in answer.content["corrections"] if c["kind"] != "none"]
     stretches: list[Stretch] = []
-    is_open = False
     for sample in shot.samples:
         here = difference_of(sample.pose, path.pose(shot.time_s(sample.frame)))
         if here.share_of(shot.within) <= 1.0:
-            is_open = False
-        elif is_open:
+            continue
+        if stretches and sample.frame - stretches[-1].end <= _SAME_STRETCH_S * shot.fps:
             begin, _, largest = stretches[-1]
             stretches[-1] = Stretch(begin, sample.frame, largest.with_largest(here))
         else:
             stretches.append(Stretch(sample.frame, sample.frame, here))
-            is_open = True
     return stretches
 
 

@@ -176,11 +176,8 @@ def put_on_copy(scene: bpy.types.Scene, camera: bpy.types.Object, answer: Answer
     return copy
 
 
-def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer, radius_m: float) -> Playback:
-    """Compares the F-curves of the copy with the path, at CHECKS_PER_FRAME times of each frame.
-
-    `radius_m` is the distance of the farthest point of the body from the eye.
-    """
+def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer) -> Playback:
+    """Compares the F-curves of the copy with the path, at CHECKS_PER_FRAME times of each frame."""
     path = Frames(answer, unit_of(scene), copy.rotation_mode)
     place = _rotation_path(copy.rotation_mode)
     names = [("location", i) for i in range(3)] + [(place, i) for i in range(4 if place.endswith("nion") else 3)]
@@ -196,7 +193,7 @@ def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer, 
             played = Pose(tuple(x * unit_of(scene) for x in values[:3]), tuple(turn))
             here = difference_of(played, path.pose(frame))
             largest = largest.with_largest(here)
-            body_m = max(body_m, here.distance_m + math.radians(here.angle_deg) * radius_m)
+            body_m = max(body_m, here.distance_m + math.radians(here.angle_deg) * answer.shot.radius_m)
     return Playback(largest, body_m)
 
 

@@ -12,11 +12,8 @@ import bpy
 from . import camera_copy, run, scene_file, shot_reader
 from .answer import Answer, Collision, changed_stretches, collisions_of, frame_words, length_words, words_of
 from .motion import Sample, jumps
-from .request import Chosen, Shot, choose_keyframes, loosened, request_of
+from .request import Chosen, Shot, choices, choose_keyframes, request_of, turned_along, without_turns
 from .run import CamwayError
-
-# Sampled keyframes this near to a collision make room for its correction, in seconds; tried in order.
-MARGINS_S = (0.5, 2.0, 1e9)
 
 # Names of moving obstacles that a warning lists.
 _MOST_NAMES = 5
@@ -36,7 +33,7 @@ class Job:
         self._program = run.find_program(program)
         self._camera_name = camera.name
         self._given_folder = folder
-        self._owners: dict[str, str] = {}
+        self._owners: dict[str, scene_file.Owner] = {}
         self._notes: list[str] = []
         self.is_reading = True  # frames change: nobody should edit
 
@@ -112,19 +109,30 @@ class Job:
     def _plan(self, folder: pathlib.Path, shot: Shot, chosen: Chosen,
               before: Sequence[dict]) -> Iterator[tuple[float, str]]:
         """Returns the answer with the most of the sampled keyframes that Camway finds a path with."""
-        first = None
-        for keyframes in _choices(shot, chosen.keyframes, before):
-            request = request_of(shot, keyframes, "scene.obj")
-            planning = run.plan(self._program, folder, request)
-            content = yield from _with_words(planning, 0.7, "planning")
-            answer = Answer(shot, [k.frame for k in keyframes], content)
-            if answer.status == "ok":
+        best = None
+        for keyframes in choices(shot, chosen.keyframes, before):
+            answer = yield from self._ask(folder, shot, keyframes)
+            if best is None or answer.rank > best.rank:
+                best = answer
+            if answer.status == "ok" or answer.is_final:
                 return answer
-            if first is None or (answer.has_path and not first.has_path):
-                first = answer
-            if set(answer.faulty_frames) & shot.fixed:
-                return answer
-        return first
+        # Samples that tell the way of a large turn are in the obstacle. So the way comes first, of a ball
+        # that the body fits in however it is turned, and then the turn along it.
+        keyframes = without_turns(shot, chosen.keyframes, before)
+        ball = {"body": {"type": "sphere", "radius_m": shot.radius_m}}
+        way = yield from self._ask(folder, shot, keyframes, ball, {"repair_keyframes": True})
+        if way.status != "ok":
+            return best
+        answer = yield from self._ask(folder, shot, turned_along(shot, keyframes, way.path))
+        return answer if answer.rank > best.rank or answer.is_final else best
+
+    def _ask(self, folder: pathlib.Path, shot: Shot, keyframes: list[Sample], members: dict = {},
+             options: dict = {}) -> Iterator[tuple[float, str]]:
+        """Returns Camway's answer for keyframes; `members` and `options` replace those of the request."""
+        request = {**request_of(shot, keyframes, "scene.obj"), **members}
+        request["options"] = {**shot.options, **options}
+        content = yield from _with_words(run.plan(self._program, folder, request), 0.7, "planning")
+        return Answer(shot, [k.frame for k in keyframes], content)
 
     def _finish(self, context: bpy.types.Context, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:
         camera, result = self.camera, self.camera.camway
@@ -147,8 +155,7 @@ class Job:
         scene, camera, result = context.scene, self.camera, self.camera.camway
         copy = camera_copy.put_on_copy(scene, camera, answer)
         camera_copy.put_markers(scene, camera, changed_stretches(answer))
-        radius_m = answer.shot.body["radius_m"] if answer.shot.body else answer.shot.view.corner_m
-        played = camera_copy.playback_of(scene, copy, answer, radius_m)
+        played = camera_copy.playback_of(scene, copy, answer)
         result.clearance_m, result.played_m = answer.clearance_m, played.body_m
         words = f"what Blender plays, between frames too, is within {length_words(played.body_m)} of the path"
         if answer.is_certified:
@@ -163,22 +170,9 @@ class Job:
     def _list(self, result, collisions: Sequence[Collision]) -> None:
         for collision in collisions:
             row = result.collisions.add()
-            row.begin, row.end, row.thing, row.words = collision
-            row.owner = self._owners.get(collision.thing, "")
-
-
-def _choices(shot: Shot, keyframes: list[Sample], collisions: Sequence[dict]) -> Iterator[list[Sample]]:
-    """Yields lists of keyframes to plan with, each with more room for corrections than the one before.
-
-    The first leaves room right at collisions: sampled keyframes in an obstacle would be refused.
-    """
-    stretches = [(c["t_begin"], c["t_end"]) for c in collisions]
-    seen: list[list[Sample]] = []
-    for margin_s in MARGINS_S:
-        choice = loosened(shot, keyframes, stretches, margin_s)
-        if choice not in seen:
-            seen.append(choice)
-            yield choice
+            row.begin, row.end, _, row.words = collision
+            owner = self._owners.get(collision.thing, scene_file.Owner(collision.thing, ""))
+            row.thing, row.owner = owner.shown, owner.name
 
 
 def _with_words(running: Iterator[None], share: float, words: str) -> Iterator[tuple[float, str]]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Callable, Iterable, NamedTuple, Sequence
+from typing import Callable, Iterable, Iterator, NamedTuple, Sequence
 
-from .motion import Difference, Path, Sample, difference_of, turn_deg
+from .motion import Difference, Path, Pose, Sample, difference_of, turn_deg
 
 # A request takes the shorter turn between neighbouring keyframes. Beyond 180 degrees that is the wrong
 # one, and well below it is hardly ever the artist's.
@@ -14,6 +14,10 @@ LARGEST_TURN_DEG = 120.0
 
 # Each round halves the gaps that stray, or better, so that a gap of a thousand frames is cut into frames.
 MOST_ROUNDS = 12
+
+
+# Sampled keyframes this near to a collision are left out, to make room for its correction; tried in order.
+MARGINS_S = (0.5, 2.0, math.inf)
 
 
 class View(NamedTuple):
@@ -51,6 +55,11 @@ class Shot:
     options: dict = field(default_factory=dict)
     within: Difference = Difference(0.01, 1.0)
 
+    @property
+    def radius_m(self) -> float:
+        """The distance of the farthest point of the body from the eye."""
+        return self.body["radius_m"] if self.body else self.view.corner_m
+
     def time_s(self, frame: float) -> float:
         return (frame - self.samples[0].frame) / self.fps
 
@@ -68,23 +77,23 @@ class Chosen(NamedTuple):
 def with_turns(shot: Shot, chosen: set[int], avoid: Callable[[float], bool] = lambda _: False) -> set[int]:
     """Adds samples to those chosen, so that no gap between neighbours turns by LARGEST_TURN_DEG.
 
-    A sample that is to be avoided is added only if the limit leaves no other one.
+    Frames to avoid, and frames that are not whole, are added only if the limit leaves no others.
     """
-    result, turned, other = set(chosen), 0.0, None
-    samples = shot.samples
+    samples, result = shot.samples, set(chosen)
+    steps = [0.0, *(turn_deg(a.pose.orientation, b.pose.orientation)
+                    for a, b in zip(samples, samples[1:]))]
+    turned, candidate, rank = 0.0, None, -1
     for i in range(1, len(samples)):
-        step = turn_deg(samples[i - 1].pose.orientation, samples[i].pose.orientation)
-        if turned + step > LARGEST_TURN_DEG and i - 1 not in result:
-            cut = i - 1 if other is None else other
+        if turned + steps[i] > LARGEST_TURN_DEG and i - 1 not in result:
+            cut = i - 1 if candidate is None else candidate
             result.add(cut)
-            turned = sum(turn_deg(samples[k].pose.orientation, samples[k + 1].pose.orientation)
-                         for k in range(cut, i - 1))
-            other = None
-        turned += step
+            turned, candidate, rank = sum(steps[cut + 1:i]), None, -1
+        turned += steps[i]
+        frame = samples[i].frame
         if i in result:
-            turned, other = 0.0, None
-        elif not avoid(samples[i].frame):
-            other = i
+            turned, candidate, rank = 0.0, None, -1
+        elif (here := 2 * (not avoid(frame)) + frame.is_integer()) >= rank:
+            candidate, rank = i, here
     return result
 
 
@@ -131,11 +140,12 @@ def choose_keyframes(shot: Shot, interpolate: Callable[[list[Sample]], Path]) ->
     return best
 
 
-def loosened(shot: Shot, keyframes: list[Sample], stretches: Sequence[tuple[float, float]],
-             margin_s: float) -> list[Sample]:
+def loosened(shot: Shot, keyframes: list[Sample], stretches: Sequence[tuple[float, float]], margin_s: float,
+             keep_turns: bool = True) -> list[Sample]:
     """Returns the keyframes without those that are not fixed and lie in or near one of `stretches`.
 
-    A correction needs that room: Camway moves no given keyframe. `stretches` holds times.
+    A correction needs that room: Camway moves no given keyframe. `stretches` holds times. Where the
+    camera turns far, `keep_turns` keeps samples that tell the way.
     """
     def is_near(frame: float, margin: float = margin_s) -> bool:
         return any(t0 - margin <= shot.time_s(frame) <= t1 + margin for t0, t1 in stretches)
@@ -143,8 +153,46 @@ def loosened(shot: Shot, keyframes: list[Sample], stretches: Sequence[tuple[floa
     fixed = {round(frame, 4) for frame in shot.fixed} | {round(keyframes[i].frame, 4) for i in (0, -1)}
     kept = {k.frame for k in keyframes if round(k.frame, 4) in fixed or not is_near(k.frame)}
     indices = {i for i, sample in enumerate(shot.samples) if sample.frame in kept}
-    indices = with_turns(shot, indices, lambda frame: is_near(frame, 0.0))
+    if keep_turns:
+        indices = with_turns(shot, indices, lambda frame: is_near(frame, 0.0))
     return [shot.samples[i] for i in sorted(indices)]
+
+
+def _spans(collisions: Sequence[dict]) -> list[tuple[float, float]]:
+    """Returns the time from the first collision with each object to the last one with it."""
+    spans: dict[str, tuple[float, float]] = {}
+    for collision in collisions:
+        name = collision["witness"]["object"]
+        spans[name] = (spans.get(name, (collision["t_begin"],))[0], collision["t_end"])
+    return list(spans.values())
+
+
+def choices(shot: Shot, keyframes: list[Sample], collisions: Sequence[dict]) -> Iterator[list[Sample]]:
+    """Yields lists of keyframes to plan with, each with more room for corrections than the one before.
+
+    `collisions` are those of the path through `keyframes`. A sampled keyframe in an obstacle would be
+    refused, and one that is enclosed by an obstacle would be proved to be out of reach.
+    """
+    stretches = [(c["t_begin"], c["t_end"]) for c in collisions]
+    seen: list[list[Sample]] = []
+    for room, margin_s in [(stretches, MARGINS_S[0]), *((_spans(collisions), m) for m in MARGINS_S)]:
+        choice = loosened(shot, keyframes, room, margin_s)
+        if choice not in seen:
+            seen.append(choice)
+            yield choice
+
+
+def without_turns(shot: Shot, keyframes: list[Sample], collisions: Sequence[dict]) -> list[Sample]:
+    """Returns keyframes for a way round obstacles on which the camera need not turn as the artist's does."""
+    return loosened(shot, keyframes, _spans(collisions), MARGINS_S[0], keep_turns=False)
+
+
+def turned_along(shot: Shot, keyframes: list[Sample], way: Path) -> list[Sample]:
+    """Adds the keyframes that large turns need, at places of `way`, a free path through `keyframes`."""
+    given = {k.frame: k for k in keyframes}
+    indices = with_turns(shot, {i for i, sample in enumerate(shot.samples) if sample.frame in given})
+    return [given.get(s.frame) or Sample(s.frame, Pose(way.pose(shot.time_s(s.frame)).position, s.pose.orientation))
+            for s in (shot.samples[i] for i in sorted(indices))]
 
 
 def request_of(shot: Shot, keyframes: Sequence[Sample], scene: str) -> dict:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import array
 import pathlib
+import unicodedata
 from typing import Iterator, NamedTuple, TextIO
 
 import bpy
@@ -12,17 +13,33 @@ from mathutils import Matrix
 WITH_SURFACE = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
+# Camway cuts names that are longer, and the number of a second one of a name has to fit, too.
+_LONGEST_NAME = 100
+
+
+class Owner(NamedTuple):
+    """What a name in the scene file stands for."""
+    shown: str  # its name as Blender shows it, "instancer/object" for an instance
+    name: str   # the object, or the one that makes the instance
+
+
 class Thing(NamedTuple):
-    """An object as the depsgraph shows it; instances have the object that makes them as `owner`."""
-    name: str
-    owner: str
+    """Something with a surface, as the depsgraph shows it."""
+    name: str  # in the scene file
+    owner: Owner
     world: Matrix
 
 
-def plain_name(name: str) -> str:
-    """Returns a name that stays one line of an OBJ file and that its reader does not change."""
-    printable = "".join(c if c.isprintable() else " " for c in name).strip()
-    return printable.rstrip("\\") or "unnamed"
+def plain_name(name: str, taken: dict[str, int]) -> str:
+    """Returns a name for the scene file: printable ASCII in one line, as Camway answers with, and not taken yet.
+
+    Letters lose their accents, and what has no counterpart becomes '?', as it would in an answer.
+    """
+    letters = (c for c in unicodedata.normalize("NFKD", name) if not unicodedata.combining(c))
+    plain = "".join(c if " " <= c <= "~" else "?" for c in letters).strip().rstrip("\\")[:_LONGEST_NAME]
+    plain = plain or "unnamed"
+    taken[plain] = taken.get(plain, 0) + 1
+    return plain if taken[plain] == 1 else plain_name(f"{plain}#{taken[plain]}", taken)
 
 
 def _is_part(thing: bpy.types.Object, owner: bpy.types.Object, camera: bpy.types.Object, settings) -> bool:
@@ -46,11 +63,8 @@ def visible(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object,
         owner = instance.parent if instance.is_instance and instance.parent else thing
         if not instance.show_self or not _is_part(thing, owner, camera, settings):
             continue
-        name = plain_name(thing.name if owner == thing else f"{owner.name}/{thing.name}")
-        names[name] = names.get(name, 0) + 1
-        if names[name] > 1:
-            name = f"{name}#{names[name]}"
-        yield Thing(name, owner.name, instance.matrix_world.copy()), thing
+        shown = thing.name if owner == thing else f"{owner.name}/{thing.name}"
+        yield Thing(plain_name(shown, names), Owner(shown, owner.name), instance.matrix_world.copy()), thing
 
 
 def _write_mesh(file: TextIO, name: str, mesh: bpy.types.Mesh, world: Matrix, unit_m: float, first: int) -> None:
@@ -71,12 +85,12 @@ def _write_mesh(file: TextIO, name: str, mesh: bpy.types.Mesh, world: Matrix, un
 
 
 def write_scene(path: pathlib.Path, depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object, settings,
-                unit_m: float) -> dict[str, str]:
+                unit_m: float) -> dict[str, Owner]:
     """Writes the scene as it is now, in metres; `unit_m` is the length of a Blender unit.
 
-    Returns the names of the objects that own what was written, by the names in the file.
+    Returns what the names in the file stand for.
     """
-    owners: dict[str, str] = {}
+    owners: dict[str, Owner] = {}
     count = 0
     with open(path, "w", encoding="utf-8") as file:
         for thing, evaluated in visible(depsgraph, camera, settings):

@@ -108,8 +108,8 @@ class CamwayCollision(bpy.types.PropertyGroup):
     """A row of the list of collisions."""
     begin: FloatProperty()
     end: FloatProperty()
-    thing: StringProperty(description="Name in the scene that Camway saw")
-    owner: StringProperty(description="Name of the object")
+    thing: StringProperty(description="What the camera touches: object, or instancer/object")
+    owner: StringProperty(description="Name of the object, or of the one that makes the instance")
     words: StringProperty()
 
 
