@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import NamedTuple, Sequence
 
 from .motion import Difference, Path, difference_of
@@ -12,6 +13,10 @@ from .run import plain
 
 # A path that comes back to the artist's for less than this goes on being corrected.
 _SAME_STRETCH_S = 0.25
+
+
+# How messages name keyframes: by their place in the request, counted from 0.
+_KEYFRAME = re.compile(r"\bkeyframes\[(\d+)\]|\bkeyframe (\d+)\b")
 
 
 class Collision(NamedTuple):
@@ -70,10 +75,15 @@ class Answer:
 
     @property
     def faulty_frames(self) -> list[float]:
-        """The frames of given keyframes that collide and were not repaired."""
+        """The frames of given keyframes that collide and were not repaired: of the artist's keys, if there are."""
         if self.status != "invalid":
             return []
-        return [self.frames[fault["keyframe"]] for fault in self.content.get("keyframe_faults", [])]
+        frames = [self.frames[fault["keyframe"]] for fault in self.content.get("keyframe_faults", [])]
+        return [frame for frame in frames if frame in self._unmoved] or frames
+
+    @property
+    def _unmoved(self) -> set[float]:
+        return self.shot.fixed | {self.frames[0], self.frames[-1]}
 
     @property
     def rank(self) -> int:
@@ -83,23 +93,22 @@ class Answer:
     @property
     def is_final(self) -> bool:
         """Whether other sampled keyframes cannot help: the artist's own ones collide or are shut off."""
-        fixed = self.shot.fixed | {self.frames[0], self.frames[-1]}
         if proof := self.content.get("infeasibility"):
-            return all(self.frames[proof["keyframe_" + side]] in fixed for side in ("inside", "outside"))
-        return self.status == "invalid" and not set(self.faulty_frames) - fixed or self.status == "internal_error"
+            return all(self.frames[proof["keyframe_" + side]] in self._unmoved for side in ("inside", "outside"))
+        if self.status == "invalid":
+            return not self.faulty_frames or set(self.faulty_frames) <= self._unmoved
+        return self.status == "internal_error"
 
     @property
     def message(self) -> str:
-        """Camway's own words; keyframes are named by their frames, too."""
-        words = plain(self.content["message"])
-        if self.faulty_frames:
-            named = ", ".join(map(frame_words, self.faulty_frames))
-            words += f" (keyframe at frame {named})"
-        elif "keyframe" in self.content:
-            words += f" (keyframe at frame {frame_words(self.frames[self.content['keyframe']])})"
-        elif proof := self.content.get("infeasibility"):
-            inside, outside = (frame_words(self.frames[proof["keyframe_" + side]]) for side in ("inside", "outside"))
-            words += f" (inside at frame {inside}, outside at frame {outside})"
+        """Camway's own words, with keyframes named by their frames."""
+        def by_frame(match: re.Match) -> str:
+            index = int(match[1] or match[2])
+            return f"keyframe at frame {frame_words(self.frames[index])}" if index < len(self.frames) else match[0]
+
+        words = _KEYFRAME.sub(by_frame, plain(self.content["message"]))
+        if len(self.faulty_frames) > 1:
+            words += "; all that collide: frames " + ", ".join(map(frame_words, self.faulty_frames))
         return words
 
     def frame_of_keyframes(self, origin: str) -> list[float]:
@@ -113,8 +122,7 @@ class Answer:
         """Returns what else the answer says that a user has to know."""
         words = list(self.content.get("warnings", []))
         if "time_scale" in self.content:
-            words.append(f"slowed to {self.content['time_scale']:.3g} times the duration, to meet the limits; "
-                         "an animated lens keeps its times")
+            words.append("the path is slowed; an animated lens keeps its times")
         if self.content.get("deadline_reached"):
             words.append("the deadline ended planning early")
         return words

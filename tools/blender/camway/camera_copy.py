@@ -107,10 +107,11 @@ def _key_types(answer: Answer, frames: Sequence[float]) -> list[str]:
 
 def copy_of(camera: bpy.types.Object) -> bpy.types.Object | None:
     """Returns the copy that an earlier run made of this camera, or None."""
-    return next((thing for thing in bpy.data.objects if thing.get(SOURCE) == camera), None)
+    copies = [thing for thing in bpy.data.objects if thing.get(SOURCE) == camera]
+    return next((copy for copy in copies if copy.name == camera.name + SUFFIX), copies[0] if copies else None)
 
 
-def _still_copy(camera: bpy.types.Object) -> bpy.types.Object:
+def _still_copy(scene: bpy.types.Scene, camera: bpy.types.Object) -> bpy.types.Object:
     """Returns a copy of the camera with its own lens, without parent, constraints or animation of its place.
 
     It takes the place of an earlier copy, wherever that was used.
@@ -133,7 +134,9 @@ def _still_copy(camera: bpy.types.Object) -> bpy.types.Object:
     if copy.rotation_mode == "AXIS_ANGLE":
         copy.rotation_mode = "QUATERNION"
     copy[SOURCE] = camera
-    for collection in camera.users_collection:
+    copy.camway.begin()
+    # Collections of linked files take no objects.
+    for collection in [c for c in camera.users_collection if not c.library] or [scene.collection]:
         collection.objects.link(copy)
     if earlier:
         _replace(earlier, copy)
@@ -143,6 +146,10 @@ def _still_copy(camera: bpy.types.Object) -> bpy.types.Object:
 
 def _replace(earlier: bpy.types.Object, copy: bpy.types.Object) -> None:
     """Removes an earlier copy with all that only it used."""
+    for collection in earlier.users_collection:
+        if copy.name not in collection.objects:
+            collection.objects.link(copy)
+        collection.objects.unlink(earlier)
     action, data = earlier.animation_data and earlier.animation_data.action, earlier.data
     lens = data.animation_data and data.animation_data.action
     earlier.user_remap(copy)
@@ -160,7 +167,7 @@ def _rotation_path(mode: str) -> str:
 
 def put_on_copy(scene: bpy.types.Scene, camera: bpy.types.Object, answer: Answer) -> bpy.types.Object:
     """Returns a copy of the camera that follows the path of an answer, key by key."""
-    copy = _still_copy(camera)
+    copy = _still_copy(scene, camera)
     path = Frames(answer, unit_of(scene), copy.rotation_mode)
     frames = whole_frames(answer.shot, answer.path)
     place = _rotation_path(copy.rotation_mode)

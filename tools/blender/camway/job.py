@@ -25,10 +25,8 @@ class Job:
     Objects are looked up by name again after each wait: undo, which may happen meanwhile, replaces them.
     """
 
-    def __init__(self, context: bpy.types.Context, program: str, folder: str = ""):
-        self._settings = context.scene.camway
-        camera = self._settings.camera or context.scene.camera
-        if self._settings.body == "NEAR" or camera is None:
+    def __init__(self, context: bpy.types.Context, camera: bpy.types.Object, program: str, folder: str = ""):
+        if context.scene.camway.body == "NEAR":
             shot_reader.require_perspective(camera)
         self._program = run.find_program(program)
         self._camera_name = camera.name
@@ -137,7 +135,7 @@ class Job:
     def _finish(self, context: bpy.types.Context, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:
         camera, result = self.camera, self.camera.camway
         result.begin()
-        result.status, result.message = answer.status, answer.message
+        result.status, result.message = answer.status, _headline(answer, before)
         result.strays_m, result.strays_deg = chosen.strays
         self._list(result, collisions_of(answer.shot, before))
         self._list(result, [Collision(f, f, "", "keyframe in collision") for f in answer.faulty_frames])
@@ -173,6 +171,15 @@ class Job:
             row.begin, row.end, _, row.words = collision
             owner = self._owners.get(collision.thing, scene_file.Owner(collision.thing, ""))
             row.thing, row.owner = owner.shown, owner.name
+
+
+def _headline(answer: Answer, before: Sequence[dict]) -> str:
+    """Returns Camway's message. Without sampled keyframes in the obstacle, there may be nothing to correct."""
+    nothing = "no collision to correct"
+    if before and answer.message.startswith(nothing):
+        count = f"{len(before)} collision{'s' if len(before) > 1 else ''} of your path corrected"
+        return count + answer.message.removeprefix(nothing)
+    return answer.message
 
 
 def _with_words(running: Iterator[None], share: float, words: str) -> Iterator[tuple[float, str]]:

@@ -16,9 +16,11 @@ _SLICE_S = 0.05
 
 
 def camera_of(context: bpy.types.Context) -> bpy.types.Object | None:
-    """Returns the camera that the panel is about; of a copy, its original."""
+    """Returns the camera that the panel is about, or None; of a copy, its original."""
     camera = context.scene.camway.camera or context.scene.camera
-    return camera.get(camera_copy.SOURCE) or camera if camera else None
+    if camera is None or camera.type != "CAMERA":
+        return None
+    return camera.get(camera_copy.SOURCE) or camera
 
 
 class CAMWAY_OT_plan(bpy.types.Operator):
@@ -39,11 +41,8 @@ class CAMWAY_OT_plan(bpy.types.Operator):
         return camera_of(context) is not None
 
     def _begin(self, context):
-        settings = context.scene.camway
-        camera = camera_of(context)
-        if camera and settings.camera != camera and (settings.camera or context.scene.camera) != camera:
-            settings.camera = camera  # the original of the copy that was picked
-        self._job = Job(context, self.program or preferences.program_of(context), self.folder)
+        program = self.program or preferences.program_of(context)
+        self._job = Job(context, camera_of(context), program, self.folder)
         self._steps = self._job.steps(context)
 
     def execute(self, context):

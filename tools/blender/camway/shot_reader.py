@@ -54,9 +54,7 @@ def frame_set(scene: bpy.types.Scene, frame: float) -> None:
     scene.frame_set(whole, subframe=frame - whole)
 
 
-def require_perspective(camera: bpy.types.Object | None) -> None:
-    if camera is None or camera.type != "CAMERA":
-        raise CamwayError("Pick a camera.")
+def require_perspective(camera: bpy.types.Object) -> None:
     if camera.data.type != "PERSP":
         raise CamwayError(f"{camera.name} is not a perspective camera. Camway moves a near plane with an angle of "
                           "view; choose Ball as the body to plan for this camera.")
