@@ -7,12 +7,13 @@ import textwrap
 import bpy
 
 from .answer import frame_words
+from .camera_copy import copy_of
 from .operators import camera_of
 
 _ICONS = {"ok": "CHECKMARK", "partial": "ERROR", "timeout": "ERROR"}
 
 # Pixels of a letter, about, and of the margins of a panel, at the usual scale of the interface.
-_LETTER, _MARGIN = 7, 40
+_LETTER, _MARGIN = 7.5, 50
 
 
 class CAMWAY_UL_collisions(bpy.types.UIList):
@@ -20,11 +21,9 @@ class CAMWAY_UL_collisions(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_name):
         begin, end = frame_words(item.begin), frame_words(item.end)
-        row = layout.row()
-        row.label(text=begin if begin == end else f"{begin} - {end}", icon="TIME")
+        row = layout.split(factor=0.4)
+        row.label(text=begin if begin == end else f"{begin} - {end}")
         row.label(text=item.thing or item.words)
-        if item.thing:
-            row.label(text=item.words)
 
 
 class _Part:
@@ -38,18 +37,20 @@ class CAMWAY_PT_main(_Part, bpy.types.Panel):
 
     def draw(self, context):
         settings, layout = context.scene.camway, self.layout
-        layout.prop(settings, "camera")
-        if not settings.camera and context.scene.camera:
-            layout.label(text=f"the active camera, {context.scene.camera.name}", icon="CAMERA_DATA")
-        layout.prop(settings, "collection")
+        camera = camera_of(context)
+        column = layout.column(align=True)
+        column.label(text="Camera" if settings.camera or not camera else f"Camera: the active one, {camera.name}")
+        column.prop(settings, "camera", text="")
+        column = layout.column(align=True)
+        column.label(text="Obstacles" if settings.collection else "Obstacles: all that is visible")
+        column.prop(settings, "collection", text="")
         layout.prop(settings, "clearance_m")
         layout.operator("camway.plan", icon="PLAY")
-        camera = camera_of(context)
         if camera and camera.camway.status:
-            self._draw_result(context, camera.camway)
+            self._draw_result(context, camera)
 
-    def _draw_result(self, context, result):
-        layout = self.layout
+    def _draw_result(self, context, camera):
+        layout, result = self.layout, camera.camway
         box = layout.box()
         _write(context, box, f"{result.status}: {result.message}", _ICONS.get(result.status, "CANCEL"))
         for line in result.lines:
@@ -57,8 +58,13 @@ class CAMWAY_PT_main(_Part, bpy.types.Panel):
         if result.collisions:
             layout.label(text="Collisions of your path:")
             layout.template_list("CAMWAY_UL_collisions", "", result, "collisions", result, "row", rows=3)
+            if 0 <= result.row < len(result.collisions):
+                layout.label(text=result.collisions[result.row].words)
             layout.operator("camway.select_obstacle", icon="RESTRICT_SELECT_OFF")
-        layout.operator("camway.look_through", icon="VIEW_CAMERA")
+        copy = copy_of(camera)
+        if copy:
+            other = camera if context.scene.camera == copy else copy
+            layout.operator("camway.look_through", icon="VIEW_CAMERA", text=f"Look Through {other.name}")
 
 
 class CAMWAY_PT_options(_Part, bpy.types.Panel):
