@@ -15,7 +15,7 @@ def fcurves_of(block: bpy.types.ID):
     data = getattr(block, "animation_data", None)
     if data is None or data.action is None:
         return []
-    if not hasattr(data.action, "layers"):
+    if not hasattr(data, "action_slot"):
         return data.action.fcurves
     for layer in data.action.layers:
         for strip in layer.strips:

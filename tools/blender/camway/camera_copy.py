@@ -156,8 +156,8 @@ def _replace(earlier: bpy.types.Object, copy: bpy.types.Object) -> None:
     bpy.data.objects.remove(earlier)
     if data.users == 0:
         bpy.data.cameras.remove(data)
-    for used in (action, lens):
-        if used and used.users == 0:
+    for used in {action, lens} - {None}:  # one and the same, it may be
+        if used.users == 0:
             bpy.data.actions.remove(used)
 
 
@@ -174,12 +174,13 @@ def put_on_copy(scene: bpy.types.Scene, camera: bpy.types.Object, answer: Answer
     frame_set(scene, frames[0])
     channels = _channels(path, frames, list(getattr(camera, place)))
     types = _key_types(answer, frames)
+    # Without an action of its own, Blender 4.4 would add the keys to that of the lens.
+    copy.animation_data_create().action = bpy.data.actions.new(copy.name)
     for name, part in (("location", channels[:3]), (place, channels[3:])):
-        # Blender makes the action, in every version, with one key of each curve.
+        # A first key makes the curves, in every version of Blender.
         copy.keyframe_insert(name, frame=frames[0])
         for index, channel in enumerate(part):
             _fill(animation.curve_of(copy, name, index), frames, channel, types)
-    copy.animation_data.action.name = copy.name
     return copy
 
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 """The buttons of the panel, for scripts as well."""
-from __future__ import annotations
-
 import time
 
 import bpy

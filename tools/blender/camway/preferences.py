@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 """The preferences of the add-on."""
-from __future__ import annotations
-
 import bpy
 from bpy.props import StringProperty
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 """What the panel asks for, and what a run left with the camera. Both are saved in the .blend file."""
-from __future__ import annotations
-
 import json
 
 import bpy
@@ -118,7 +116,7 @@ class CamwayLine(bpy.types.PropertyGroup):
     text: StringProperty()
 
 
-def _go_to_row(result: CamwayResult, context: bpy.types.Context) -> None:
+def _go_to_row(result: "CamwayResult", context: bpy.types.Context) -> None:
     if 0 <= result.row < len(result.collisions):
         row = result.collisions[result.row]
         context.scene.frame_set(round((row.begin + row.end) / 2.0))
