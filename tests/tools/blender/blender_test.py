@@ -574,8 +574,18 @@ class BlockTest(CamwayTest):
             copy = self.planned(camera)
             self.assertEqual(rooms.touching_frames(copy), [])
             self.assertIn("collision", camera.camway.message)
+            self.assert_kept_files_belong_together()
             turned = [animation.curve_of(copy, "rotation_euler", 2).evaluate(f) for f in (1, 121)]
             self.assertAlmostEqual(math.degrees(turned[1] - turned[0]), turn, delta=1e-3)
+
+
+    def assert_kept_files_belong_together(self):
+        steps = run.plan(run.find_program(), self.folder, self.read("request.json"))
+        kept = self.read("response.json")["segments"]
+        with self.assertRaises(StopIteration) as end:
+            while True:
+                next(steps)
+        self.assertEqual(end.exception.value["segments"], kept)
 
 
 class ErrorTest(CamwayTest):
@@ -599,6 +609,7 @@ class ErrorTest(CamwayTest):
         self.assertEqual(result.status, "infeasible")
         self.assertRegex(result.message, "no path exists: keyframe at frame 61 is inside .*, keyframe at frame 1 outside")
         self.assertIn("no path exists", self.returned)
+        self.assertEqual(self.read("response.json")["status"], "infeasible")
         self.assertNotIn("Cam.camway", bpy.data.objects)
 
     def test_an_earlier_copy_stays_and_is_told(self):

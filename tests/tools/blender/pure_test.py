@@ -168,7 +168,8 @@ class ProgramTest(unittest.TestCase):
 
     def plan(self, shot, **members):
         asked = {**request.request_of(shot, shot.samples, "scene.obj"), **members}
-        return answer.Answer(shot, [s.frame for s in shot.samples], self.finish(run.plan(PROGRAM, self.folder, asked)))
+        content = self.finish(run.plan(PROGRAM, self.folder, asked))
+        return answer.Answer(shot, [s.frame for s in shot.samples], asked, content)
 
     def crossing(self, y=0.0, first=7):
         """Two keys, at `first` and two seconds later, on both sides of the wall. The camera looks along -X."""

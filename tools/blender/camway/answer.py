@@ -59,10 +59,10 @@ def frame_words(frame: float) -> str:
 
 
 class Answer:
-    """The answer of `camway plan`, for the keyframes of a request at `frames`."""
+    """The answer of `camway plan` to a request with keyframes at `frames`."""
 
-    def __init__(self, shot: Shot, frames: Sequence[float], content: dict):
-        self.shot, self.frames, self.content = shot, frames, content
+    def __init__(self, shot: Shot, frames: Sequence[float], request: dict, content: dict):
+        self.shot, self.frames, self.request, self.content = shot, frames, request, content
         self.status: str = content["status"]
         self.path = Path(content["segments"]) if content["segments"] else None
         self.clearance_m: float = content["certificate"]["clearance_lower_bound"]

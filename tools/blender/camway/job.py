@@ -29,7 +29,7 @@ class Job:
         if context.scene.camway.body == "NEAR":
             shot_reader.require_perspective(camera)
         self._program = run.find_program(program)
-        self._camera_name = camera.name
+        self._camera_name, self._scene_name = camera.name, context.scene.name
         self._given_folder = folder
         self._owners: dict[str, scene_file.Owner] = {}
         self._notes: list[str] = []
@@ -42,21 +42,31 @@ class Job:
             raise CamwayError(f"{self._camera_name} is gone")
         return camera
 
+    @property
+    def scene(self) -> bpy.types.Scene:
+        scene = bpy.data.scenes.get(self._scene_name)
+        if scene is None:
+            raise CamwayError(f"the scene {self._scene_name} is gone")
+        return scene
+
     def steps(self, context: bpy.types.Context) -> Iterator[tuple[float, str]]:
         folder = pathlib.Path(self._given_folder or tempfile.mkdtemp(prefix="camway_"))
         folder.mkdir(parents=True, exist_ok=True)
-        frame = context.scene.frame_current_final
+        frame = self.scene.frame_current_final
         try:
             shot = yield from self._read(context, folder)
             chosen = choose_keyframes(shot, lambda keys: run.interpolate(self._program, folder, shot, keys))
-            shot_reader.frame_set(context.scene, frame)
+            shot_reader.frame_set(self.scene, frame)
             self.is_reading = False
             before = yield from self._collisions(folder, shot, chosen)
             answer = yield from self._plan(folder, shot, chosen, before)
-            frame = context.scene.frame_current_final
-            self._finish(context, chosen, answer, before)
+            run.write_json(folder / "request.json", answer.request)  # of several, those that belong together
+            run.write_json(folder / "response.json", answer.content)
+            frame = self.scene.frame_current_final
+            self._finish(chosen, answer, before)
         finally:
-            shot_reader.frame_set(context.scene, frame)
+            if self._scene_name in bpy.data.scenes:
+                shot_reader.frame_set(self.scene, frame)
             if not self._given_folder:
                 shutil.rmtree(folder, ignore_errors=True)
 
@@ -130,9 +140,9 @@ class Job:
         request = {**request_of(shot, keyframes, "scene.obj"), **members}
         request["options"] = {**shot.options, **options}
         content = yield from _with_words(run.plan(self._program, folder, request), 0.7, "planning")
-        return Answer(shot, [k.frame for k in keyframes], content)
+        return Answer(shot, [k.frame for k in keyframes], request, content)
 
-    def _finish(self, context: bpy.types.Context, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:
+    def _finish(self, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:
         camera, result = self.camera, self.camera.camway
         result.begin()
         result.status, result.message = answer.status, _headline(answer, before)
@@ -144,13 +154,13 @@ class Job:
             result.say(note)
         if answer.has_path:
             self._list(result, answer.remaining())
-            self._put(context, answer)
+            self._put(answer)
         elif camera_copy.copy_of(camera):
             result.say(f"{camera_copy.copy_of(camera).name} is still that of an earlier run")
 
-    def _put(self, context: bpy.types.Context, answer: Answer) -> None:
+    def _put(self, answer: Answer) -> None:
         """Makes the copy and the markers, and says how well Blender plays the path."""
-        scene, camera, result = context.scene, self.camera, self.camera.camway
+        scene, camera, result = self.scene, self.camera, self.camera.camway
         copy = camera_copy.put_on_copy(scene, camera, answer)
         camera_copy.put_markers(scene, camera, changed_stretches(answer))
         played = camera_copy.playback_of(scene, copy, answer)

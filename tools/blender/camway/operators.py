@@ -12,6 +12,9 @@ from .run import CamwayError
 # Steps of a job are done for this long, then Blender draws and reads the keyboard.
 _SLICE_S = 0.05
 
+# What the user is told in words; OSError is a full disk or a folder that cannot be written.
+_FAILURES = (CamwayError, OSError)
+
 
 def camera_of(context: bpy.types.Context) -> bpy.types.Object | None:
     """Returns the camera that the panel is about, or None; of a copy, its original."""
@@ -50,7 +53,7 @@ class CAMWAY_OT_plan(bpy.types.Operator):
             for _ in self._steps:
                 if not self._job.is_reading:
                     time.sleep(0.001)  # a child runs
-        except CamwayError as error:
+        except _FAILURES as error:
             return self._fail(context, error)
         return self._end(context)
 
@@ -59,7 +62,7 @@ class CAMWAY_OT_plan(bpy.types.Operator):
             return self.execute(context)
         try:
             self._begin(context)
-        except CamwayError as error:
+        except _FAILURES as error:
             return self._fail(context, error)
         self._timer = context.window_manager.event_timer_add(_SLICE_S, window=context.window)
         context.window_manager.progress_begin(0.0, 1.0)
@@ -84,9 +87,12 @@ class CAMWAY_OT_plan(bpy.types.Operator):
         except StopIteration:
             self._stop(context)
             return self._end(context)
-        except CamwayError as error:
+        except _FAILURES as error:
             self._stop(context)
             return self._fail(context, error)
+        except Exception:
+            self._stop(context)  # a fault of ours: Blender shows it, and the window is as before
+            raise
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):

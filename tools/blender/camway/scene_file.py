@@ -42,13 +42,21 @@ def plain_name(name: str, taken: dict[str, int]) -> str:
     return plain if taken[plain] == 1 else plain_name(f"{plain}#{taken[plain]}", taken)
 
 
-def _is_part(thing: bpy.types.Object, owner: bpy.types.Object, camera: bpy.types.Object, settings) -> bool:
-    """Whether a visible object is an obstacle: not what the camera carries, and by the settings."""
-    if thing.type not in WITH_SURFACE or owner.original == camera or owner.original in camera.children_recursive:
-        return False
-    if settings.collection and owner.name not in settings.collection.all_objects:
-        return False
-    return settings.with_hidden_in_render or not (thing.hide_render or owner.hide_render)
+class _Filter:
+    """Tells which visible objects are obstacles: not what the camera carries, and by the settings."""
+
+    def __init__(self, camera: bpy.types.Object, settings):
+        self._carried = {camera.name, *(child.name for child in camera.children_recursive)}
+        self._inside = set(settings.collection.all_objects.keys()) if settings.collection else None
+        self._with_hidden = settings.with_hidden_in_render
+
+    def takes(self, thing: bpy.types.Object, owner: bpy.types.Object) -> bool:
+        """Whether something is an obstacle; `owner` makes the instance, or is the same."""
+        if thing.type not in WITH_SURFACE or owner.name in self._carried:
+            return False
+        if self._inside is not None and owner.name not in self._inside:
+            return False
+        return self._with_hidden or not (thing.hide_render or owner.hide_render)
 
 
 def visible(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object,
@@ -57,11 +65,11 @@ def visible(depsgraph: bpy.types.Depsgraph, camera: bpy.types.Object,
 
     The object is valid until the next step of the iteration.
     """
-    names: dict[str, int] = {}
+    obstacles, names = _Filter(camera, settings), {}
     for instance in depsgraph.object_instances:
         thing = instance.object
         owner = instance.parent if instance.is_instance and instance.parent else thing
-        if not instance.show_self or not _is_part(thing, owner, camera, settings):
+        if not instance.show_self or not obstacles.takes(thing, owner):
             continue
         shown = thing.name if owner == thing else f"{owner.name}/{thing.name}"
         yield Thing(plain_name(shown, names), Owner(shown, owner.name), instance.matrix_world.copy()), thing
