@@ -324,6 +324,43 @@ class RoundTripTest(CamwayTest):
     def camera_rows(self, camera):
         return [(row.begin, row.thing) for row in camera.camway.collisions]
 
+    def test_a_saved_file_has_it_all(self):
+        rooms.new_room(30, 1.001)
+        camera = rooms.new_camera(rooms.along_x(turned=(0, 30, 450)))
+        copy = self.planned(camera)
+        frames = (1, 33, 61, 78, 121)
+        poses, rows = self.poses(copy, frames), self.camera_rows(camera)
+        file = str(self.folder / "shot.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=file)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.open_mainfile(filepath=file)
+        camera, copy = bpy.data.objects["Cam"], bpy.data.objects["Cam.camway"]
+        self.assertEqual(self.poses(copy, frames), poses)
+        self.assertEqual((self.camera_rows(camera), camera.camway.status), (rows, "ok"))
+        self.assertEqual(bpy.context.scene.camway.camera, camera)
+        self.assertEqual(len(bpy.context.scene.timeline_markers), 2)
+        self.planned(camera)  # and goes on
+        self.assertEqual(len([c for c in bpy.data.objects if c.type == "CAMERA"]), 2)
+
+    def test_a_camera_of_a_linked_file_gets_a_copy_here(self):
+        rooms.new_room()
+        rooms.new_camera(rooms.along_x())
+        rig = bpy.data.collections.new("rig")
+        rig.objects.link(bpy.data.objects["Cam"])
+        bpy.context.scene.collection.children.link(rig)
+        file = str(self.folder / "rig.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=file)
+        rooms.new_room()
+        with bpy.data.libraries.load(file, link=True) as (_, linked):
+            linked.collections = ["rig"]
+        bpy.context.scene.collection.children.link(linked.collections[0])
+        camera = linked.collections[0].objects["Cam"]
+        self.assertIsNotNone(camera.library)
+        rooms.new_camera([(1, (0, 0, 0), (0, 0, 0))])  # of the same name
+        copy = self.planned(camera)
+        self.assertIsNone(copy.library)
+        self.assertEqual(rooms.touching_frames(copy), [])
+
     def test_rotation_modes_are_kept(self):
         for mode in ("QUATERNION", "ZXY", "YZX"):
             rooms.new_room()
@@ -607,7 +644,7 @@ class ErrorTest(CamwayTest):
         camera = rooms.new_camera(rooms.along_x())
         result = self.plan(camera)
         self.assertEqual(result.status, "infeasible")
-        self.assertRegex(result.message, "no path exists: keyframe at frame 61 is inside .*, keyframe at frame 1 outside")
+        self.assertRegex(result.message, "no path exists: keyframe at frame 61 is inside .*, keyframe at frame 1 out")
         self.assertIn("no path exists", self.returned)
         self.assertEqual(self.read("response.json")["status"], "infeasible")
         self.assertNotIn("Cam.camway", bpy.data.objects)

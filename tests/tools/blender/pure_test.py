@@ -4,7 +4,6 @@
 
     CAMWAY=build/dev/bin/camway tests/tools/blender/pure_test.py
 """
-import json
 import math
 import os
 import pathlib

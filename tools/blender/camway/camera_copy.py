@@ -188,8 +188,8 @@ def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer) 
     """Compares the F-curves of the copy with the path, at CHECKS_PER_FRAME times of each frame."""
     path = Frames(answer, unit_of(scene), copy.rotation_mode)
     place = _rotation_path(copy.rotation_mode)
-    names = [("location", i) for i in range(3)] + [(place, i) for i in range(4 if place.endswith("nion") else 3)]
-    curves = [animation.curve_of(copy, *name) for name in names]
+    curves = [animation.curve_of(copy, name, i) for name in ("location", place)
+              for i in range(len(getattr(copy, name)))]
     frames = whole_frames(answer.shot, answer.path)
     largest, body_m = Difference(), 0.0
     for begin, end in zip(frames, frames[1:]):

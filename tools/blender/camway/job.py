@@ -29,7 +29,8 @@ class Job:
         if context.scene.camway.body == "NEAR":
             shot_reader.require_perspective(camera)
         self._program = run.find_program(program)
-        self._camera_name, self._scene_name = camera.name, context.scene.name
+        self._camera_key = (camera.name, camera.library.filepath if camera.library else None)
+        self._scene_name = context.scene.name
         self._given_folder = folder
         self._owners: dict[str, scene_file.Owner] = {}
         self._notes: list[str] = []
@@ -37,9 +38,9 @@ class Job:
 
     @property
     def camera(self) -> bpy.types.Object:
-        camera = bpy.data.objects.get(self._camera_name)
+        camera = bpy.data.objects.get(self._camera_key)
         if camera is None:
-            raise CamwayError(f"{self._camera_name} is gone")
+            raise CamwayError(f"{self._camera_key[0]} is gone")
         return camera
 
     @property
