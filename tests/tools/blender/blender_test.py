@@ -21,8 +21,9 @@ sys.dont_write_bytecode = True
 
 import camway  # noqa: E402
 import rooms  # noqa: E402
-from camway import animation, run, shot_reader  # noqa: E402
-from camway.motion import Difference, Path, difference_of  # noqa: E402
+from camway import animation, camera_copy, request, run, shot_reader  # noqa: E402
+from camway.answer import Answer  # noqa: E402
+from camway.motion import Difference, Path, Sample, difference_of  # noqa: E402
 
 # What floats of Blender leave of a position in a room, in metres, and of an angle, in degrees.
 FLOAT = Difference(2e-6, 1e-4)
@@ -67,6 +68,15 @@ class CamwayTest(unittest.TestCase):
         for frame, a, b in zip(frames, self.poses(camera, frames), self.poses(copy, frames)):
             difference = difference_of(a, b)
             self.assertLessEqual(difference.share_of(limit), 1.0, f"frame {frame}: {difference}")
+
+    def assert_kept_files_belong_together(self):
+        """The request that is kept has the answer that is kept."""
+        steps = run.plan(run.find_program(), self.folder, self.read("request.json"))
+        kept = self.read("response.json")["segments"]
+        with self.assertRaises(StopIteration) as end:
+            while True:
+                next(steps)
+        self.assertEqual(end.exception.value["segments"], kept)
 
     def lines(self, result):
         return "\n".join(line.text for line in result.lines)
@@ -199,6 +209,22 @@ class PillarTest(CamwayTest):
         self.assertLess(result.played_m, 1e-4)
         self.assertGreater(result.played_m, 0.0)
         self.assertIn("less than its clearance", self.lines(result))
+
+    def test_curves_that_are_off_are_seen(self):
+        copy = self.planned(self.camera)
+        content = self.read("response.json")
+        shot = request.Shot([Sample(1.0, None)], set(), 24.0, request.View(54.0, 32.0, 0.1))
+        reply = Answer(shot, [], {}, content)
+        self.assertAlmostEqual(camera_copy.playback_of(self.scene, copy, reply), self.camera.camway.played_m, 6)
+        for path, index, change, expected_m in (("location", 1, 0.01, 0.01), ("rotation_euler", 0, 0.1, 0.1 * 0.1)):
+            curve = animation.curve_of(copy, path, index)
+            for key in list(curve.keyframe_points)[50:52]:  # what lies between two frames counts
+                key.handle_right.y += change
+            curve.update()
+            self.assertGreater(camera_copy.playback_of(self.scene, copy, reply), expected_m / 3)
+            for key in list(curve.keyframe_points)[50:52]:
+                key.handle_right.y -= change
+            curve.update()
 
     def test_a_ball_can_be_the_body(self):
         self.planned(self.camera, body="BALL", radius_m=0.2)
@@ -616,14 +642,6 @@ class BlockTest(CamwayTest):
             self.assertAlmostEqual(math.degrees(turned[1] - turned[0]), turn, delta=1e-3)
 
 
-    def assert_kept_files_belong_together(self):
-        steps = run.plan(run.find_program(), self.folder, self.read("request.json"))
-        kept = self.read("response.json")["segments"]
-        with self.assertRaises(StopIteration) as end:
-            while True:
-                next(steps)
-        self.assertEqual(end.exception.value["segments"], kept)
-
 
 class ErrorTest(CamwayTest):
     def test_a_key_in_an_obstacle_is_named_by_its_frame(self):
@@ -667,6 +685,7 @@ class ErrorTest(CamwayTest):
         self.assertEqual((result.status, self.returned), ("partial", {"FINISHED"}))
         self.assertIn("Cam.camway", bpy.data.objects)
         self.assertTrue([row for row in result.collisions if row.words.startswith("remains")])
+        self.assertNotIn("body", self.read("request.json"))  # a later try asked for a ball
 
     def test_a_slowed_path_ends_later_and_says_so(self):
         rooms.new_room()

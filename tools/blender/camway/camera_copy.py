@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import array
 import math
-from typing import NamedTuple, Sequence
+from typing import Sequence
 
 import bpy
 from mathutils import Euler, Quaternion
 
 from . import animation
 from .answer import Answer, Stretch, whole_frames
-from .motion import Difference, Pose, difference_of
+from .motion import Pose, difference_of
 from .shot_reader import frame_set, unit_of
 
 SUFFIX = ".camway"
@@ -26,12 +26,6 @@ _SLOPE_FRAMES = 0.1
 
 # How keys are shown: Blender colours keys by these types.
 GIVEN, SAMPLED, INSERTED, BAKED = "KEYFRAME", "BREAKDOWN", "EXTREME", "JITTER"
-
-
-class Playback(NamedTuple):
-    """How far what Blender plays is from the path that Camway proved, frames and motion blur alike."""
-    largest: Difference
-    body_m: float  # the largest distance of a point of the body from where it was proved
 
 
 class Frames:
@@ -184,14 +178,18 @@ def put_on_copy(scene: bpy.types.Scene, camera: bpy.types.Object, answer: Answer
     return copy
 
 
-def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer) -> Playback:
-    """Compares the F-curves of the copy with the path, at CHECKS_PER_FRAME times of each frame."""
+def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer) -> float:
+    """Returns how far what Blender plays is from the path, in metres, motion blur included.
+
+    That is the largest distance of a point of the body from where it was proved, at CHECKS_PER_FRAME times
+    of each frame.
+    """
     path = Frames(answer, unit_of(scene), copy.rotation_mode)
     place = _rotation_path(copy.rotation_mode)
     curves = [animation.curve_of(copy, name, i) for name in ("location", place)
               for i in range(len(getattr(copy, name)))]
     frames = whole_frames(answer.shot, answer.path)
-    largest, body_m = Difference(), 0.0
+    largest_m = 0.0
     for begin, end in zip(frames, frames[1:]):
         for step in range(CHECKS_PER_FRAME + (end == frames[-1])):
             frame = begin + (end - begin) * step / CHECKS_PER_FRAME
@@ -200,9 +198,8 @@ def playback_of(scene: bpy.types.Scene, copy: bpy.types.Object, answer: Answer) 
                     Euler(values[3:], path.mode).to_quaternion())
             played = Pose(tuple(x * unit_of(scene) for x in values[:3]), tuple(turn))
             here = difference_of(played, path.pose(frame))
-            largest = largest.with_largest(here)
-            body_m = max(body_m, here.distance_m + math.radians(here.angle_deg) * answer.shot.radius_m)
-    return Playback(largest, body_m)
+            largest_m = max(largest_m, here.distance_m + math.radians(here.angle_deg) * answer.shot.radius_m)
+    return largest_m
 
 
 def put_markers(scene: bpy.types.Scene, camera: bpy.types.Object, stretches: Sequence[Stretch]) -> None:

@@ -164,11 +164,11 @@ class Job:
         scene, camera, result = self.scene, self.camera, self.camera.camway
         copy = camera_copy.put_on_copy(scene, camera, answer)
         camera_copy.put_markers(scene, camera, changed_stretches(answer))
-        played = camera_copy.playback_of(scene, copy, answer)
-        result.clearance_m, result.played_m = answer.clearance_m, played.body_m
-        words = f"what Blender plays, between frames too, is within {length_words(played.body_m)} of the path"
+        played_m = camera_copy.playback_of(scene, copy, answer)
+        result.clearance_m, result.played_m = answer.clearance_m, played_m
+        words = f"what Blender plays, between frames too, is within {length_words(played_m)} of the path"
         if answer.is_certified:
-            is_free = played.body_m < answer.clearance_m
+            is_free = played_m < answer.clearance_m
             words += (", less than" if is_free else ", which is not less than")
             words += f" its clearance of {length_words(answer.clearance_m)}" + ("" if is_free else ": ask for more")
         result.say(words)
