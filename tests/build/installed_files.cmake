@@ -7,7 +7,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefi
 
 foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
              lib/systemd/system/camwayd-planner@.service
-             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/camway_plan_request_t.lcm
+             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/blender/camway_blender.zip share/camway/lcmtypes/camway_plan_request_t.lcm
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/lcmtypes/README.md
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md

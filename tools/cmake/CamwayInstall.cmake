@@ -6,6 +6,7 @@ include(GNUInstallDirs)
 install(TARGETS camwayd camway-import camway)
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
         DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes)
+install(FILES ${CAMWAY_BLENDER_ZIP} DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/blender)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
                ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)
 install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)

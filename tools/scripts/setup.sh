@@ -5,10 +5,11 @@
 # Silent and quick when nothing is. ./check and ./demo call it first.
 #
 #   tools/scripts/setup.sh            install what is missing (as root, or with sudo)
+#   tools/scripts/setup.sh --blender  and Blender, which the tests of its add-on use if it is there
 #   tools/scripts/setup.sh --list     print the packages
 set -euo pipefail
 
-readonly kPackages=(
+kPackages=(
   # to build
   g++ cmake ninja-build ccache git pkg-config python3
   # the wire
@@ -34,6 +35,9 @@ readonly kPackages=(
   # the private network namespace, and one that loses packets
   iproute2 util-linux iptables
 )
+
+# 163 packages, 70 MB to fetch and 600 MB on the disk: not for everyone.
+readonly kBlenderPackages=(blender python3-numpy)
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -81,6 +85,7 @@ main() {
     say "this is not Debian: install the counterparts of these yourself: ${kPackages[*]}"
     return
   fi
+  [[ ${1:-} != --blender ]] || kPackages+=("${kBlenderPackages[@]}")
   local missing
   mapfile -t missing < <(missing_packages)
   [[ ${#missing[@]} -eq 0 ]] && return
