@@ -10,6 +10,7 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import/import_process.h"
 #include "daemon/scene/import/record/import_record.h"
+#include "daemon/scene/import/unsupported_formats.h"
 
 namespace camway::scene {
 namespace {
@@ -26,6 +27,8 @@ std::string reason_not_to_read(const fs::path& file) {
   if (status.type() != fs::file_type::regular) return "is not a regular file";
   if (access(file.c_str(), R_OK) != 0) return "cannot be read: permission denied";
   if (fs::file_size(file, error) == 0 && !error) return "is empty";
+  const std::string_view why = why_unsupported(file.extension().string());
+  if (!why.empty()) return "cannot be read: " + std::string(why);
   return error ? error.message() : "";
 }
 
@@ -38,8 +41,10 @@ std::string refusal(const fs::path& file, const std::string& reason) {
   return "cannot be read: " + reason;
 }
 
-std::string describe(const ImportProcessResult& process, const ImportOptions& options) {
+std::string describe(const fs::path& file, const ImportProcessResult& process,
+                     const ImportOptions& options) {
   using End = ImportProcessResult::End;
+  const bool is_ifc = file.extension() == ".ifc";
   switch (process.end) {
     case End::kOutOfMemory:
       return "reading it takes more than the limit of " +
@@ -52,7 +57,8 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
     case End::kStopped:
       return "reading it was cancelled";
     case End::kCrashed:
-      return "crashed its reader (" + process.detail + ")";
+      return "crashed its reader (" + process.detail + ")" +
+             (is_ifc ? ": assimp does not know all of IFC4; export IFC2x3 or glTF" : "");
     case End::kNotStarted:
       return "cannot be imported: " + process.detail;
     case End::kFinished:
@@ -84,7 +90,7 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   if (std::string reason = reason_not_to_read(file); !reason.empty()) return reason;
   const ImportProcessResult process =
       run_import_process(file, options.memory_limit_bytes, options.time_limit_s, stop);
-  if (process.end != ImportProcessResult::End::kFinished) return describe(process, options);
+  if (process.end != ImportProcessResult::End::kFinished) return describe(file, process, options);
   ImportReport& report = result.report;
   ImportRecordResult record = read_import_record(process.output, options, report);
   if (record.broken) return "its reader answered with a broken record";

@@ -446,6 +446,43 @@ TEST_F(Import, LeavesNoChildAndNoDescriptorBehind) {
   EXPECT_EQ(descriptors(), before);
 }
 
+TEST_F(Import, SaysWhatToDoWithFormatsThatAreNotRead) {
+  EXPECT_THAT(error_of(write("a.usda", "#usda 1.0\n")),
+              HasSubstr("USD is not supported: export glTF"));
+  EXPECT_THAT(error_of(write("a.STEP", "ISO-10303-21;\n")), HasSubstr("export a mesh"));
+  EXPECT_THAT(error_of(write("a.pcd", "VERSION 0.7\n")), HasSubstr("no surface"));
+  const std::string gltf =
+      R"({"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_meshopt_compression"],
+          "scene": 0, "scenes": [{}], "buffers": [{"byteLength": 4}]})";
+  EXPECT_THAT(error_of(write("a.gltf", gltf)), HasSubstr("compressed (EXT_meshopt_compression)"));
+  EXPECT_THAT(error_of(write("a.ifc", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('IFC4'));ENDSEC;\n")),
+              HasSubstr("is of the schema IFC4"));
+}
+
+// Many programs write it so; assimp 5.2 refuses the whole file.
+TEST_F(Import, ReadsColladaWithBlanksBeforeNumbers) {
+  const std::string collada = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="0.5"/><up_axis>Y_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="c"><phong>
+<diffuse><color> 0.3 0.3 0.3 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">
+ 0 0 0 1 0 0 0 2 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p> 0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  const ImportResult result = import_text("a.dae", collada);
+  ASSERT_TRUE(result.mesh);
+  ASSERT_EQ(result.mesh->triangles.size(), 1U);
+  EXPECT_EQ(result.mesh->triangle(0)[2], Vec3(0, 1, 0));
+  EXPECT_THAT(result.report.notes, ::testing::Contains(HasSubstr("<unit>")));
+}
+
 TEST_F(Import, ReadsUnigrafixWithTheFilesThatItIncludes) {
   fs::create_directories(folder_ / "parts");
   write("parts/leg.ug", "def leg; v a 0 0 0; v b 1 0 0; v c 0 0 2; f (a b c); end;");

@@ -24,6 +24,8 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <optional>
@@ -34,10 +36,13 @@
 
 #include <assimp/Importer.hpp>
 
+#include "daemon/scene/import/child/assimp_refusal.h"
+#include "daemon/scene/import/child/collada_text.h"
 #include "daemon/scene/import/child/import_confinement.h"
 #include "daemon/scene/import/child/included_files.h"
 #include "daemon/scene/import/child/map_reader.h"
 #include "daemon/scene/import/readers/mesh_reader.h"
+#include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/record/record_layout.h"
 #include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 
@@ -242,7 +247,30 @@ void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
   }
 }
 
-int import_with_assimp(const std::string& file) {
+std::string text_of(const std::string& file, std::size_t most) {
+  std::string text;
+  std::ifstream stream(file, std::ios::binary);
+  for (std::istreambuf_iterator<char> at(stream), end; at != end && text.size() < most; ++at) {
+    text += *at;
+  }
+  return text;
+}
+
+/// As much as says what a file is.
+std::string begin_of(const std::string& file) { return text_of(file, std::size_t{1} << 20); }
+
+const aiScene* read_with_assimp(Assimp::Importer& importer, const std::string& file,
+                                const std::string& extension) {
+  if (!camway::scene::mesh_readers::equals_ignoring_case(extension, ".dae")) {
+    return importer.ReadFile(file, aiProcess_RemoveComponent);
+  }
+  const std::string document = camway::scene::without_blanks_before_numbers(
+      text_of(file, std::numeric_limits<std::size_t>::max()));
+  return importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_RemoveComponent,
+                                     "dae");
+}
+
+int import_with_assimp(const std::string& file, const std::string& extension) {
   Assimp::Importer importer;
   // Node transforms are applied before polygons are cut to triangles, and nodes keep their names.
   importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, true);
@@ -252,9 +280,12 @@ int import_with_assimp(const std::string& file) {
       aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
           aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
-  const aiScene* scene = importer.ReadFile(file, aiProcess_RemoveComponent);
-  if (scene == nullptr) return refuse(importer.GetErrorString());
-  if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse("holds no mesh");
+  const aiScene* scene = read_with_assimp(importer, file, extension);
+  const auto refuse_for = [&](const std::string& error) {
+    return refuse(camway::scene::refusal_of_assimp(extension, begin_of(file), error));
+  };
+  if (scene == nullptr) return refuse_for(importer.GetErrorString());
+  if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse_for("holds no mesh");
   layout::Record record;
   record.header.single_precision = 1;
   record.header.relative_rounding = kReadingRoundoffs * kRoundoff;
@@ -322,7 +353,7 @@ int import_file(const std::string& file) {
     return import_directly(file, extension);
   }
   if (camway::scene::is_map_extension(extension)) return import_map(file, extension);
-  return import_with_assimp(file);
+  return import_with_assimp(file, extension);
 }
 
 std::optional<rlim_t> parse_limit(std::string_view text) {

@@ -5,22 +5,16 @@
 #include <octomap/OcTree.h>
 #include <octomap/OcTreeStamped.h>
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
 
 #include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/voxels/voxel_grid.h"
 
 namespace camway::scene {
 namespace {
 
 namespace layout = import_record;
-
-bool equals_ignoring_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
 
 template <class Tree>
 void take_leaves(const Tree& tree, layout::Record& record) {
@@ -68,13 +62,13 @@ std::string read_full(const std::string& file, layout::Record& record) {
 }  // namespace
 
 bool is_map_extension(std::string_view extension) {
-  return equals_ignoring_case(extension, ".bt") || equals_ignoring_case(extension, ".ot");
+  return mesh_readers::equals_ignoring_case(extension, ".bt") || mesh_readers::equals_ignoring_case(extension, ".ot");
 }
 
 std::string read_map(const std::string& file, std::string_view extension, layout::Record& record) {
   record.text = "OctoMap";
   record.header.relative_rounding = geometry::kUnitRoundoff;  // of a face: number times edge
-  return equals_ignoring_case(extension, ".bt") ? read_binary(file, record)
+  return mesh_readers::equals_ignoring_case(extension, ".bt") ? read_binary(file, record)
                                                 : read_full(file, record);
 }
 
