@@ -41,6 +41,7 @@ std::vector<FuzzBytes> camera_seeds() {
   std::vector<FuzzBytes> seeds;
   const auto formats = tools::camera_formats();
   for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (formats[i].write == nullptr) continue;
     const auto text = formats[i].write(track, {"camera", 1.2, 0.8, 0.1, 100});
     FuzzBytes bytes = fuzz_bytes(*text);
     bytes.insert(bytes.begin(), static_cast<std::uint8_t>(i));

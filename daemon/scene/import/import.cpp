@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/camera_import.h"
 #include "daemon/scene/import/import_process.h"
 #include "daemon/scene/import/record/import_record.h"
 #include "daemon/scene/import/unsupported_formats.h"
@@ -121,6 +122,25 @@ ImportResult import_mesh(const fs::path& file, const ImportOptions& options,
     result.error = file.string() + ": " + reason;
   }
   return result;
+}
+
+base::Result<std::vector<SceneFileCamera>> import_cameras(const fs::path& file) {
+  const auto failed = [&](const std::string& reason) {
+    return base::Failure{file.string() + ": " + reason};
+  };
+  if (const std::string reason = reason_not_to_read(file); !reason.empty()) return failed(reason);
+  const ImportOptions options;
+  const ImportProcessResult process = run_import_process(
+      file, options.memory_limit_bytes, options.time_limit_s, {}, ImportTask::kCameras);
+  if (process.end != ImportProcessResult::End::kFinished) {
+    return failed(describe(file, process, options));
+  }
+  const CameraRecordResult record = read_camera_record(process.output);
+  if (record.broken) return failed("its reader answered with a broken record");
+  if (!record.refusal.empty()) return failed(refusal(file, record.refusal));
+  auto cameras = cameras_from(record.cameras, record.unit_m);
+  if (!cameras) return failed(cameras.error);
+  return cameras;
 }
 
 }  // namespace camway::scene

@@ -175,7 +175,8 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
 }  // namespace
 
 ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_limit_bytes,
-                                       double time_limit_s, const std::stop_token& stop) {
+                                       double time_limit_s, const std::stop_token& stop,
+                                       ImportTask task) {
   const std::optional<fs::path> program = find_program();
   if (!program) {
     return {End::kNotStarted,
@@ -186,9 +187,10 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};
   // A little more processor time, so that the limit of wall clock is reached first.
   const double cpu_s = std::ceil(std::clamp(time_limit_s, 0.0, 1e6)) + 1.0;
-  const std::vector<std::string> arguments = {program->string(), file.string(),
-                                              std::to_string(memory_limit_bytes),
-                                              std::to_string(static_cast<unsigned long>(cpu_s))};
+  std::vector<std::string> arguments = {program->string(), file.string(),
+                                        std::to_string(memory_limit_bytes),
+                                        std::to_string(static_cast<unsigned long>(cpu_s))};
+  if (task == ImportTask::kCameras) arguments.emplace_back(import_record::kCamerasArgument);
   const auto budget = std::chrono::duration<double>(std::clamp(time_limit_s, 0.0, 1e6));
   const Clock::time_point deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(budget);

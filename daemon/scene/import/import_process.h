@@ -24,6 +24,9 @@ struct ImportProcessResult {
   std::string detail;             ///< only for `kCrashed` and `kNotStarted`
 };
 
+/// What the import process is to read.
+enum class ImportTask { kMesh, kCameras };
+
 /// Runs `camway-import` on `file` and waits for it. Looks for the program beside the running
 /// executable, then in the absolute directories of PATH. The process inherits nothing: no standard
 /// streams, no descriptors but that of its output, no environment, default signals. It is killed
@@ -37,6 +40,7 @@ struct ImportProcessResult {
 /// Thread-safe: no code of this process runs in the child before exec.
 ImportProcessResult run_import_process(const std::filesystem::path& file,
                                        std::size_t memory_limit_bytes, double time_limit_s,
-                                       const std::stop_token& stop = {});
+                                       const std::stop_token& stop = {},
+                                       ImportTask task = ImportTask::kMesh);
 
 }  // namespace camway::scene

@@ -76,6 +76,7 @@ TEST_F(CliCameras, GoFromFileToFile) {
   EXPECT_LT(request["keyframes"].size(), 10U);
   plan();
   for (const CameraFormat& format : camera_formats()) {
+    if (format.write == nullptr) continue;
     const CliRun run = export_path(std::string(format.name));
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("proved free as played between its 25 frames"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/import/child/collada_text.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -24,6 +25,20 @@ std::string without_blanks_before_numbers(std::string document) {
   }
   document.resize(to);
   return document;
+}
+
+bool animates_single_axes(std::string_view document) {
+  for (std::size_t at = document.find("<channel"); at != std::string_view::npos;
+       at = document.find("<channel", at + 1)) {
+    const std::string_view tag = document.substr(at, document.find('>', at) - at);
+    const std::size_t target = tag.find("target=");
+    const std::size_t member = tag.find('/', std::min(target, tag.size()));
+    if (member != std::string_view::npos &&
+        tag.find_first_of(".(", member) != std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace camway::scene

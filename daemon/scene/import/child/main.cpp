@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE and writes the record of
+/// camway-import FILE MEMORY_BYTES CPU_SECONDS [cameras]: reads FILE and writes the record of
 /// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL and UniGrafix are read by our own
 /// readers, occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only
 /// program that sees assimp; a process of its own, because a file of a few bytes can make assimp
@@ -36,6 +36,7 @@
 
 #include <assimp/Importer.hpp>
 
+#include "daemon/scene/import/child/assimp_cameras.h"
 #include "daemon/scene/import/child/assimp_refusal.h"
 #include "daemon/scene/import/child/collada_text.h"
 #include "daemon/scene/import/child/import_confinement.h"
@@ -247,6 +248,8 @@ void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
   }
 }
 
+constexpr std::size_t kWhole = std::numeric_limits<std::size_t>::max();
+
 std::string text_of(const std::string& file, std::size_t most) {
   std::string text;
   std::ifstream stream(file, std::ios::binary);
@@ -259,15 +262,47 @@ std::string text_of(const std::string& file, std::size_t most) {
 /// As much as says what a file is.
 std::string begin_of(const std::string& file) { return text_of(file, std::size_t{1} << 20); }
 
+bool is_collada(const std::string& extension) {
+  return mesh_readers::equals_ignoring_case(extension, ".dae");
+}
+
 const aiScene* read_with_assimp(Assimp::Importer& importer, const std::string& file,
-                                const std::string& extension) {
-  if (!camway::scene::mesh_readers::equals_ignoring_case(extension, ".dae")) {
-    return importer.ReadFile(file, aiProcess_RemoveComponent);
+                                const std::string& extension, unsigned steps) {
+  if (!is_collada(extension)) {
+    return importer.ReadFile(file, steps);
   }
-  const std::string document = camway::scene::without_blanks_before_numbers(
-      text_of(file, std::numeric_limits<std::size_t>::max()));
-  return importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_RemoveComponent,
-                                     "dae");
+  const std::string document = camway::scene::without_blanks_before_numbers(text_of(file, kWhole));
+  return importer.ReadFileFromMemory(document.data(), document.size(), steps, "dae");
+}
+
+std::string format_of(const Assimp::Importer& importer) {
+  const int index = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* description =
+      index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
+  return description != nullptr ? description->mName : "unknown";
+}
+
+int import_cameras(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (is_collada(extension) && camway::scene::animates_single_axes(text_of(file, kWhole))) {
+    return refuse(
+        "its animation has channels for single axes, which are not read: export it with a matrix "
+        "for each frame (in Blender: animation curves off, or sampled)");
+  }
+  Assimp::Importer importer;
+  // Else nodes that only FBX has stand between the camera and what moves it.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  const aiScene* scene = read_with_assimp(importer, file, extension, 0);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    return refuse(
+        camway::scene::refusal_of_assimp(extension, begin_of(file), importer.GetErrorString()));
+  }
+  layout::Record record;
+  record.text = format_of(importer);
+  note_unit_and_axes(*scene, record);
+  record.names = camway::scene::cameras_text(*scene, record.text);
+  if (record.names.empty()) return refuse("has no camera");
+  return write_record(record) ? layout::kExitOk : layout::kExitInternal;
 }
 
 int import_with_assimp(const std::string& file, const std::string& extension) {
@@ -280,7 +315,7 @@ int import_with_assimp(const std::string& file, const std::string& extension) {
       aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
           aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
-  const aiScene* scene = read_with_assimp(importer, file, extension);
+  const aiScene* scene = read_with_assimp(importer, file, extension, aiProcess_RemoveComponent);
   const auto refuse_for = [&](const std::string& error) {
     return refuse(camway::scene::refusal_of_assimp(extension, begin_of(file), error));
   };
@@ -290,10 +325,7 @@ int import_with_assimp(const std::string& file, const std::string& extension) {
   record.header.single_precision = 1;
   record.header.relative_rounding = kReadingRoundoffs * kRoundoff;
   record.header.absolute_rounding = TransformRounding(*scene).bound();
-  const int index = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* description =
-      index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
-  record.text = description != nullptr ? description->mName : "unknown";
+  record.text = format_of(importer);
   note_unit_and_axes(*scene, record);
   scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
   if (scene == nullptr) return refuse(importer.GetErrorString());
@@ -366,7 +398,8 @@ std::optional<rlim_t> parse_limit(std::string_view text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return layout::kExitInternal;
+  const bool wants_cameras = argc == 5 && argv[4] == std::string_view(layout::kCamerasArgument);
+  if (argc != 4 && !wants_cameras) return layout::kExitInternal;
   const std::optional<rlim_t> memory_bytes = parse_limit(argv[2]);
   const std::optional<rlim_t> cpu_s = parse_limit(argv[3]);
   if (!memory_bytes || !cpu_s || !limit_this_process(*memory_bytes, *cpu_s)) {
@@ -377,7 +410,7 @@ int main(int argc, char** argv) {
   std::set_new_handler([] { _exit(layout::kExitOutOfMemory); });
   int code = layout::kExitInternal;
   try {
-    code = import_file(argv[1]);
+    code = wants_cameras ? import_cameras(argv[1]) : import_file(argv[1]);
   } catch (const std::exception& e) {
     code = refuse(e.what());
   }

@@ -62,14 +62,15 @@ std::string read_full(const std::string& file, layout::Record& record) {
 }  // namespace
 
 bool is_map_extension(std::string_view extension) {
-  return mesh_readers::equals_ignoring_case(extension, ".bt") || mesh_readers::equals_ignoring_case(extension, ".ot");
+  return mesh_readers::equals_ignoring_case(extension, ".bt") ||
+         mesh_readers::equals_ignoring_case(extension, ".ot");
 }
 
 std::string read_map(const std::string& file, std::string_view extension, layout::Record& record) {
   record.text = "OctoMap";
   record.header.relative_rounding = geometry::kUnitRoundoff;  // of a face: number times edge
   return mesh_readers::equals_ignoring_case(extension, ".bt") ? read_binary(file, record)
-                                                : read_full(file, record);
+                                                              : read_full(file, record);
 }
 
 }  // namespace camway::scene

@@ -289,4 +289,15 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   return result;
 }
 
+CameraRecordResult read_camera_record(std::span<const std::byte> bytes) {
+  Record record;
+  CameraRecordResult result;
+  result.broken = !parse(bytes, record);
+  if (result.broken) return result;
+  if (record.header.unit_m != 0.0) result.unit_m = record.header.unit_m;
+  result.cameras = std::move(record.names);
+  if (result.cameras.empty()) result.refusal = printable(record.text);
+  return result;
+}
+
 }  // namespace camway::scene

@@ -26,6 +26,16 @@ struct ImportRecordResult {
   double absolute_rounding = 0.0;
 };
 
+/// What the import process says of the cameras of a file.
+struct CameraRecordResult {
+  std::string cameras;  ///< text of `camera_import.h`; empty if the file has none
+  double unit_m = 1.0;  ///< metres per file unit
+  std::string refusal;  ///< the reason of the refusal, in printable ASCII; else empty
+  bool broken = false;  ///< whether the bytes are no record; then nothing else is set
+};
+/// Parses a record as `read_import_record` does.
+CameraRecordResult read_camera_record(std::span<const std::byte> bytes);
+
 /// Parses the record of `record_layout.h`. Uses a count only after checking that the record has its
 /// bytes. Checks every index and coordinate, and applies scale and axes. Leaves out unusable
 /// triangles and counts them in `report`, whose format it sets, too. The mesh of an occupancy map

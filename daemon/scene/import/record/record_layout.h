@@ -18,6 +18,10 @@ namespace camway::scene::import_record {
 inline constexpr std::uint64_t kMagic = 0x354D'5941'574D'4143;  // "CAMWAYM5"
 inline constexpr int kOutputFd = 3;
 
+/// The last argument of `camway-import` if it is to read cameras: then `names` is the text of
+/// `scene/import/camera_import.h`, and there are no triangles.
+inline constexpr const char* kCamerasArgument = "cameras";
+
 /// Begins a note that belongs into the warnings of every answer.
 inline constexpr std::string_view kWarningMark = "warning: ";
 

@@ -53,6 +53,7 @@ TEST(CameraFormats, ReadBackWhatTheyWrite) {
   Random random(kFormatsSeed);
   for (const CameraFormat& format : camera_formats()) {
     SCOPED_TRACE(format.name);
+    if (format.write == nullptr) continue;
     for (int trial = 0; trial < 20; ++trial) {
       CameraTrack track = random_track(random, 12, 0.25, 2.5);
       track.fps = 4.0;
