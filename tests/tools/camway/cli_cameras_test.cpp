@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -94,6 +96,73 @@ TEST_F(CliCameras, SayWhereAndAtWhichRateWhatIsPlayedIsFree) {
   EXPECT_THAT(run.err, HasSubstr("it is too near to the scene from 0."));
   EXPECT_THAT(run.err, ::testing::ContainsRegex("--fps (6|12|24|48) would be free"));
   EXPECT_EQ(export_path("csv", {"--fps", "3", "--no-proof"}).exit_code, 0);
+}
+
+/// A camera that turns by 450 degrees and rolls, 25 times a second from 0.04 s on.
+CameraTrack turning_track() {
+  CameraTrack track;
+  track.fps = 25.0;
+  for (int i = 0; i <= 100; ++i) {
+    const double u = i / 100.0;
+    const geometry::Quat turn(
+        Eigen::AngleAxisd(2.5 * std::numbers::pi * u, geometry::Vec3::UnitY()) *
+        Eigen::AngleAxisd(0.4 * u, geometry::Vec3::UnitZ()));
+    track.keys.push_back(
+        {(i + 1) / 25.0, {geometry::Vec3(4.0 * u, 3.0, std::sin(3.0 * u)), turn}, {}});
+  }
+  return track;
+}
+
+/// The angle about the vertical axis that a track turns by in all, frame by frame.
+double turned_rad(const CameraTrack& track) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < track.keys.size(); ++i) {
+    geometry::Quat step =
+        track.keys[i].pose_W.orientation * track.keys[i - 1].pose_W.orientation.conjugate();
+    if (step.w() < 0.0) step.coeffs() *= -1.0;
+    sum += 2.0 * std::atan2(step.y(), step.w());
+  }
+  return sum;
+}
+
+TEST_F(CliCameras, GiveBackTheSameKindOfFile) {
+  write_flight(2.0);
+  const CameraTrack track = turning_track();
+  for (const std::string format : {"gltf", "chan", "nerfstudio", "tum", "csv"}) {
+    SCOPED_TRACE(format);
+    const CameraFormat& written = *camera_format(format);
+    const CameraWriteOptions options{"Hero", 1.2, 0.7, 0.2, 1920};
+    const std::string name =
+        folder_.write("Hero" + std::string(written.extension), *written.write(track, options));
+    const CliRun imported =
+        run_camway({"import", name, "--format", format, "--fps", "25", "--fov-x-deg", "68.7549",
+                    "--fov-y-deg", "40.107", "--near-m", "0.2", "--scene", folder_.file("wall.obj"),
+                    "--request", folder_.file("r.json")});
+    ASSERT_EQ(imported.exit_code, 0) << imported.err;
+    plan();
+    const CliRun run = export_path(format);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    CameraReadOptions reading;
+    reading.fps = 25.0;
+    std::ifstream stream(folder_.file("out." + format), std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    const auto back = read_camera(written, {"Hero.x", bytes, {}}, reading);
+    ASSERT_TRUE(back) << back.error;
+    EXPECT_EQ(back->name, "Hero");
+    ASSERT_EQ(back->keys.size(), track.keys.size());
+    EXPECT_NEAR(turned_rad(*back), turned_rad(track), 0.01);
+    if (format == "gltf") {
+      EXPECT_EQ(back->fps, 25.0);
+      EXPECT_NEAR(*back->fov_y_rad, 0.7, 1e-5);
+      EXPECT_NEAR(*back->near_m, 0.2, 1e-9);
+      EXPECT_NEAR(back->keys[0].time_s, 0.04, 1e-6);
+    }
+    for (std::size_t i = 0; i < track.keys.size(); ++i) {
+      const motion::Pose& pose = back->keys[i].pose_W;
+      EXPECT_LT((pose.position - track.keys[i].pose_W.position).norm(), 0.006);
+      EXPECT_LT(pose.orientation.angularDistance(track.keys[i].pose_W.orientation), 0.004);
+    }
+  }
 }
 
 TEST_F(CliCameras, SampleThePath) {

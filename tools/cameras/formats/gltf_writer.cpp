@@ -58,12 +58,18 @@ class FloatBuffer {
   Json accessors_ = Json::array();
 };
 
+/// Times after this one, as those since 1970, count from 0: a float holds no more than a hundredth
+/// of a frame there.
+constexpr double kLatestBegin_s = 3600.0;
+
 FloatBuffer buffer_of(const CameraTrack& track) {
+  const double first_s = track.keys.front().time_s;
+  const double begin_s = first_s >= 0.0 && first_s < kLatestBegin_s ? 0.0 : first_s;
   std::vector<float> times;
   std::vector<float> positions;
   std::vector<float> rotations;
   for (const TrackKey& key : track.keys) {
-    times.push_back(static_cast<float>(key.time_s - track.keys.front().time_s));
+    times.push_back(static_cast<float>(key.time_s - begin_s));
     for (const double x : key.pose_W.position) positions.push_back(static_cast<float>(x));
     // Eigen's own order is that of glTF: x, y, z, w.
     for (const double x : key.pose_W.orientation.coeffs())

@@ -140,7 +140,9 @@ base::Result<std::string> write_nerfstudio(const CameraTrack& track,
   OrderedJson path = OrderedJson::array();
   for (const TrackKey& key : track.keys) {
     const std::string matrix = OrderedJson(columns_of_pose(key.pose_W)).dump();
-    const double share = track.keys.size() < 2 ? 0.0 : key.time_s / track.keys.back().time_s;
+    const double since_s = key.time_s - track.keys.front().time_s;
+    const double whole_s = track.keys.back().time_s - track.keys.front().time_s;
+    const double share = whole_s > 0.0 ? since_s / whole_s : 0.0;
     const std::string properties = OrderedJson::array({OrderedJson::array({"FOV", fov_deg}),
                                                        OrderedJson::array({"NAME", options.name}),
                                                        OrderedJson::array({"TIME", share})})

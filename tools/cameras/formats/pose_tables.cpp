@@ -33,8 +33,10 @@ Quat normalized(double w, double x, double y, double z) {
 
 /// Reads all rows as keys, each by `take(numbers, row)`.
 template <class Take>
-base::Result<CameraTrack> read_rows(const CameraFile& file, std::size_t least, const Take& take) {
+base::Result<CameraTrack> read_rows(const CameraFile& file, const CameraReadOptions& options,
+                                    std::size_t least, const Take& take) {
   CameraTrack track;
+  track.fps = options.fps;
   Numbers numbers;
   for (const TextRow& row : rows_of(file.bytes)) {
     std::string fault = read_numbers(row, least, numbers);
@@ -155,7 +157,7 @@ std::optional<std::pair<Columns, std::string_view>> find_columns(std::string_vie
 
 base::Result<CameraTrack> read_tum(const CameraFile& file, const CameraReadOptions& options) {
   const CameraAxes axes = options.axes.value_or(CameraAxes::kCv);
-  return read_rows(file, 8, [&](const Numbers& n, std::size_t) {
+  return read_rows(file, options, 8, [&](const Numbers& n, std::size_t) {
     const Quat orientation = normalized(n[7], n[4], n[5], n[6]);
     return TrackKey{n[0], {Vec3(n[1], n[2], n[3]), with_other_axes(orientation, axes)}, {}};
   });
@@ -173,13 +175,15 @@ base::Result<std::string> write_tum(const CameraTrack& track, const CameraWriteO
 
 base::Result<CameraTrack> read_kitti(const CameraFile& file, const CameraReadOptions& options) {
   const CameraAxes axes = options.axes.value_or(CameraAxes::kCv);
-  base::Result<CameraTrack> track = read_rows(file, 12, [&](const Numbers& n, std::size_t i) {
-    Eigen::Matrix3d rotation;
-    rotation << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
-    return TrackKey{static_cast<double>(i),
-                    {Vec3(n[3], n[7], n[11]), with_other_axes(Quat(rotation).normalized(), axes)},
-                    {}};
-  });
+  base::Result<CameraTrack> track =
+      read_rows(file, options, 12, [&](const Numbers& n, std::size_t i) {
+        Eigen::Matrix3d rotation;
+        rotation << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
+        return TrackKey{
+            static_cast<double>(i),
+            {Vec3(n[3], n[7], n[11]), with_other_axes(Quat(rotation).normalized(), axes)},
+            {}};
+      });
   if (!track) return track;
   track->has_times = options.times.has_value() || options.fps.has_value();
   if (options.times) {
@@ -196,7 +200,6 @@ base::Result<CameraTrack> read_kitti(const CameraFile& file, const CameraReadOpt
     }
   } else if (options.fps) {
     for (TrackKey& key : track->keys) key.time_s /= *options.fps;
-    track->fps = options.fps;
   }
   return track;
 }
@@ -230,15 +233,17 @@ base::Result<CameraTrack> read_csv(const CameraFile& file, const CameraReadOptio
       options.axes.value_or(columns.is_euroc ? CameraAxes::kCv : CameraAxes::kGl);
   CameraFile rows = file;
   rows.bytes = text;
-  base::Result<CameraTrack> track = read_rows(rows, width, [&](const Numbers& n, std::size_t) {
-    const auto& p = columns.position;
-    const auto& q = columns.orientation;
-    const Quat orientation = normalized(n[q[0]], n[q[1]], n[q[2]], n[q[3]]);
-    TrackKey key{
-        n[columns.time], {Vec3(n[p[0]], n[p[1]], n[p[2]]), with_other_axes(orientation, axes)}, {}};
-    if (columns.fov[1] < n.size()) key.fov_y_rad = radians_of(n[columns.fov[1]]);
-    return key;
-  });
+  base::Result<CameraTrack> track =
+      read_rows(rows, options, width, [&](const Numbers& n, std::size_t) {
+        const auto& p = columns.position;
+        const auto& q = columns.orientation;
+        const Quat orientation = normalized(n[q[0]], n[q[1]], n[q[2]], n[q[3]]);
+        TrackKey key{n[columns.time],
+                     {Vec3(n[p[0]], n[p[1]], n[p[2]]), with_other_axes(orientation, axes)},
+                     {}};
+        if (columns.fov[1] < n.size()) key.fov_y_rad = radians_of(n[columns.fov[1]]);
+        return key;
+      });
   if (!track || track->keys.empty()) return track;
   const bool seem_ns =
       track->keys.size() > 1 && track->keys[1].time_s - track->keys[0].time_s > kLongestStep_s;

@@ -12,6 +12,7 @@
 #include "daemon/planning/stages/path_check.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
+#include "tools/camway/cameras/import_request.h"
 #include "tools/camway/cameras/played_proof.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
@@ -34,14 +35,17 @@ struct ExportFlags {
   std::string request;
   std::string format;
   std::string out;
-  std::string name = "camera";
-  double fps = 24.0;
+  std::optional<std::string> name;
+  std::optional<double> fps;
   int width_px = 1920;
   bool no_proof = false;
 };
 
+constexpr double kUsualRate = 24.0;
+
 /// What is exported, and what for.
 struct ExportInput {
+  double fps = kUsualRate;
   PathFile response;
   RequestFile request;
   const CameraFormat* format = nullptr;
@@ -62,7 +66,10 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   if (const auto fault = planning::find_fault(response->path.segments())) {
     return base::Failure{source_of(flags.response) + ": " + *fault};
   }
-  if (frame_count(response->path, flags.fps) > kMostFrames) {
+  const base::Result<std::string> text = read_text(flags.request);
+  const CameraRemark remark = text ? camera_remark(*text) : CameraRemark{};
+  const double fps = flags.fps ? *flags.fps : remark.fps.value_or(kUsualRate);
+  if (frame_count(response->path, fps) > kMostFrames) {
     return base::Failure{
         fmt::format("{}: has more than {} frames", source_of(flags.response), kMostFrames)};
   }
@@ -70,9 +77,10 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   if (!(camera.fov_x_rad > 0.0)) {
     return base::Failure{source_of(flags.request) + ": camera: is missing"};
   }
-  const CameraWriteOptions options{flags.name, camera.fov_x_rad, camera.fov_y_rad,
+  const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
+  const CameraWriteOptions options{name, camera.fov_x_rad, camera.fov_y_rad,
                                    camera.near_m * response->near_scale, flags.width_px};
-  return ExportInput{*std::move(response), *std::move(request), camera_format(flags.format),
+  return ExportInput{fps, *std::move(response), *std::move(request), camera_format(flags.format),
                      options};
 }
 
@@ -141,7 +149,7 @@ ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraT
                     "{:.6g} s to {:.6g} s",
                     flags.out, each.t_begin_s, each.t_end_s));
   }
-  const std::optional<double> rate = free_rate(input.response.path, flags.fps, *scene);
+  const std::optional<double> rate = free_rate(input.response.path, input.fps, *scene);
   print_error(rate ? fmt::format("--fps {:g} would be free", *rate)
                    : "no rate up to 32 times as high would be free");
   return ExitCode::kNegative;
@@ -158,7 +166,8 @@ std::string write_files(const ExportFlags& flags, const ExportInput& input,
 ExitCode run_export(const ExportFlags& flags) {
   const base::Result<ExportInput> input = read_input(flags);
   if (!input) return fail(input.error);
-  const CameraTrack frames = frames_of(input->response.path, flags.fps);
+  const CameraTrack frames =
+      frames_of(input->response.path, input->fps, input->response.path.begin_s());
   const base::Result<std::string> bytes = input->format->write(frames, input->options);
   if (!bytes) return fail(flags.out + ": " + bytes.error);
   const base::Result<CameraTrack> played = read_back(*input, flags.out, *bytes, frames);
@@ -191,10 +200,9 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->check(cli_support::one_of(names));
   command->add_option("--out", flags->out, "File to write")->required()->type_name("FILE");
-  command->add_option("--fps", flags->fps, "Frames a second")
-      ->check(cli_support::above_0())
-      ->capture_default_str();
-  command->add_option("--name", flags->name, "Name of the camera")->capture_default_str();
+  command->add_option("--fps", flags->fps, "Frames a second [those of the imported file, else 24]")
+      ->check(cli_support::above_0());
+  command->add_option("--name", flags->name, "Name of the camera [that of the imported file]");
   command->add_option("--width", flags->width_px, "Width of the picture, in pixels")
       ->check(cli_support::whole_number(1, 100'000))
       ->capture_default_str();
