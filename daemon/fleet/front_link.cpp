@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/fleet/front_link.h"
 
+#include <array>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <random>
@@ -25,22 +27,38 @@ constexpr std::chrono::milliseconds kLatelyHeard{500};
 /// More than two words of a front that is alive, which come every tenth of a second.
 constexpr std::chrono::milliseconds kFrontWait{350};
 
-}  // namespace
+/// What a front says of itself, as bytes: the start number, little-endian, and whether its claim of
+/// the id is settled.
+struct LifeSign {
+  std::uint64_t start = 0;
+  bool is_settled = true;
+};
+constexpr std::size_t kStartBytes = 8;
 
-bool is_front_alive(nats::Bus& bus, const Subjects& subjects, const std::string& front_id) {
-  std::mutex mutex;  // guards is_heard
-  std::condition_variable heard;
-  bool is_heard = false;
-  const auto subscription = bus.subscribe(subjects.front(front_id),
-                                          [&](const std::string&, std::span<const std::uint8_t>) {
-                                            const std::lock_guard lock(mutex);
-                                            is_heard = true;
-                                            heard.notify_all();
-                                          });
-  if (subscription == nullptr) return false;
-  std::unique_lock lock(mutex);
-  return heard.wait_for(lock, kFrontWait, [&] { return is_heard; });
+std::array<std::uint8_t, kStartBytes + 1> bytes_of(const LifeSign& sign) {
+  std::array<std::uint8_t, kStartBytes + 1> bytes{};
+  for (std::size_t i = 0; i < kStartBytes; ++i) {
+    bytes[i] = static_cast<std::uint8_t>(sign.start >> (8 * i));
+  }
+  bytes[kStartBytes] = sign.is_settled ? 1 : 0;
+  return bytes;
 }
+
+/// Whatever cannot be read is from a front that is settled.
+LifeSign life_sign_from(std::span<const std::uint8_t> bytes) {
+  LifeSign sign;
+  if (bytes.size() != kStartBytes + 1) return sign;
+  for (std::size_t i = 0; i < kStartBytes; ++i) sign.start |= std::uint64_t{bytes[i]} << (8 * i);
+  sign.is_settled = bytes[kStartBytes] != 0;
+  return sign;
+}
+
+std::uint64_t random_number() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U) | device();
+}
+
+}  // namespace
 
 void JobInbox::put(JobEvent event) {
   {
@@ -76,6 +94,7 @@ FrontLink::FrontLink(nats::Bus& bus, PlannerBoard& board, Subjects subjects, std
       board_(board),
       subjects_(std::move(subjects)),
       front_id_(std::move(front_id)),
+      start_number_(random_number()),
       next_job_(first_job_number()),
       trouble_(log, service::LogLevel::kWarn, "planners", {}),
       alarms_(log, service::LogLevel::kError, "differing answers", {}),
@@ -119,8 +138,36 @@ bool FrontLink::send(const std::string& planner, const fleet_job_t& head,
   return publish_parts(bus_, subjects_.plan(planner), std::move(message), payload);
 }
 
+bool FrontLink::is_id_taken() {
+  std::mutex mutex;  // guards is_taken
+  std::condition_variable heard;
+  bool is_taken = false;
+  const auto subscription = bus_.subscribe(
+      subjects_.front(front_id_), [&](const std::string&, std::span<const std::uint8_t> bytes) {
+        const LifeSign sign = life_sign_from(bytes);
+        if (sign.start == start_number_) return;
+        if (!sign.is_settled && sign.start < start_number_) return;
+        const std::lock_guard lock(mutex);
+        is_taken = true;
+        heard.notify_all();
+      });
+  if (subscription == nullptr) return false;
+  std::unique_lock lock(mutex);
+  return heard.wait_for(lock, kFrontWait, [&] { return is_taken; });
+}
+
+bool FrontLink::claim_id() {
+  if (is_id_taken()) return false;
+  claim_.store(Claim::kTrying);
+  const bool is_own = !is_id_taken();
+  claim_.store(is_own ? Claim::kSettled : Claim::kNone);
+  return is_own;
+}
+
 void FrontLink::say_alive() {
-  if (claims_id_.load()) bus_.publish(subjects_.front(front_id_), {});
+  const Claim claim = claim_.load();
+  if (claim == Claim::kNone) return;
+  bus_.publish(subjects_.front(front_id_), bytes_of({start_number_, claim == Claim::kSettled}));
 }
 
 // Exceptions, which only a lack of memory causes, must not reach the bus.

@@ -59,10 +59,6 @@ class JobInbox {
   std::deque<JobEvent> events_;
 };
 
-/// Returns whether a front of this id is alive, by listening for some tenths of a second. Two of
-/// one id would take each other's answers, and remove each other's scenes.
-bool is_front_alive(nats::Bus& bus, const Subjects& subjects, const std::string& front_id);
-
 /// A front's side of the bus: sends jobs, and hands what planners say to the jobs and the board.
 /// Compares answers that come when another planner has answered already.
 /// Thread-safe.
@@ -92,10 +88,18 @@ class FrontLink {
   void count_planned_here();
   [[nodiscard]] FrontCounts counts() const;
 
-  /// Tells others of its id that this front is alive, while it claims the id. To be called several
-  /// times a second.
+  /// Claims the front's id. Returns false if another front has it; takes some tenths of a second.
+  /// Two of one id would take each other's answers, and remove each other's scenes.
+  ///
+  /// A front listens twice: before it says that it is alive, and while it does. Of two that are
+  /// started at once, each hears the other one the second time. One whose claim is settled keeps
+  /// the id; else the one with the lower start number gives way. Requires that `say_alive` is
+  /// called several times a second meanwhile.
+  bool claim_id();
+  /// Leaves the id to others.
+  void leave_id() { claim_.store(Claim::kNone); }
+  /// Tells others of its id that this front is alive, while it claims the id.
   void say_alive();
-  void claim_id(bool claims) { claims_id_.store(claims); }
 
   /// Logs trouble with a planner. Limited, since planners can provoke it.
   void warn(std::string_view event, service::LogFields fields);
@@ -109,6 +113,10 @@ class FrontLink {
   void tick();
 
  private:
+  /// How far the claim of the id is.
+  enum class Claim : std::uint8_t { kNone, kTrying, kSettled };
+  bool is_id_taken();
+
   void raise_alarm(const AnswerMark& given, const AnswerMark& other);
   void on_answer(std::span<const std::uint8_t> bytes);
   void on_status(std::span<const std::uint8_t> bytes);
@@ -121,7 +129,8 @@ class FrontLink {
   PlannerBoard& board_;
   const Subjects subjects_;
   const std::string front_id_;
-  std::atomic<bool> claims_id_ = false;
+  const std::uint64_t start_number_;  ///< random
+  std::atomic<Claim> claim_ = Claim::kNone;
 
   mutable std::mutex mutex_;  ///< guards the members down to warned_of_version_
   std::int64_t next_job_;

@@ -65,9 +65,9 @@ class RemoteAnswerer final : public service::PlanAnswerer {
   service::Answered answer(const std::shared_ptr<const scene::Snapshot>& snapshot,
                            const plan_request_t& request, const base::Deadline& deadline) override;
 
-  /// Whether others hear that a front of this id is alive (`is_front_alive`). At first they do not.
-  /// Thread-safe.
-  void claim_id(bool claims) { link_.claim_id(claims); }
+  /// As in `FrontLink`.
+  bool claim_id() { return link_.claim_id(); }
+  void leave_id() { link_.leave_id(); }
 
   /// Takes in that the bus was lost or made again, for the log.
   /// Thread-safe.

@@ -94,7 +94,7 @@ void StallWatch::run() {
       server_id_ = found.server_id;
       stall_ = found.server + " answers, but stream " + stream +
                " of its JetStream does not: it could not write to its disk, which is or was full. "
-               "Make room there, then restart that server of NATS";
+               "Make room there, then restart that server of NATS (SIGKILL if it does not end)";
     } else {
       suspect_.clear();
     }

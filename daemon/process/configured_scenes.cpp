@@ -264,7 +264,14 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
   log_->info("scene kept",
              {{"scene", scene.name}, {"revision", kept->revision}, {"digest", kept->digest}});
   warn_of_options(*kept, scene);
-  if (origin && origin->stamp == wanted.stamp &&
+  const std::string other = origins_.other_reader_of(scene);
+  if (!other.empty()) {
+    log_->warn(
+        "another front reads the scene with another scale, up or unknown: the one that was "
+        "started last counts",
+        {{"scene", scene.name}, {"front", other}});
+  }
+  if (other.empty() && origin && origin->stamp == wanted.stamp &&
       origin->arguments == SceneOrigins::arguments_of(scene)) {
     return true;
   }

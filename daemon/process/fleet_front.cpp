@@ -43,15 +43,12 @@ FleetFront::FleetFront(FleetMember& member, int workers)
     : member_(member), workers_(workers), board_(service::version_text()) {}
 
 bool FleetFront::claim_id_or_log(const DaemonOptions& options, service::Log& log) {
-  if (fleet::is_front_alive(member_.connection(), {options.fleet.name}, member_.id())) {
-    log.error("another front of the fleet has this id",
-              {{"setting", options.where("fleet.id")},
-               {"id", member_.id()},
-               {"hint", "give each front an id of its own (fleet.id)"}});
-    return false;
-  }
-  answerer_->claim_id(true);
-  return true;
+  if (answerer_->claim_id()) return true;
+  log.error("another front of the fleet has this id",
+            {{"setting", options.where("fleet.id")},
+             {"id", member_.id()},
+             {"hint", "give each front an id of its own (fleet.id)"}});
+  return false;
 }
 
 void FleetFront::feed(service::Service& service) {

@@ -38,7 +38,7 @@ class FleetFront {
   /// To be called before any scene of the fleet is changed.
   bool claim_id_or_log(const DaemonOptions& options, service::Log& log);
   /// Lets another front take the id of this one, which ends.
-  void leave() { answerer_->claim_id(false); }
+  void leave() { answerer_->leave_id(); }
 
   /// Returns how many planners are alive.
   [[nodiscard]] int planners() const { return board_.alive(); }

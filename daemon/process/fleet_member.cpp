@@ -71,6 +71,21 @@ void log_change(const scene::Snapshot& scene, bool is_removed, const scene::Scen
                                                 {"revision", scene.revision}});
 }
 
+/// Removes the scenes that the user gives up, before anything of them is read.
+bool drop_scenes_or_log(const DaemonOptions& options, scene::SharedLog& fleet_log,
+                        service::Log& log) {
+  if (options.fleet.role != FleetRole::kFront) return true;
+  for (const std::string& name : options.drop_scenes) {
+    const scene::AppendResult dropped = fleet_log.drop(name);
+    if (dropped.fault != scene::AppendFault::kNone) {
+      log.error("scene cannot be dropped", {{"scene", name}, {"reason", dropped.error}});
+      return false;
+    }
+    log.warn("scene dropped from the fleet, with all that was added to it", {{"scene", name}});
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string member_id(const DaemonOptions& options) {
@@ -94,23 +109,28 @@ std::unique_ptr<FleetMember> FleetMember::open_or_log(const DaemonOptions& optio
              {"patience_s", std::chrono::duration<double>(fleet.patience).count()}});
   auto connection = nats::Connection::open(connect_options(fleet, id));
   if (!connection) return fail(connection.error);
-  auto opened = scene::NatsLog::open(**connection, log_options(fleet, log));
+  auto log_connection = nats::Connection::open(connect_options(fleet, id + " log"));
+  if (!log_connection) return fail(log_connection.error);
+  auto opened = scene::NatsLog::open(**log_connection, log_options(fleet, log));
   if (!opened) return fail(opened.error);
+  if (!drop_scenes_or_log(options, **opened, *log)) return nullptr;
   log->info("part of a fleet", {{"fleet", fleet.name},
                                 {"role", kFleetRoles[static_cast<std::size_t>(fleet.role)]},
                                 {"id", id},
                                 {"server", (*connection)->server()}});
-  return std::unique_ptr<FleetMember>(
-      new FleetMember(id, *std::move(connection), *std::move(opened), fleet, log));
+  return std::unique_ptr<FleetMember>(new FleetMember(
+      id, *std::move(connection), *std::move(log_connection), *std::move(opened), fleet, log));
 }
 
 FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
+                         std::unique_ptr<nats::Connection> log_connection,
                          std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
                          std::shared_ptr<service::Log> service_log)
     : id_(std::move(id)),
       role_(options.role),
       service_log_(std::move(service_log)),
       connection_(std::move(connection)),
+      log_connection_(std::move(log_connection)),
       shared_log_(log.get()),
       state_(std::make_unique<KeptState>(fmt::format("fleet '{}'", options.name), std::move(log),
                                          options.patience)) {

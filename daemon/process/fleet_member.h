@@ -40,6 +40,7 @@ class FleetMember {
 
  private:
   FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
+              std::unique_ptr<nats::Connection> log_connection,
               std::unique_ptr<scene::SharedLog> log, const FleetOptions& options,
               std::shared_ptr<service::Log> service_log);
 
@@ -47,6 +48,9 @@ class FleetMember {
   const FleetRole role_;
   const std::shared_ptr<service::Log> service_log_;
   const std::unique_ptr<nats::Connection> connection_;
+  /// Of the log alone: a connection that asks a locked stream (`nats::StallWatch`) gets no other
+  /// answer either, and jobs go on meanwhile.
+  const std::unique_ptr<nats::Connection> log_connection_;
   scene::SharedLog* const shared_log_;  ///< owned by `state_`
   const std::unique_ptr<KeptState> state_;
 };

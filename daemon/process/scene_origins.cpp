@@ -101,10 +101,31 @@ std::string SceneOrigins::arguments_of(const SceneArgument& scene) {
   return std::filesystem::absolute(scene.file).string() + " " + options_of(scene);
 }
 
-std::string SceneOrigins::options_of(const SceneArgument& scene) {
+std::string SceneOrigins::reading_of(const SceneArgument& scene) {
   const scene::ImportOptions& import = scene.options.import;
-  return fmt::format("scale {} up {} unknown {}{}", import.scale, static_cast<int>(import.up),
-                     static_cast<int>(import.unknown), scene_options_of(scene));
+  return fmt::format("scale {} up {} unknown {}", import.scale, static_cast<int>(import.up),
+                     static_cast<int>(import.unknown));
+}
+
+std::string SceneOrigins::options_of(const SceneArgument& scene) {
+  return reading_of(scene) + scene_options_of(scene);
+}
+
+std::string SceneOrigins::other_reader_of(const SceneArgument& scene) const {
+  if (log_ == nullptr || !is_shared_) return "";
+  const auto notes = log_->notes(kNoteOfOwner);
+  if (!notes) return "";
+  for (const auto& [key, text] : *notes) {
+    if (key == note_key_) continue;
+    const Origins origins = origins_in(text);
+    const auto found = origins.find(scene.name);
+    if (found == origins.end() || found->second.is_dropped) continue;
+    // The file of another machine may have another name.
+    if (found->second.arguments.find(" " + reading_of(scene)) == std::string::npos) {
+      return key.substr(kNoteOfOwner.size());
+    }
+  }
+  return "";
 }
 
 std::string SceneOrigins::scene_options_of(const SceneArgument& scene) {

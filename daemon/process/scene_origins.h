@@ -52,8 +52,14 @@ class SceneOrigins {
   /// the notes cannot be read.
   [[nodiscard]] base::Result<std::string> other_owner_of(const std::string& name) const;
 
+  /// Returns another owner that wants the scene and reads it with another scale, other axes or
+  /// another kind of unknown space; empty if there is none, or if it is not known.
+  [[nodiscard]] std::string other_reader_of(const SceneArgument& scene) const;
+
   /// Returns a text that is equal for scenes that are read alike from the same file.
   static std::string arguments_of(const SceneArgument& scene);
+  /// Returns a text that is equal for scenes whose files are read alike.
+  static std::string reading_of(const SceneArgument& scene);
   /// Returns a text that is equal for scenes that are read alike.
   static std::string options_of(const SceneArgument& scene);
   /// Returns the end of both texts: options of the whole scene, not of the object of the file.

@@ -145,6 +145,17 @@ TEST_F(SharedScenesTest, OtherWaysToReadTheFileReplaceItsObjectOnly) {
   EXPECT_EQ(store_.find("room"), after) << "nothing is read again";
 }
 
+TEST_F(SharedScenesTest, OfTwoThatReadTheFileInOtherWaysTheLastOneCounts) {
+  const auto scale = [&] { return store_.find("room")->find("room")->source->report.scale; };
+  ASSERT_TRUE(front("one")->update({room()}));
+  ASSERT_TRUE(front("two")->update({room(2.0)}));
+  EXPECT_EQ(scale(), 2.0);
+  // Its own file and options are as they were at its last start.
+  ASSERT_TRUE(front("one")->update({room()}));
+  EXPECT_EQ(scale(), 1.0);
+  EXPECT_THAT(log_.text(), HasSubstr("warning another front reads the scene with another scale"));
+}
+
 TEST_F(SharedScenesTest, OptionsThatASceneOfAnotherFrontDoesNotHaveAreNamed) {
   ASSERT_TRUE(front("one")->update({room_with_map(0.5)}));
   const auto before = store_.find("room");

@@ -116,6 +116,10 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                   options, "none");
   declare_setting(app, "--fleet-name", "fleet.name", "Processes of the same name are one fleet",
                   options);
+  app.add_option("--fleet-drop", options.drop_scenes,
+                 "A front removes this scene from the fleet before it reads the scenes there, for "
+                 "one whose contents are lost; may be given several times")
+      ->type_name("SCENE");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",
                  "Serve though another daemon serves with this prefix; else this one says so and "

@@ -73,6 +73,7 @@ std::vector<std::string> servers_of(std::string_view list);
 struct DaemonOptions {
   std::filesystem::path config_file;  ///< empty: none
   std::vector<SceneArgument> scenes;
+  std::vector<std::string> drop_scenes;  ///< `--fleet-drop`: scenes to remove from the fleet
   std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
   service::LogLevel log_level = service::LogLevel::kInfo;
   service::LogFormat log_format = service::LogFormat::kText;

@@ -25,6 +25,12 @@ Keeping not_kept(AppendResult appended) {
   return {KeepFault::kBroken, std::move(appended.error)};
 }
 
+/// The same for contents, without which no change is sent.
+Keeping not_sent(AppendResult kept) {
+  kept.error += "; nothing was changed";
+  return not_kept(std::move(kept));
+}
+
 }  // namespace
 
 DurableScenes::DurableScenes(SceneLog& log, std::chrono::milliseconds patience)
@@ -38,11 +44,16 @@ base::Result<std::vector<SceneHistory>> DurableScenes::load(const SceneHistory::
   const base::Result<std::vector<LoggedScene>> logged = log_.scenes();
   if (!logged) return base::Failure{logged.error};
   std::vector<SceneHistory> histories;
+  std::string faults;
   for (const LoggedScene& scene : *logged) {
     base::Result<SceneHistory> history = load_scene(scene, limits);
-    if (!history) return base::Failure{std::move(history.error)};
-    histories.push_back(*std::move(history));
+    if (history) {
+      histories.push_back(*std::move(history));
+    } else {
+      faults += (faults.empty() ? "" : "; ") + history.error;
+    }
   }
+  if (!faults.empty()) return base::Failure{std::move(faults)};
   return histories;
 }
 
@@ -120,7 +131,7 @@ Keeping DurableScenes::keep_scene(const Snapshot& first, std::uint64_t before,
       recorded.name = object->name;
       recorded.placement = object->placement;
       AppendResult kept = sources_.keep(object->source, nullptr, recorded.source);
-      if (kept.fault != AppendFault::kNone) return not_kept(std::move(kept));
+      if (kept.fault != AppendFault::kNone) return not_sent(std::move(kept));
     }
     AppendResult appended =
         log_.append(first.name, {before, first.revision, change_record_of(scene), scene.needs()});
@@ -154,7 +165,7 @@ Keeping DurableScenes::keep_changes(const Snapshot& before, const Snapshot& next
     for (const SceneChange& change : changes) {
       RecordedChange& recorded = revision.changes.emplace_back();
       AppendResult kept = record(change, before, recorded);
-      if (kept.fault != AppendFault::kNone) return not_kept(std::move(kept));
+      if (kept.fault != AppendFault::kNone) return not_sent(std::move(kept));
       if (recorded.source) needs.push_back(*recorded.source);
     }
     AppendResult appended =

@@ -40,6 +40,10 @@ class SharedLog : public SceneLog {
   /// Ends that thread. `take` does not run any more when this has returned.
   virtual void stop_following() = 0;
 
+  /// Removes a scene, whatever is left of it, without reading its contents. Fails with `kConflict`
+  /// if there is none. To be called before `scenes`.
+  virtual AppendResult drop(std::string_view scene) = 0;
+
   /// The position up to which this process has read the log: of the last update for which `take`
   /// has returned, or of those that `scenes` returned.
   [[nodiscard]] virtual std::uint64_t followed() const = 0;

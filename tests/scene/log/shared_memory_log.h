@@ -67,6 +67,14 @@ class SharedMemoryLog final : public scene::SharedLog {
     shared_->add(scene::LogUpdate::Kind::kSummary, name, {0, revision, summary, {}});
     return done;
   }
+  scene::AppendResult drop(std::string_view name) override {
+    const std::uint64_t revision = [&] {
+      const std::lock_guard lock(shared_->mutex);
+      return shared_->log.head(name);
+    }();
+    if (revision == 0) return {scene::AppendFault::kConflict, "there is no such scene"};
+    return remove(name, revision, "");
+  }
   scene::AppendResult remove(std::string_view name, std::uint64_t revision,
                              std::string_view request) override {
     const std::lock_guard lock(shared_->mutex);

@@ -273,4 +273,20 @@ AppendResult NatsLog::Parts::remove(std::string_view scene, std::uint64_t revisi
   return replace_all(scene, std::move(message), {bytes.begin(), bytes.end()});
 }
 
+AppendResult NatsLog::Parts::drop(std::string_view scene) {
+  const PatienceEnd end = patience_end();
+  const std::string unchecked = check_tail(end);
+  if (!unchecked.empty()) return given_up(unchecked, /*may_be_sent=*/false);
+  const std::string name(scene);
+  auto chain = read_scene(name, end);
+  if (!chain) return append_fault(chain.fault, chain.error);
+  const std::uint64_t revision = chain->newest_revision();
+  if (revision == 0) return conflict(scene, 0, 1);
+  {
+    const std::lock_guard lock(mutex_);
+    chains_[name] = *std::move(chain);
+  }
+  return remove(scene, revision, "");
+}
+
 }  // namespace camway::scene

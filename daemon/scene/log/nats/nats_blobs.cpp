@@ -215,8 +215,8 @@ base::Result<Bytes> NatsBlobs::read(const BlobId& id, PatienceEnd end) {
   if (!*found)
     return base::Failure{
         "its mesh or map is not in the log of the fleet any more. Put it again or unload the "
-        "scene, "
-        "with a front that runs, or restore backups of both streams in NATS"};
+        "scene with a front that runs, or start a front with --fleet-drop SCENE, which removes the "
+        "scene from the fleet"};
   base::Result<BlobHead> head = blob_head_from(std::as_bytes(std::span((*found)->payload)));
   if (!head) return damaged_blob(head.error);
   base::Result<Bytes> bytes =

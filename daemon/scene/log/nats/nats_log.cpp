@@ -105,6 +105,7 @@ base::Result<std::map<std::string, std::string>> NatsLog::notes(std::string_view
   return parts_->notes(prefix);
 }
 bool NatsLog::catch_up(std::chrono::milliseconds patience) { return parts_->catch_up(patience); }
+AppendResult NatsLog::drop(std::string_view scene) { return parts_->drop(scene); }
 void NatsLog::follow(Take take) { parts_->follow(std::move(take)); }
 void NatsLog::stop_following() { parts_->stop_following(); }
 std::uint64_t NatsLog::followed() const { return parts_->followed(); }

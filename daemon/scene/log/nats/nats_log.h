@@ -83,6 +83,7 @@ class NatsLog final : public SharedLog {
   void on_lost_blob(LostBlob find) override;
   [[nodiscard]] bool lacks_blobs_of(std::string_view scene) override;
 
+  AppendResult drop(std::string_view scene) override;
   void follow(Take take) override;
   void stop_following() override;
   [[nodiscard]] std::uint64_t followed() const override;

@@ -70,6 +70,7 @@ class NatsLog::Parts {
   AppendResult summarize(std::string_view scene, std::uint64_t revision, const Bytes& summary,
                          const std::vector<BlobId>& needs);
   AppendResult remove(std::string_view scene, std::uint64_t revision, std::string_view request);
+  AppendResult drop(std::string_view scene);
   AppendResult put_blob(const BlobId& id, const Blob& blob, PatienceEnd end);
 
   // nats_lost.cpp

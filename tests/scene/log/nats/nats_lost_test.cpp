@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/nats/jetstream_api.h"
 #include "daemon/scene/log/durable_scenes.h"
 #include "daemon/scene/log/nats/nats_log.h"
 #include "daemon/scene/log/scene_follower.h"
@@ -152,6 +153,49 @@ TEST(NatsLost, WhatNobodyHasIsNamedUntilTheNextChangeMakesItNeedless) {
   FleetProcess later(emptied.server.url(), limits);
   EXPECT_EQ(later.error(), "");
   EXPECT_EQ(later.digests(), one.digests());
+}
+
+// No process lives that has the contents, and none can be started to unload the scene.
+TEST(NatsLost, AFrontThatStartsMayDropWhatIsLost) {
+  EmptiedServer emptied;
+  testing::Random random(17);
+  {
+    FleetProcess one(emptied.server.url());
+    for (const char* const name : {"lost", "also"}) {
+      ASSERT_EQ(one.store().put(assemble(name, 1, {}, {})).error, "");
+      ASSERT_EQ(
+          one.store()
+              .change(name, {SceneChange::Kind::kPut, "crate", testing::random_box(random), {}})
+              .error,
+          "");
+    }
+  }
+  // The contents alone are lost.
+  {
+    nats::ConnectOptions options;
+    options.servers = {emptied.server.url()};
+    const auto connection = nats::Connection::open(options);
+    ASSERT_TRUE(connection) << connection.error;
+    const auto gone =
+        nats::ask_api(**connection, "STREAM.DELETE.camway_BLOBS", nullptr, milliseconds(5000));
+    ASSERT_TRUE(gone) << gone.error;
+  }
+  const FleetProcess refused(emptied.server.url());
+  EXPECT_THAT(refused.error(), HasSubstr("scene 'lost'"));
+  EXPECT_THAT(refused.error(), HasSubstr("scene 'also'"));
+  EXPECT_THAT(refused.error(), HasSubstr("--fleet-drop"));
+  {
+    FleetLog log({emptied.server.url()}, without_recent());
+    EXPECT_EQ(log->drop("lost").error, "");
+    EXPECT_EQ(log->drop("also").error, "");
+    EXPECT_EQ(log->drop("also").fault, AppendFault::kConflict);
+    EXPECT_EQ(log->drop("never").fault, AppendFault::kConflict);
+  }
+  FleetProcess later(emptied.server.url());
+  EXPECT_EQ(later.error(), "");
+  EXPECT_EQ(later.digests(), "");
+  // Revisions go on above those of the scene that was dropped.
+  EXPECT_EQ(later.store().put(assemble("lost", 1, {}, {})).error, "");
 }
 
 TEST(NatsLost, NotesAndLargeRecordsArePutAgain) {
