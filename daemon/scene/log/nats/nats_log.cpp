@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/nats/jetstream_api.h"
 #include "daemon/scene/log/nats/nats_log_parts.h"
 #include "daemon/scene/log/removal_requests.h"
 
@@ -39,6 +40,14 @@ bool is_plain(const std::string& name) {
                               "YZ0123456789_-") == std::string::npos;
 }
 
+/// A server whose disk was full answers to a ping, but its streams do not answer.
+base::Failure not_opened(const nats::Connection& connection, const std::string& error) {
+  if (!connection.is_connected() || !error.ends_with(nats::kNoAnswerInTime)) return {error};
+  return {error +
+          ", though it is connected. If its disk is or was full, make room there and restart it "
+          "(SIGKILL if it does not end)"};
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<NatsLog>> NatsLog::open(nats::Connection& connection,
@@ -57,9 +66,9 @@ base::Result<std::unique_ptr<NatsLog>> NatsLog::open(nats::Connection& connectio
                            true,
                            ""};
   auto stream = nats::Stream::ensure(connection, log, options.patience);
-  if (!stream) return base::Failure{std::move(stream.error)};
+  if (!stream) return not_opened(connection, stream.error);
   auto blob_stream = nats::Stream::ensure(connection, blobs, options.patience);
-  if (!blob_stream) return base::Failure{std::move(blob_stream.error)};
+  if (!blob_stream) return not_opened(connection, blob_stream.error);
   NatsLogOptions complete = options;
   if (!complete.blob_grace) {
     complete.blob_grace = kGracePatiences * options.patience + kGraceBeyondPatience;
