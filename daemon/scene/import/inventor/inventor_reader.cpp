@@ -32,29 +32,42 @@ std::string listed(const Counts& counts) {
   return list;
 }
 
+/// A list of what there is so many times.
+class Inventory {
+ public:
+  void add(std::uint64_t count, std::string_view one, std::string_view many) {
+    if (count == 0) return;
+    add(std::to_string(count) + " " + std::string(count == 1 ? one : many));
+  }
+  void add(const std::string& item) {
+    if (item.empty()) return;
+    if (!text_.empty()) text_ += ", ";
+    text_ += item;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 /// Says what a scene without triangles has.
 std::string lacking(const SceneGraph& graph, const ShapeCounts& shapes) {
-  Counts found = shapes.no_surface;
-  found.insert(shapes.unknown.begin(), shapes.unknown.end());
-  std::string list = listed(found);
-  const auto add = [&](std::uint64_t count, const std::string& text) {
-    if (count == 0) return;
-    if (!list.empty()) list += ", ";
-    list += std::to_string(count) + " " + text;
-  };
-  add(shapes.shapes, "shapes without a face");
-  add(shapes.texts, "of them texts");
-  for (const auto& [reason, count] : shapes.no_freeform) add(count, "NURBS that " + reason);
-  add(shapes.not_chosen, "children that a switch does not choose");
-  add(shapes.invisible, "shapes of draw style INVISIBLE");
-  add(graph.not_fetched.size(), "inline files that are not below its folder");
-  if (!graph.ignored.empty()) {
-    if (!list.empty()) list += ", ";
-    list += listed(graph.ignored);
+  Inventory has;
+  has.add(listed(shapes.no_surface));
+  has.add(listed(shapes.unknown));
+  has.add(shapes.shapes, "shape without a face", "shapes without a face");
+  for (const auto& [reason, count] : shapes.no_freeform) {
+    has.add(count, "NURBS surface that " + reason, "NURBS surfaces each of which " + reason);
   }
-  if (list.empty())
-    return "holds no surface: no shape in " + std::to_string(graph.nodes) + " nodes";
-  return "holds no surface: it has " + list;
+  has.add(shapes.not_chosen, "child that a switch does not choose",
+          "children that switches do not choose");
+  has.add(shapes.invisible, "shape of draw style INVISIBLE", "shapes of draw style INVISIBLE");
+  has.add(graph.not_fetched.size(), "inline file elsewhere", "inline files elsewhere");
+  has.add(listed(graph.ignored));
+  if (has.text().empty()) {
+    return "holds no surface: none of its " + std::to_string(graph.nodes) + " nodes is a shape";
+  }
+  return "holds no surface: it has " + has.text();
 }
 
 void add_note(Record& record, const std::string& text) { record.notes += text + "\n"; }
@@ -80,7 +93,8 @@ void add_notes(Record& record, const SceneGraph& graph, const ShapeCounts& shape
   add_note(record, graph.coarse_levels,
            "coarser levels of detail were left out: the finest counts");
   add_note(record, shapes.invisible, "shapes of draw style INVISIBLE were not read");
-  add_note(record, shapes.smooth, "spheres, cones, cylinders and NURBS were made flat");
+  add_note(record, shapes.smooth,
+           "smooth shapes (spheres, cones, cylinders, NURBS) were made flat");
   add_note(record, shapes.texts, "texts are in the font that Coin has, whatever their own one");
   add_note(record, shapes.trimmed, "NURBS are trimmed by curves, and were read whole", kMark);
   for (const auto& [reason, count] : shapes.no_freeform) {

@@ -173,9 +173,11 @@ class GraphReader {
       keep_finest(lod);
     } else if (node.isOfType(SoWWWInline::getClassTypeId())) {
       auto& inlined = static_cast<SoWWWInline&>(node);
+      if (inlined.name.isDefault() == TRUE) return {};  // asks for nothing
       return fill(inlined, {inlined.name.getValue().getString()}, name);
     } else if (node.isOfType(SoVRMLInline::getClassTypeId())) {
       auto& inlined = static_cast<SoVRMLInline&>(node);
+      if (inlined.url.getNum() == 0) return {};
       std::vector<std::string> urls;
       for (int i = 0; i < inlined.url.getNum(); ++i) urls.emplace_back(inlined.url[i].getString());
       return fill(inlined, urls, name);
@@ -196,7 +198,7 @@ class GraphReader {
     const auto local =
         std::ranges::find_if(urls, [](const std::string& url) { return !local_name(url).empty(); });
     if (local == urls.end()) {
-      graph_.not_fetched.push_back(urls.empty() || urls.front().empty() ? "no name" : urls.front());
+      graph_.not_fetched.push_back(urls.front().empty() ? "no name" : urls.front());
       return {};
     }
     const std::string text = "inline file '" + *local + "'";
