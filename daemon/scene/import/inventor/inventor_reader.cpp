@@ -124,6 +124,10 @@ base::Result<Record> read_inventor(std::string_view bytes, const SceneFolder& fo
     plain = *std::move(text);
     bytes = plain;
   }
+  // Coin reads bytes in memory without a header, too, and takes noise for an empty scene.
+  if (!bytes.starts_with("#Inventor V") && !bytes.starts_with("#VRML V")) {
+    return base::Failure{"does not begin with '#Inventor V' or '#VRML V'"};
+  }
   const base::Result<SceneGraph> graph = read_scene_graph(bytes, folder);
   if (!graph) return base::Failure{graph.error};
   mesh_readers::MeshCollector mesh;

@@ -35,6 +35,11 @@ constexpr std::array kIgnoredTypes = {"Light",
                                       "Texture3",
                                       "VRMLTexture",
                                       "VRMLSensor",
+                                      "VRMLTimeSensor",
+                                      "VRMLTouchSensor",
+                                      "VRMLDragSensor",
+                                      "VRMLProximitySensor",
+                                      "VRMLVisibilitySensor",
                                       "VRMLScript",
                                       "VRMLInterpolator",
                                       "VRMLSound",
@@ -55,10 +60,12 @@ constexpr std::array kIgnoredTypes = {"Light",
 /// Coin's input, which opens the files of `File` nodes only below the folder of the scene.
 class FolderInput : public SoInput {
  public:
-  FolderInput(const std::string& folder, std::uint64_t& files) : folder_(folder), files_(files) {}
+  /// `here`: the folder of the file that is read.
+  FolderInput(const std::string& folder, std::filesystem::path here, std::uint64_t& files)
+      : folder_(folder), here_(std::move(here)), files_(files) {}
 
   SbBool pushFile(const char* name) override {
-    const base::Result<std::filesystem::path> path = path_below(folder_, name);
+    const base::Result<std::filesystem::path> path = path_below(folder_, folder_of_top() / name);
     const std::string text = "inline file '" + std::string(name) + "' ";
     if (!path) return refuse(text + path.error);
     if (std::ranges::count(open_, path->string()) > 0) return refuse(text + "includes itself");
@@ -78,12 +85,17 @@ class FolderInput : public SoInput {
   }
 
  private:
+  [[nodiscard]] std::filesystem::path folder_of_top() const {
+    return open_.empty() ? here_ : std::filesystem::path(open_.back()).parent_path();
+  }
+
   SbBool refuse(Fault fault) {
     if (fault_.empty()) fault_ = std::move(fault);
     return FALSE;
   }
 
   const std::string& folder_;
+  const std::filesystem::path here_;
   std::uint64_t& files_;
   std::vector<std::string> open_;
   Fault fault_;
@@ -116,9 +128,10 @@ class GraphReader {
   Fault read_file(std::string_view bytes, const std::string& name, SoSeparator*& root) {
     namespace fs = std::filesystem;
     SoInput::clearDirectories();
-    SoInput::addDirectoryFirst((fs::path(folder_.folder) / name).parent_path().c_str());
-    if (name.empty()) SoInput::addDirectoryFirst(folder_.folder.c_str());
-    FolderInput input(folder_.folder, graph_.inline_files);
+    const fs::path here = (fs::path(folder_.folder) / name).parent_path();
+    SoInput::addDirectoryFirst(name.empty() ? folder_.folder.c_str() : here.c_str());
+    FolderInput input(folder_.folder, name.empty() ? fs::path(folder_.folder) : here,
+                      graph_.inline_files);
     input.setBuffer(bytes.data(), bytes.size());
     root = SoDB::readAll(&input);
     if (root != nullptr) root->ref();

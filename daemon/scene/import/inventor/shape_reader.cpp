@@ -359,6 +359,7 @@ class ShapeReader {
       const std::int64_t stop = std::min(next + asked, std::max(next, end + 1));
       corners_.clear();
       for (std::int64_t k = next; k < stop; ++k) corners_.push_back(vertices_.vertex(k));
+      if (asked >= 3 && corners_.size() < 3) corners_.resize(3, mesh_readers::kNoVertex);
       if (!corners_.empty()) add();
       next += asked;
     }

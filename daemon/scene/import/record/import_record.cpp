@@ -62,8 +62,7 @@ bool parse(std::span<const std::byte> bytes, Record& record) {
   RecordReader reader(bytes);
   return reader.read(record.header) && record.header.magic == layout::kMagic &&
          record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
-         record.header.surface_error >= 0.0 &&
-         is_sound_unit(record.header.unit_m) &&
+         record.header.surface_error >= 0.0 && is_sound_unit(record.header.unit_m) &&
          reader.read(record.text, record.header.text_bytes) &&
          reader.read(record.notes, record.header.note_bytes) &&
          reader.read(record.vertices, record.header.vertices) &&

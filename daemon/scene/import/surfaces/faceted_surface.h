@@ -11,7 +11,7 @@ namespace camway::scene::surfaces {
 
 using mesh_readers::Point;
 
-/// How far facets may be from the smooth surface, as a part of its size: a sphere takes 5780
+/// How far facets may be from the smooth surface, as a part of its size: a sphere takes 6480
 /// triangles then, and one of the size of a head is within 0.1 mm.
 inline constexpr double kRelativeTolerance = 1e-3;
 

@@ -15,9 +15,9 @@ using Corners = std::array<std::uint32_t, 3>;
 /// Points are computed in doubles, from sines and roots that are off by a few roundoffs.
 constexpr double kComputed = 1e-14;
 
-/// Edges of an icosahedron are divided into so many. 17 is the least with which the facets of a
+/// Edges of an icosahedron are divided into so many. 18 is the least with which the facets of a
 /// unit sphere are within `kRelativeTolerance`.
-constexpr std::uint32_t kFrequency = 17;
+constexpr std::uint32_t kFrequency = 18;
 
 /// 72 sides: 1 - cos(pi / 72) = 0.95e-3.
 constexpr std::uint32_t kSides = 72;
