@@ -105,6 +105,32 @@ TEST(SourceRecord, GivesBackTheFieldThatTheOptionsAskFor) {
   ASSERT_NO_FATAL_FAILURE(expect_equal(*source, **other));
 }
 
+/// The version is the number after the eight bytes of the magic number.
+std::uint32_t version_of(const Bytes& record) {
+  std::uint32_t version = 0;
+  std::memcpy(&version, record.data() + sizeof(std::uint64_t), sizeof version);
+  return version;
+}
+
+TEST(SourceRecord, IsWhatItWasWhereNoSurfaceIsSmooth) {
+  testing::Random random(kRecordSeed);
+  ImportReport report = random_report(random);
+  report.surface_error_m = 0.0;
+  const auto before = make_source(ObjectKind::kMesh, mesh_of_objects(random, 2, 1.0), report, {});
+  ASSERT_TRUE(before) << before.error;
+  EXPECT_EQ(version_of(record_of(**before)), 1U);
+  report.surface_error_m = 0.125;
+  const auto smooth =
+      make_source(ObjectKind::kMesh, Mesh(*(*before)->parts_O.front().mesh), report, {});
+  ASSERT_TRUE(smooth) << smooth.error;
+  const Bytes record = record_of(**smooth);
+  EXPECT_EQ(version_of(record), 2U);
+  EXPECT_EQ(record.size(), record_of(**before).size() + sizeof(double));
+  const auto back = source_from(record, nullptr, {});
+  ASSERT_TRUE(back) << back.error;
+  EXPECT_EQ((*back)->report.surface_error_m, 0.125);
+}
+
 TEST(SourceRecord, GivesBackAnyShape) {
   testing::Random random(kRecordSeed + 1);
   const std::vector<SourcePtr> sources = shape_samples(random);
