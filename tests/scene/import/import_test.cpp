@@ -472,5 +472,15 @@ TEST_F(Import, IncludesNoFileFromElsewhere) {
   EXPECT_THAT(error_of(file), HasSubstr("line 1: 'parts.ug' is not there"));
 }
 
+TEST_F(Import, OpenInventorIsReadOrSaidToBeMissing) {
+  const ImportResult result = import_mesh(write("a.iv", "#Inventor V2.1 ascii\nCube { }\n"), {});
+  if (result.mesh) {
+    EXPECT_EQ(result.report.triangles, 12U);
+  } else {
+    EXPECT_THAT(result.error,
+                ::testing::EndsWith("this build has no reader for Open Inventor (libcoin)"));
+  }
+}
+
 }  // namespace
 }  // namespace camway::scene
