@@ -321,7 +321,7 @@ TEST_F(Import, NamesWhatIsWrongWithAFileBeforeReadingIt) {
 }
 
 TEST_F(Import, RefusesATypeThatNothingReads) {
-  EXPECT_THAT(error_of(write("a.iv", "#Inventor V2.1 ascii\nCube {}\n")), HasSubstr(".iv"));
+  EXPECT_THAT(error_of(write("a.jt", "Version 9.5 JT\n")), HasSubstr(".jt"));
   EXPECT_THAT(error_of(write("a", "nothing")), HasSubstr("supported"));
 }
 

@@ -62,12 +62,28 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
 }
 
-double distance_to(const FacetedSurface& facets, const Vec3& p) {
+/// Longest edge of the triangles, which is their reach from a corner.
+double longest_edge(const FacetedSurface& facets) {
+  double longest = 0.0;
+  for (const auto& t : facets.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point& a = facets.points[t[k]];
+      const Point& b = facets.points[t[(k + 1) % 3]];
+      longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    }
+  }
+  return longest;
+}
+
+double distance_to(const FacetedSurface& facets, double reach, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   const auto at = [&](std::uint32_t i) {
     return Vec3(facets.points[i][0], facets.points[i][1], facets.points[i][2]);
   };
+  const Point eye = {p.x(), p.y(), p.z()};
   for (const auto& t : facets.triangles) {
+    const Point& a = facets.points[t[0]];
+    if (std::hypot(a[0] - eye[0], a[1] - eye[1], a[2] - eye[2]) > least + reach) continue;
     least = std::min(least, distance_to_triangle(p, at(t[0]), at(t[1]), at(t[2])));
   }
   return least;
@@ -125,10 +141,11 @@ TEST(NurbsSurface, IsWithinItsErrorOfTheTrueSurface) {
     EXPECT_LE(facets->error, kTolerance);
     const std::size_t p = surface.u_knots.size() - surface.u_points - 1;
     const std::size_t q = surface.v_knots.size() - surface.v_points - 1;
+    const double reach = longest_edge(*facets);
     for (int i = 0; i < 8; ++i) {
       const double u = random.uniform(surface.u_knots[p], surface.u_knots[surface.u_points]);
       const double v = random.uniform(surface.v_knots[q], surface.v_knots[surface.v_points]);
-      const double off = distance_to(*facets, point_of(surface, u, v));
+      const double off = distance_to(*facets, reach, point_of(surface, u, v));
       ASSERT_LE(off, facets->error + 1e-12) << u << " " << v;
       closest = std::max(closest, off / facets->error);
     }
