@@ -233,9 +233,15 @@ class ShapeReader {
 
   void add_smooth(const FacetedSurface& surface) {
     add_facets(surface, true);
-    counts_.surface_error = std::max(counts_.surface_error, surface.error * placement_->stretch());
+    note_error(surface.error * placement_->stretch());
     ++counts_.smooth;
   }
+
+  /// What is not finite is left out, and has no error.
+  static void raise(double& bound, double value) {
+    if (std::isfinite(value)) bound = std::max(bound, value);
+  }
+  void note_error(double error) { raise(counts_.surface_error, error); }
 
   /// `is_local`: whether the points are those of the shape, and not of the scene.
   void add_facets(const FacetedSurface& surface, bool is_local) {
@@ -490,7 +496,7 @@ class ShapeReader {
     Point largest;
     for (std::size_t k = 0; k < 3; ++k) largest[k] = std::max(std::abs(low[k]), std::abs(high[k]));
     note_rounding(largest);
-    counts_.surface_error = std::max(counts_.surface_error, facets->error);
+    note_error(facets->error);
     ++counts_.smooth;
   }
 
@@ -526,7 +532,7 @@ class ShapeReader {
   }
 
   void note_rounding(const Point& largest) {
-    counts_.rounding = std::max(counts_.rounding, transforms_.chain().rounding(largest));
+    raise(counts_.rounding, transforms_.chain().rounding(largest));
   }
 
   MeshCollector& mesh_;

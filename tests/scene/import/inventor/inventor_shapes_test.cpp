@@ -309,5 +309,16 @@ TEST_F(InventorShapes, IndicesWithoutAVertexAreCounted) {
   EXPECT_EQ(result.report.dropped_bad_index, 3U);
 }
 
+TEST_F(InventorShapes, WhatIsNotFiniteIsLeftOut) {
+  const ImportResult result =
+      read(kInventor,
+           "Cube { } Sphere { radius 1e39 } Separator { Scale { scaleFactor 1e38 1e38 1e38 } "
+           "Scale { scaleFactor 1e38 1e38 1e38 } Cone { } }");
+  EXPECT_EQ(result.report.triangles, 12U);
+  EXPECT_GT(result.report.dropped_nonfinite, 0U);
+  EXPECT_TRUE(std::isfinite(result.report.surface_error_m));
+  EXPECT_TRUE(std::isfinite(result.report.rounding_m));
+}
+
 }  // namespace
 }  // namespace camway::scene
