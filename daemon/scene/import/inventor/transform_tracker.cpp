@@ -2,10 +2,8 @@
 #include "daemon/scene/import/inventor/transform_tracker.h"
 
 #include <Inventor/SbMatrix.h>
-#include <Inventor/SbViewportRegion.h>
 #include <Inventor/VRMLnodes/SoVRMLTransform.h>
 #include <Inventor/actions/SoCallbackAction.h>
-#include <Inventor/actions/SoGetMatrixAction.h>
 #include <Inventor/misc/SoState.h>
 #include <Inventor/nodes/SoArray.h>
 #include <Inventor/nodes/SoMatrixTransform.h>
@@ -63,20 +61,22 @@ TransformChain with_factors(const TransformChain& chain, const SbVec3f& translat
       .then(of_move(center));
 }
 
-bool has_plain_matrix(const SoNode& node) {
-  return node.isOfType(SoTranslation::getClassTypeId()) ||
-         node.isOfType(SoRotation::getClassTypeId()) ||
-         node.isOfType(SoRotationXYZ::getClassTypeId()) ||
-         node.isOfType(SoScale::getClassTypeId()) ||
-         node.isOfType(SoMatrixTransform::getClassTypeId());
-}
-
-/// The matrix of one node.
-Magnitudes own_magnitudes(const SoNode& node) {
-  static const SbViewportRegion kViewport;
-  SoGetMatrixAction action(kViewport);
-  action.apply(const_cast<SoNode*>(&node));  // Coin's actions take no const node, and change none
-  return magnitudes_of(action.getMatrix());
+/// The matrix of a node that is one matrix. Returns false for others.
+bool take_plain(const SoNode& node, Magnitudes& result) {
+  if (node.isOfType(SoTranslation::getClassTypeId())) {
+    result = of_move(static_cast<const SoTranslation&>(node).translation.getValue());
+  } else if (node.isOfType(SoRotation::getClassTypeId())) {
+    result = of_rotation(static_cast<const SoRotation&>(node).rotation.getValue());
+  } else if (node.isOfType(SoRotationXYZ::getClassTypeId())) {
+    result = of_rotation(static_cast<const SoRotationXYZ&>(node).getRotation());
+  } else if (node.isOfType(SoScale::getClassTypeId())) {
+    result = of_scale(static_cast<const SoScale&>(node).scaleFactor.getValue());
+  } else if (node.isOfType(SoMatrixTransform::getClassTypeId())) {
+    result = magnitudes_of(static_cast<const SoMatrixTransform&>(node).matrix.getValue());
+  } else {
+    return false;
+  }
+  return true;
 }
 
 /// The farthest copy of an array.
@@ -151,8 +151,8 @@ void TransformTracker::leave(SoCallbackAction& action, const SoNode& node) {
     set(depth,
         with_factors(chain(), t.translation.getValue(), t.rotation.getValue(),
                      t.scaleFactor.getValue(), t.scaleOrientation.getValue(), t.center.getValue()));
-  } else if (has_plain_matrix(node)) {
-    set(depth, chain().then(own_magnitudes(node)));
+  } else if (Magnitudes plain; take_plain(node, plain)) {
+    set(depth, chain().then(plain));
   } else {
     set(depth, chain().at_least(magnitudes_of(action.getModelMatrix()), kUnknownProducts));
   }

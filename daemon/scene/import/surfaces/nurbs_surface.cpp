@@ -168,39 +168,20 @@ class Facets {
     return net;
   }
 
-  /// Halves the patch where it bends most. Returns false if it is as fine as it may be.
+  /// Halves the spans of a patch in the direction that lessens its error most. Returns false if
+  /// they are as fine as they may be.
   bool divide(std::size_t i, Span& u, Span& v) const {
-    const Net& net = patches_[i];
-    const auto n = static_cast<double>(u.divisions);
-    const auto m = static_cast<double>(v.divisions);
-    const double bend_u = bend(net, 1, p_, p_ + 1, q_) / (n * n);
-    const double bend_v = bend(net, p_ + 1, q_, 1, p_) / (m * m);
-    const bool in_u = bend_u > bend_v || (bend_u == bend_v && u.divisions <= v.divisions);
-    Span& chosen = in_u ? u : v;
-    Span& other = in_u ? v : u;
-    Span& divided = chosen.divisions < kMostDivisions ? chosen : other;
-    if (divided.divisions >= kMostDivisions) return false;
-    divided.divisions *= 2;
-    return true;
-  }
-
-  /// Largest second difference in one direction, with the factor of a second derivative. Its points
-  /// are `step` apart, its lines `across`.
-  static double bend(const Net& net, std::size_t step, std::size_t degree, std::size_t across,
-                     std::size_t lines) {
-    double largest = 0.0;
-    for (std::size_t line = 0; line <= lines; ++line) {
-      for (std::size_t i = 2; i <= degree; ++i) {
-        const std::size_t at = line * across + i * step;
-        double square = 0.0;
-        for (std::size_t k = 0; k < 4; ++k) {
-          const double d = net[at][k] - 2.0 * net[at - step][k] + net[at - 2 * step][k];
-          square += d * d;
-        }
-        largest = std::max(largest, square);
-      }
+    const bool may_u = u.divisions < kMostDivisions;
+    const bool may_v = v.divisions < kMostDivisions;
+    if (!may_u && !may_v) return false;
+    bool in_u = may_u;
+    if (may_u && may_v) {
+      const double with_u = patch_error(i, 2 * u.divisions, v.divisions);
+      const double with_v = patch_error(i, u.divisions, 2 * v.divisions);
+      in_u = with_u < with_v || (with_u == with_v && u.divisions <= v.divisions);
     }
-    return std::sqrt(largest) * static_cast<double>(degree * degree);
+    (in_u ? u : v).divisions *= 2;
+    return true;
   }
 
   /// The control net of cell (a of n, b of m) of a patch.

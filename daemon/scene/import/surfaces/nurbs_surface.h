@@ -28,8 +28,8 @@ inline constexpr std::size_t kMostDegree = 24;
 inline constexpr std::size_t kMostCells = 1'000'000;
 
 /// Returns the surface as triangles on a grid of parameters, without gaps. Each span of knots is
-/// halved in u or v until the error is within `tolerance`, or the grid has `kMostCells` cells;
-/// `error` is what was reached.
+/// halved in u or v, whichever lessens the error more, until the error is within `tolerance`, or
+/// the grid has `kMostCells` cells; `error` is what was reached.
 ///
 /// The bound of a cell: with the cell's control points P in homogeneous coordinates, w its weights
 /// and L the bilinear surface of its four corners, N = P - w L is a Bezier surface of one degree
