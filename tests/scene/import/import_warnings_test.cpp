@@ -60,9 +60,10 @@ TEST(ImportWarnings, SetSmoothSurfacesAgainstWhatIsAskedFor) {
   report.surface_error_m = 0.02;
   EXPECT_THAT(import_warnings(report, 0.02), IsEmpty());
   EXPECT_THAT(import_warnings(report, std::nullopt), IsEmpty());
-  EXPECT_THAT(import_warnings(report, 0.01),
-              ElementsAre("the scene's smooth surfaces are flat facets within 0.02 m, which is more "
-                          "than the 0.01 m that the request asks for"));
+  EXPECT_THAT(
+      import_warnings(report, 0.01),
+      ElementsAre("the scene's smooth surfaces are flat facets within 0.02 m, which is more "
+                  "than the 0.01 m that the request asks for"));
 }
 
 }  // namespace

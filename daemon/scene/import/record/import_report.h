@@ -40,8 +40,8 @@ struct ImportReport {
   /// assimp's (curves of IFC made flat) are not included.
   double rounding_m = 0.0;
   /// Bound of the distance between smooth surfaces of the file (spheres, cones, cylinders, NURBS)
-  /// and the triangles that stand for them, both ways. 0 if the file has none, or if its reader does
-  /// not say: assimp's readers of IFC and the like make curves flat without a bound.
+  /// and the triangles that stand for them, both ways. 0 if the file has none, or if its reader
+  /// does not say: assimp's readers of IFC and the like make curves flat without a bound.
   double surface_error_m = 0.0;
 };
 
