@@ -34,6 +34,7 @@ void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, bool
                           {"max_m", text_of(report.bounds_m.max())},
                           {"scale", report.scale},
                           {"rounding_m", report.rounding_m},
+                          {"surface_error_m", report.surface_error_m},
                           {"degenerate_left_out", report.degenerate_triangles},
                           {"bad_left_out", report.dropped_nonfinite + report.dropped_bad_index},
                           {"digest", snapshot.digest}});

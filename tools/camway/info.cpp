@@ -61,6 +61,7 @@ OrderedJson import_json(const scene::ImportReport& report) {
     json["bounds_max_m"] = vector_json(report.bounds_m.max());
     json["single_precision"] = report.single_precision;
     json["rounding_m"] = report.rounding_m;
+    json["surface_error_m"] = report.surface_error_m;
   }
   json["degenerate_triangles"] = report.degenerate_triangles;
   json["dropped_nonfinite"] = report.dropped_nonfinite;
@@ -147,6 +148,9 @@ void print_import(const scene::ImportReport& report) {
                low.y(), low.z(), high.x(), high.y(), high.z());
     fmt::print("size         {:.3f} x {:.3f} x {:.3f} m\n", size.x(), size.y(), size.z());
     print_rounding(report);
+    if (report.surface_error_m > 0.0) {
+      fmt::print("surfaces     smooth surfaces are flat within {:.2g} m\n", report.surface_error_m);
+    }
   }
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
   fmt::print(

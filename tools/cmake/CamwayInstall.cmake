@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 install(TARGETS camwayd camway-import camway)
+if(CAMWAY_WITH_INVENTOR)
+  install(TARGETS camway-import-inventor)
+endif()
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
         DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes)
 install(FILES ${CAMWAY_BLENDER_ZIP} DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/blender)

@@ -81,6 +81,8 @@ LC_ALL=C exec awk '
       fault("LCM is for daemon/messages, daemon/service, daemon/fleet, daemon/process, client and tools")
     } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
       fault("assimp is for daemon/scene/import/child")
+    } else if (file ~ /^(Inventor\/|zlib\.h$)/ && here !~ /^(daemon\/scene\/import\/inventor|tests)$/) {
+      fault("Coin and zlib are for daemon/scene/import/inventor")
     } else if (file ~ /^octo(map|math)\// &&
                here !~ /^(daemon\/scene\/(voxels|mirror|import\/child)|tests)$/) {
       fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")

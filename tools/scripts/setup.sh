@@ -18,6 +18,8 @@ kPackages=(
   libseccomp-dev
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
+  # scenes of Open Inventor and VRML; the build works without
+  libcoin-dev zlib1g-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
   # signed messages, digests of what is kept

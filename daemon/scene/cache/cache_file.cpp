@@ -122,6 +122,7 @@ class Sections {
     metadata_.ignored_statements = report.ignored_statements;
     metadata_.single_precision = report.single_precision ? 1 : 0;
     metadata_.rounding_m = report.rounding_m;
+    metadata_.surface_error_m = report.surface_error_m;
     metadata_.mesh_bounds_m = corners_of(report.bounds_m);
     metadata_.tree_bounds_m = corners_of(prepared.indexed->tree.bounds());
     metadata_.tree_depth = depth;
@@ -310,7 +311,9 @@ bool take_report(const layout::Metadata& metadata, const Mesh& mesh, const Impor
   report.ignored_statements = metadata.ignored_statements;
   report.single_precision = metadata.single_precision != 0;
   report.rounding_m = metadata.rounding_m;
-  return metadata.rounding_m >= 0.0 && std::isfinite(metadata.rounding_m);
+  report.surface_error_m = metadata.surface_error_m;
+  return metadata.rounding_m >= 0.0 && std::isfinite(metadata.rounding_m) &&
+         metadata.surface_error_m >= 0.0 && std::isfinite(metadata.surface_error_m);
 }
 
 /// Sets the field. Returns why it is wrong, or an empty text.

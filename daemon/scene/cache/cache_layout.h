@@ -63,6 +63,7 @@ struct Metadata {
   std::uint64_t ignored_statements = 0;
   std::uint64_t single_precision = 0;  ///< 0 or 1
   double rounding_m = 0.0;
+  double surface_error_m = 0.0;
   // Bounds, bit for bit as computed: recomputing them could give 0 in place of -0.
   std::array<double, 6> mesh_bounds_m{};  ///< lowest corner, highest corner
   std::array<double, 6> tree_bounds_m{};
@@ -79,6 +80,6 @@ struct Object {
 
 // No padding, so that every byte of a file has a value.
 static_assert(sizeof(Section) == 32 && sizeof(Header) == 72 + 32 * kSectionCount);
-static_assert(sizeof(Metadata) == 27 * sizeof(double));
+static_assert(sizeof(Metadata) == 28 * sizeof(double));
 
 }  // namespace camway::scene::cache_layout

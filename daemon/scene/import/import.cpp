@@ -103,6 +103,7 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   report.objects = mesh.objects.size();
   report.bounds_m = mesh.bounds();
   report.rounding_m = rounding_m(record, mesh, report, options.scale);
+  report.surface_error_m = record.surface_error * report.scale;
   if (mesh.triangles.empty()) {
     return record.map ? "holds no occupied voxel" : "holds no triangle with an area";
   }

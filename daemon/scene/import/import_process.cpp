@@ -22,6 +22,7 @@
 #include <thread>
 
 #include "daemon/base/file_descriptor.h"
+#include "daemon/scene/import/record/inventor_names.h"
 #include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
@@ -32,6 +33,14 @@ using End = ImportProcessResult::End;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kProgram = "camway-import";
+constexpr const char* kInventorProgram = "camway-import-inventor";
+
+/// Whether the build has `kInventorProgram`, which needs a library that may be missing.
+#ifdef CAMWAY_WITH_INVENTOR
+constexpr bool kReadsInventor = true;
+#else
+constexpr bool kReadsInventor = false;
+#endif
 
 std::string text_of_errno(int error) { return std::generic_category().message(error); }
 
@@ -40,17 +49,17 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
-std::optional<fs::path> find_program() {
+std::optional<fs::path> find_program(const char* name) {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  if (!error && is_program(self.parent_path() / kProgram)) return self.parent_path() / kProgram;
+  if (!error && is_program(self.parent_path() / name)) return self.parent_path() / name;
   const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): never set by us
   std::string_view rest = path == nullptr ? "" : path;
   while (!rest.empty()) {
     const std::size_t colon = std::min(rest.find(':'), rest.size());
     const fs::path directory(rest.substr(0, colon));
     // A relative directory could hold any program, depending on where the daemon was started.
-    if (directory.is_absolute() && is_program(directory / kProgram)) return directory / kProgram;
+    if (directory.is_absolute() && is_program(directory / name)) return directory / name;
     rest.remove_prefix(std::min(colon + 1, rest.size()));
   }
   return std::nullopt;
@@ -162,11 +171,11 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
     case import_record::kExitOutOfMemory:
       return {End::kOutOfMemory, {}, ""};
     case import_record::kExitInternal:
-      return {End::kNotStarted, {}, std::string(kProgram) + " cannot set its limits or write"};
+      return {End::kNotStarted, {}, "the import process cannot set its limits or write"};
     case import_record::kExitNotConfined:
       return {End::kNotStarted,
               {},
-              std::string(kProgram) + " cannot confine itself: seccomp is not permitted here"};
+              "the import process cannot confine itself: seccomp is not permitted here"};
     default:
       return {End::kCrashed, {}, "exit code " + std::to_string(code)};
   }
@@ -177,11 +186,15 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
 ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_limit_bytes,
                                        double time_limit_s, const std::stop_token& stop,
                                        ImportTask task) {
-  const std::optional<fs::path> program = find_program();
+  const bool is_inventor = is_inventor_name(file.filename().string());
+  if (is_inventor && !kReadsInventor) {
+    return {End::kNotStarted, {}, "this build has no reader for Open Inventor (libcoin)"};
+  }
+  const char* const name = is_inventor ? kInventorProgram : kProgram;
+  const std::optional<fs::path> program = find_program(name);
   if (!program) {
-    return {End::kNotStarted,
-            {},
-            std::string(kProgram) + " is neither beside this program nor on PATH"};
+    return {
+        End::kNotStarted, {}, std::string(name) + " is neither beside this program nor on PATH"};
   }
   const base::FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};

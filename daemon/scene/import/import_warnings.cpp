@@ -65,6 +65,11 @@ std::vector<std::string> import_warnings(const ImportReport& report,
         (report.single_precision ? "files of this format are read in single precision"
                                  : "doubles are no finer so far from the origin"));
   }
+  if (resolution_m && report.surface_error_m > *resolution_m) {
+    warnings.push_back("the scene's smooth surfaces are flat facets within " +
+                       metres(report.surface_error_m) + ", which is more than the " +
+                       metres(*resolution_m) + " that the request asks for");
+  }
   return warnings;
 }
 

@@ -19,8 +19,9 @@ std::string faces_left_out(const ImportReport& report);
 double finest_length_m(double interval_tolerance_m, double clearance_m);
 
 /// Returns the reasons why answers may be wrong about the file, one sentence for each: triangles
-/// and faces that were left out, with their numbers; and coordinates that were rounded by more than
-/// `resolution_m` (see `finest_length_m`). Without a resolution, rounding is not mentioned.
+/// and faces that were left out, with their numbers; and coordinates that were rounded, or smooth
+/// surfaces that were made flat, by more than `resolution_m` (see `finest_length_m`). Without a
+/// resolution, neither is mentioned.
 std::vector<std::string> import_warnings(const ImportReport& report,
                                          std::optional<double> resolution_m);
 

@@ -101,21 +101,29 @@ base::Result<Mesh> get_mesh(ByteReader& reader, bool may_lack_area) {
   return mesh;
 }
 
+bool has_surface_error(const ImportReport& report) { return report.surface_error_m != 0.0; }
+
 void put_report(ByteWriter& writer, const ImportReport& report) {
   writer.put_text(report.format);
   writer.put(static_cast<std::uint8_t>(report.up));
   writer.put_flag(report.single_precision);
   visit_report_numbers(report, [&](const auto& number) { writer.put(number); });
+  if (has_surface_error(report)) writer.put(report.surface_error_m);
 }
 
-std::optional<ImportReport> get_report(ByteReader& reader) {
+std::optional<ImportReport> get_report(ByteReader& reader, bool with_surface_error) {
   ImportReport report;
   report.format = get_printable(reader);
   report.up = static_cast<UpAxis>(reader.get<std::uint8_t>());
   report.single_precision = reader.get_flag();
   visit_report_numbers(
       report, [&](auto& number) { number = reader.get<std::decay_t<decltype(number)>>(); });
-  if (!is_sound_report(report)) reader.fail();
+  if (with_surface_error) report.surface_error_m = reader.get<double>();
+  // A source has one record: an error of 0 is left out.
+  const bool is_sound_error = std::isfinite(report.surface_error_m) &&
+                              report.surface_error_m >= 0.0 &&
+                              has_surface_error(report) == with_surface_error;
+  if (!is_sound_report(report) || !is_sound_error) reader.fail();
   if (reader.has_failed()) return std::nullopt;
   return report;
 }

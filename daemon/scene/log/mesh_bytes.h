@@ -16,8 +16,11 @@ void put_mesh(ByteWriter& writer, const Mesh& mesh);
 /// those of an import, or if `may_lack_area` those of any shape (`mesh_check.h`).
 base::Result<Mesh> get_mesh(ByteReader& reader, bool may_lack_area);
 
+/// Whether the bytes of the report end with the error of smooth surfaces, which is left out if it
+/// is 0.
+bool has_surface_error(const ImportReport& report);
 void put_report(ByteWriter& writer, const ImportReport& report);
 /// Returns nothing, and makes the reader fail, if no import could have made the report.
-std::optional<ImportReport> get_report(ByteReader& reader);
+std::optional<ImportReport> get_report(ByteReader& reader, bool with_surface_error);
 
 }  // namespace camway::scene

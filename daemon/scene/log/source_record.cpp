@@ -16,9 +16,12 @@ using SourceResult = base::Result<std::shared_ptr<const ObjectSource>>;
 /// A record is: magic · version · kind · whether it is a difference · id of its base, if it is one
 /// · report · mesh or map.
 constexpr std::uint64_t kSourceMagic = 0x4352'5359'4157'4D43;  // "CMWAYSRC"
-/// Readers know this version only. Changes with anything that is written, the numbers of
-/// `ObjectKind` and `UpAxis` included.
+/// Changes with anything that is written, the numbers of `ObjectKind` and `UpAxis` included.
 constexpr std::uint32_t kSourceVersion = 1;
+/// The version whose report ends with the error of smooth surfaces. Sources without such an error
+/// are written as before, so that their records, and the ids of these, stay what they were, and
+/// earlier builds read them.
+constexpr std::uint32_t kVersionWithSurfaceError = 2;
 static_assert(static_cast<int>(ObjectKind::kMap) == 5 && static_cast<int>(UpAxis::kYToZ) == 2);
 
 /// Room for all of a record but its mesh or its map.
@@ -26,12 +29,13 @@ constexpr std::size_t kUsualReportBytes = 256;
 
 struct SourceHeader {
   ObjectKind kind = ObjectKind::kMesh;
+  bool has_surface_error = false;
   std::optional<BlobId> base;  ///< set for a difference
 };
 
 void put_source_header(ByteWriter& writer, const SourceHeader& header) {
   writer.put(kSourceMagic);
-  writer.put(kSourceVersion);
+  writer.put(header.has_surface_error ? kVersionWithSurfaceError : kSourceVersion);
   writer.put(static_cast<std::uint8_t>(header.kind));
   writer.put_flag(header.base.has_value());
   if (header.base) writer.put_array<std::byte>(*header.base);
@@ -43,11 +47,13 @@ base::Result<SourceHeader> get_source_header(ByteReader& reader) {
   if (reader.has_failed() || magic != kSourceMagic) {
     return base::Failure{"the record is no content of an object"};
   }
-  if (version != kSourceVersion) {
+  if (version != kSourceVersion && version != kVersionWithSurfaceError) {
     return base::Failure{"the record is of version " + std::to_string(version) +
-                         ", and this build reads version " + std::to_string(kSourceVersion)};
+                         ", and this build reads versions " + std::to_string(kSourceVersion) +
+                         " and " + std::to_string(kVersionWithSurfaceError)};
   }
   SourceHeader header;
+  header.has_surface_error = version == kVersionWithSurfaceError;
   const auto kind = reader.get<std::uint8_t>();
   header.kind = static_cast<ObjectKind>(kind);
   if (reader.get_flag()) reader.get_array(std::span<std::byte>(header.base.emplace()));
@@ -87,7 +93,7 @@ Bytes record_of(const ObjectSource& source) {
     writer.reserve(kUsualReportBytes + mesh->vertices.size() * sizeof mesh->vertices[0] +
                    mesh->triangles.size() * sizeof mesh->triangles[0]);
   }
-  put_source_header(writer, {source.kind, std::nullopt});
+  put_source_header(writer, {source.kind, has_surface_error(source.report), std::nullopt});
   put_report(writer, source.report);
   if (mesh != nullptr) {
     put_mesh(writer, *mesh);
@@ -100,7 +106,7 @@ Bytes record_of(const ObjectSource& source) {
 std::optional<Bytes> record_of_difference(const ObjectSource& source, const ObjectSource& before,
                                           const BlobId& base) {
   ByteWriter writer;
-  put_source_header(writer, {source.kind, base});
+  put_source_header(writer, {source.kind, has_surface_error(source.report), base});
   put_report(writer, source.report);
   const bool is_small = put_map_difference(writer, *source.map_O, *before.map_O,
                                            approximate_bytes(*source.map_O) / 2);
@@ -120,7 +126,7 @@ SourceResult source_from(const Bytes& record, const std::shared_ptr<const Object
   ByteReader reader(record);
   const base::Result<SourceHeader> header = get_source_header(reader);
   if (!header) return base::Failure{header.error};
-  std::optional<ImportReport> report = get_report(reader);
+  std::optional<ImportReport> report = get_report(reader, header->has_surface_error);
   if (!report) return base::Failure{"the report of the record is wrong"};
   return header->kind == ObjectKind::kMap
              ? map_source_from(reader, *header, *std::move(report), base.get(), options,

@@ -72,6 +72,7 @@ void add(const SceneObject& object, ImportReport& sum) {
   sum.ignored_statements += report.ignored_statements;
   sum.single_precision = sum.single_precision || report.single_precision;
   sum.rounding_m = std::max(sum.rounding_m, report.rounding_m);
+  sum.surface_error_m = std::max(sum.surface_error_m, report.surface_error_m);
 }
 
 ImportReport report_of(const SceneObjects& objects) {

@@ -46,6 +46,7 @@ TEST(CacheFile, KeepsAReportOtherThanTheUsual) {
   report.ignored_statements = 6;
   report.single_precision = true;
   report.rounding_m = 0.25;
+  report.surface_error_m = 0.125;
   const base::Result<PreparedScene> read = read_bytes(file_of(written));
   ASSERT_TRUE(read) << read.error;
   expect_same(written, *read);
@@ -162,6 +163,8 @@ const Forgery kForgeries[] = {
     {"TextThatNobodyPrints", [](Bytes b) { first_of<char>(b, layout::kText) = '\n'; }},
     {"DigestThatIsNone", [](Bytes b) { metadata_of(b).digest_bytes -= 1; }},
     {"RoundingThatIsNoNumber", [](Bytes b) { metadata_of(b).rounding_m = kNan; }},
+    {"NegativeSurfaceError", [](Bytes b) { metadata_of(b).surface_error_m = -1.0; }},
+    {"SurfaceErrorThatIsNoNumber", [](Bytes b) { metadata_of(b).surface_error_m = kNan; }},
     {"NegativeRounding", [](Bytes b) { metadata_of(b).rounding_m = -1.0; }},
     {"FieldOfOtherCells", [](Bytes b) { metadata_of(b).field_resolution_m *= 0.5; }},
     {"FieldWithoutCells", [](Bytes b) { metadata_of(b).field_resolution_m = 0.0; }},

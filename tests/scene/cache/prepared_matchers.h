@@ -36,6 +36,7 @@ inline void expect_same_report(const scene::ImportReport& a, const scene::Import
   EXPECT_EQ(a.ignored_statements, b.ignored_statements);
   EXPECT_EQ(a.single_precision, b.single_precision);
   EXPECT_EQ(a.rounding_m, b.rounding_m);
+  EXPECT_EQ(a.surface_error_m, b.surface_error_m);
 }
 
 inline void expect_same_mesh(const scene::Mesh& a, const scene::Mesh& b) {

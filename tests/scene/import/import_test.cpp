@@ -321,7 +321,7 @@ TEST_F(Import, NamesWhatIsWrongWithAFileBeforeReadingIt) {
 }
 
 TEST_F(Import, RefusesATypeThatNothingReads) {
-  EXPECT_THAT(error_of(write("a.iv", "#Inventor V2.1 ascii\nCube {}\n")), HasSubstr(".iv"));
+  EXPECT_THAT(error_of(write("a.jt", "Version 9.5 JT\n")), HasSubstr(".jt"));
   EXPECT_THAT(error_of(write("a", "nothing")), HasSubstr("supported"));
 }
 
@@ -507,6 +507,16 @@ TEST_F(Import, IncludesNoFileFromElsewhere) {
   }
   const fs::path file = write("inner/scene.ug", "include parts.ug;");
   EXPECT_THAT(error_of(file), HasSubstr("line 1: 'parts.ug' is not there"));
+}
+
+TEST_F(Import, OpenInventorIsReadOrSaidToBeMissing) {
+  const ImportResult result = import_mesh(write("a.iv", "#Inventor V2.1 ascii\nCube { }\n"), {});
+  if (result.mesh) {
+    EXPECT_EQ(result.report.triangles, 12U);
+  } else {
+    EXPECT_THAT(result.error,
+                ::testing::EndsWith("this build has no reader for Open Inventor (libcoin)"));
+  }
 }
 
 }  // namespace

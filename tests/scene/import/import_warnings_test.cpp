@@ -55,5 +55,16 @@ TEST(ImportWarnings, SetRoundingAgainstWhatIsAskedFor) {
               ElementsAre(::testing::HasSubstr("doubles are no finer")));
 }
 
+TEST(ImportWarnings, SetSmoothSurfacesAgainstWhatIsAskedFor) {
+  ImportReport report;
+  report.surface_error_m = 0.02;
+  EXPECT_THAT(import_warnings(report, 0.02), IsEmpty());
+  EXPECT_THAT(import_warnings(report, std::nullopt), IsEmpty());
+  EXPECT_THAT(
+      import_warnings(report, 0.01),
+      ElementsAre("the scene's smooth surfaces are flat facets within 0.02 m, which is more "
+                  "than the 0.01 m that the request asks for"));
+}
+
 }  // namespace
 }  // namespace camway::scene

@@ -149,9 +149,9 @@ TEST(DamagedSourceRecord, SaysWhatIsWrong) {
   EXPECT_THAT(error_of({}), HasSubstr("no content of an object"));
   const Bytes record = small_records(random)[0].bytes;
   Bytes newer = record;
-  newer[8] = std::byte{2};
-  EXPECT_THAT(error_of(newer), HasSubstr("version 2"));
-  EXPECT_THAT(base_of_record(newer).error, HasSubstr("version 2"));
+  newer[8] = std::byte{3};
+  EXPECT_THAT(error_of(newer), HasSubstr("version 3"));
+  EXPECT_THAT(base_of_record(newer).error, HasSubstr("version 3"));
   Bytes odd = record;
   odd[12] = std::byte{6};
   EXPECT_THAT(error_of(odd), HasSubstr("header"));

@@ -105,6 +105,29 @@ TEST(SourceRecord, GivesBackTheFieldThatTheOptionsAskFor) {
   ASSERT_NO_FATAL_FAILURE(expect_equal(*source, **other));
 }
 
+/// The version is the number after the eight bytes of the magic number.
+std::uint32_t version_of(const Bytes& record) {
+  std::uint32_t version = 0;
+  std::memcpy(&version, record.data() + sizeof(std::uint64_t), sizeof version);
+  return version;
+}
+
+TEST(SourceRecord, IsWhatItWasWhereNoSurfaceIsSmooth) {
+  testing::Random random(kRecordSeed);
+  ImportReport report = random_report(random);
+  report.surface_error_m = 0.0;
+  const Mesh mesh = mesh_of_objects(random, 2, 1.0);
+  const Bytes before = record_of(*make_source(ObjectKind::kMesh, mesh, report, without_field()));
+  EXPECT_EQ(version_of(before), 1U);
+  report.surface_error_m = 0.125;
+  const Bytes smooth = record_of(*make_source(ObjectKind::kMesh, mesh, report, without_field()));
+  EXPECT_EQ(version_of(smooth), 2U);
+  EXPECT_EQ(smooth.size(), before.size() + sizeof(double));
+  const SourcePtr back = decoded(smooth);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->report.surface_error_m, 0.125);
+}
+
 TEST(SourceRecord, GivesBackAnyShape) {
   testing::Random random(kRecordSeed + 1);
   const std::vector<SourcePtr> sources = shape_samples(random);

@@ -44,6 +44,7 @@ inline ImportReport random_report(testing::Random& random) {
   }
   report.single_precision = random.chance(0.5);
   report.rounding_m = random.log_uniform(1e-18, 1e-3);
+  if (random.chance(0.5)) report.surface_error_m = random.log_uniform(1e-18, 1e-3);
   return report;
 }
 

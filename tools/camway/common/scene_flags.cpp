@@ -33,8 +33,9 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
   command.add_flag("--no-cache", flags.no_cache,
                    "Read and prepare the scene, even if the cache holds it, and do not keep it");
   return command
-      .add_option("--scene", flags.file,
-                  "Scene file (OBJ, OFF, PLY, STL, UniGrafix, glTF, OctoMap, ...)")
+      .add_option(
+          "--scene", flags.file,
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...)")
       ->type_name("FILE");
 }
 
@@ -65,7 +66,9 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
   add_flags(command, flags, "the request's, else ")
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, glTF, OctoMap, ...) [the request's, which is "
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...) "
+          "[the "
+          "request's, which is "
           "relative "
           "to the request's folder]");
 }

@@ -25,6 +25,7 @@ class MeshCollector {
   void reserve_vertices(std::size_t count) { record_.vertices.reserve(count); }
   std::uint32_t add_vertex(const Point& vertex);
   [[nodiscard]] std::size_t vertex_count() const { return record_.vertices.size(); }
+  [[nodiscard]] std::size_t triangle_count() const { return record_.triangles.size(); }
 
   /// Index of vertex `number`, counted from 0; `kNoVertex` if it does not exist yet.
   [[nodiscard]] std::uint32_t vertex(std::int64_t number) const;

@@ -62,7 +62,7 @@ bool parse(std::span<const std::byte> bytes, Record& record) {
   RecordReader reader(bytes);
   return reader.read(record.header) && record.header.magic == layout::kMagic &&
          record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
-         is_sound_unit(record.header.unit_m) &&
+         record.header.surface_error >= 0.0 && is_sound_unit(record.header.unit_m) &&
          reader.read(record.text, record.header.text_bytes) &&
          reader.read(record.notes, record.header.note_bytes) &&
          reader.read(record.vertices, record.header.vertices) &&
@@ -281,6 +281,7 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   report.single_precision = record.header.single_precision != 0;
   result.relative_rounding = record.header.relative_rounding;
   result.absolute_rounding = record.header.absolute_rounding;
+  result.surface_error = record.header.surface_error;
   if (is_map) {
     result.refusal = read_map(record, options, report.scale, result);
   } else {

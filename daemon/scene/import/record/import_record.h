@@ -24,6 +24,7 @@ struct ImportRecordResult {
   bool broken = false;             ///< whether the bytes are no record; then nothing else is set
   double relative_rounding = 0.0;  ///< as in the record's header; never negative or NaN
   double absolute_rounding = 0.0;
+  double surface_error = 0.0;
 };
 
 /// What the import process says of the cameras of a file.

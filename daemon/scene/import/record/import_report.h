@@ -39,6 +39,10 @@ struct ImportReport {
   /// 1; half a unit in the last place for decimals in doubles. Further computations of a reader of
   /// assimp's (curves of IFC made flat) are not included.
   double rounding_m = 0.0;
+  /// Bound of the distance between smooth surfaces of the file (spheres, cones, cylinders, NURBS)
+  /// and the triangles that stand for them, both ways. 0 if the file has none, or if its reader
+  /// does not say: assimp's readers of IFC and the like make curves flat without a bound.
+  double surface_error_m = 0.0;
 };
 
 }  // namespace camway::scene

@@ -15,7 +15,7 @@
 /// A hostile file may have taken over its reader, so the receiver trusts no count.
 namespace camway::scene::import_record {
 
-inline constexpr std::uint64_t kMagic = 0x354D'5941'574D'4143;  // "CAMWAYM5"
+inline constexpr std::uint64_t kMagic = 0x364D'5941'574D'4143;  // "CAMWAYM6"
 inline constexpr int kOutputFd = 3;
 
 /// The last argument of `camway-import` if it is to read cameras: then `names` is the text of
@@ -48,6 +48,8 @@ struct Header {
   /// magnitude and, in file units, `absolute_rounding`.
   double relative_rounding = 0.0;
   double absolute_rounding = 0.0;
+  /// Smooth surfaces are within this of their triangles, in file units.
+  double surface_error = 0.0;
   double unit_m = 0.0;                 ///< metres per file unit as the file says; 0 if it does not
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
   /// Edge of a voxel in file units for an occupancy map, which has nothing but cubes; else 0.

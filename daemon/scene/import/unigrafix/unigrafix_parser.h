@@ -2,27 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "daemon/base/result.h"
+#include "daemon/scene/import/readers/included_file.h"
 #include "daemon/scene/import/unigrafix/statement_scanner.h"
 #include "daemon/scene/import/unigrafix/unigrafix_model.h"
 
 namespace camway::scene::unigrafix {
 
-/// A file that the scene includes.
-struct IncludedFile {
-  std::string name;  ///< for messages, and to find the files that it includes itself
-  std::string text;
-};
-/// Reads the file that `name` means in the file `from`, which is empty for the scene file. Fails
-/// with the reason.
-using OpenInclude =
-    std::function<base::Result<IncludedFile>(const std::string& from, const std::string& name)>;
+using scene::IncludedFile;
+using scene::OpenInclude;
 
 /// What was found beside the geometry.
 struct ParseCounts {

@@ -104,7 +104,8 @@ TEST(ImportRecord, NoCountIsBelieved) {
 TEST(ImportRecord, ARoundingThatIsNoBoundIsBroken) {
   for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
     for (double layout::Header::*member :
-         {&layout::Header::relative_rounding, &layout::Header::absolute_rounding}) {
+         {&layout::Header::relative_rounding, &layout::Header::absolute_rounding,
+          &layout::Header::surface_error}) {
       Forged forged;
       forged.header.*member = bad;
       ImportReport report;

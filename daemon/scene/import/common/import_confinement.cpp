@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/import/child/import_confinement.h"
+#include "daemon/scene/import/common/import_confinement.h"
 
 #include <fcntl.h>
 #include <linux/landlock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/import/child/included_files.h"
+#include "daemon/scene/import/common/included_files.h"
 
 #include <algorithm>
 #include <fstream>
@@ -16,26 +16,31 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
-base::Result<unigrafix::IncludedFile> open_below(const fs::path& folder, const std::string& from,
-                                                 const std::string& name) {
+base::Result<IncludedFile> open_below(const fs::path& folder, const std::string& from,
+                                      const std::string& name) {
+  const base::Result<fs::path> path = path_below(folder, fs::path(from).parent_path() / name);
+  if (!path) return base::Failure{path.error};
+  std::ifstream stream(*path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream) return base::Failure{"cannot be read"};
+  return IncludedFile{path->lexically_relative(folder).string(), std::move(text)};
+}
+
+}  // namespace
+
+base::Result<fs::path> path_below(const fs::path& folder, const fs::path& name) {
   std::error_code error;
-  const fs::path real =
-      fs::canonical(folder / fs::path(from).parent_path() / fs::path(name), error);
+  fs::path real = fs::canonical(folder / name, error);
   if (error == std::errc::no_such_file_or_directory) return base::Failure{"is not there"};
   // What lies outside may not be looked at by this process.
   if (error || !is_below(real, folder)) {
     return base::Failure{"is not in the folder of the scene or below it"};
   }
   if (!fs::is_regular_file(real, error)) return base::Failure{"is not a regular file"};
-  std::ifstream stream(real, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream) return base::Failure{"cannot be read"};
-  return unigrafix::IncludedFile{real.lexically_relative(folder).string(), std::move(text)};
+  return real;
 }
 
-}  // namespace
-
-unigrafix::OpenInclude files_below(const fs::path& scene) {
+OpenInclude files_below(const fs::path& scene) {
   std::error_code error;
   const fs::path folder = fs::canonical(scene, error).parent_path();
   return [folder](const std::string& from, const std::string& name) {
