@@ -49,7 +49,7 @@ struct PlannerLoss {
   bool is_bus_heard = false;
 };
 
-/// What a front logs of trouble in its fleet: one line for one cause. A planner that is lost is
+/// Logs trouble of a front with its fleet: one line for one cause. A planner that is lost is
 /// named once, however many requests it had, until it is heard again. If all planners become
 /// silent at once, the connection may be lost, which is noticed later: then nothing is said of
 /// planners if it is, and else one line of all.

@@ -27,8 +27,8 @@ constexpr std::chrono::milliseconds kLatelyHeard{500};
 /// More than two words of a front that is alive, which come every tenth of a second.
 constexpr std::chrono::milliseconds kFrontWait{350};
 
-/// What a front says of itself, as bytes: the start number, little-endian, and whether its claim of
-/// the id is settled.
+/// The message by which a front says that it is alive: its start number, little-endian, and whether
+/// its claim of the id is settled.
 struct LifeSign {
   std::uint64_t start = 0;
   bool is_settled = true;

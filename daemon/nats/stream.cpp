@@ -257,7 +257,7 @@ StreamResult<bool> Stream::remove(std::uint64_t sequence, Wait wait) {
   const auto answer = ask_api(connection_, "STREAM.MSG.DELETE." + name_,
                               {{"seq", sequence}, {"no_erase", true}}, wait);
   if (!answer) return {answer.fault, answer.error};
-  // Of a message that was deleted at the same time, the server says what its store has found.
+  // The server says what its store has found if the message was deleted at the same time.
   const bool was_just_deleted = answer->error_code == kDeleteFailedError &&
                                 answer->error_text.find("no message found") != std::string::npos;
   if (was_just_deleted || answer->error_code == kSequenceNotFoundError ||

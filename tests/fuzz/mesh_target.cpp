@@ -33,7 +33,7 @@ std::vector<FuzzBytes> mesh_seeds() {
 
 /// What a file may include, whatever name it gives.
 constexpr std::string_view kIncluded = "def chip; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c); end;";
-/// Of vertices and faces, so that arrays in arrays end soon.
+/// Vertices and faces of all instances, few so that arrays in arrays end soon.
 constexpr std::uint64_t kMostOfInstances = 10'000;
 
 bool exercise_unigrafix(std::span<const std::uint8_t> bytes) {

@@ -35,14 +35,7 @@ bool exercise_import_record(std::span<const std::uint8_t> bytes) {
 }
 
 FuzzBytes bytes_of(format::Record record) {
-  record.header.text_bytes = record.text.size();
-  record.header.note_bytes = record.notes.size();
-  record.header.vertices = record.vertices.size();
-  record.header.triangles = record.triangles.size();
-  record.header.objects = record.objects.size();
-  record.header.name_bytes = record.names.size();
-  record.header.occupied = record.occupied.size();
-  record.header.free = record.free.size();
+  format::set_counts(record);
   FuzzBytes bytes;
   const auto append = [&](const void* data, std::size_t size) {
     const auto* const begin = static_cast<const std::uint8_t*>(data);

@@ -13,7 +13,7 @@ constexpr double kSameFrame = 1e-6;
 /// Keys that are this much more than a frame apart are a frame apart: files round times to floats.
 constexpr double kRoundedFrame = 0.01;
 constexpr double kUsualRate = 24.0;
-/// Of frames between two keys: a camera that stands still for an hour at 60 frames a second.
+/// Most frames between two keys: a camera that stands still for an hour at 60 frames a second.
 constexpr double kMostFramesBetween = 216'000.0;
 
 }  // namespace

@@ -24,7 +24,7 @@ struct ImportProcessResult {
   std::string detail;             ///< only for `kCrashed` and `kNotStarted`
 };
 
-/// What the import process is to read.
+/// The content that the import process reads.
 enum class ImportTask { kMesh, kCameras };
 
 /// Runs `camway-import`, or for Open Inventor and VRML `camway-import-inventor`, on `file` and

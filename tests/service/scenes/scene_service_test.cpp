@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstring>
 #include <latch>
 #include <map>
@@ -168,52 +167,6 @@ TEST_F(SceneServiceTest, MakesAChangeOnce) {
   const scene_response_t conflict = ask(put_box(2, "s", "crate", 2.0));
   EXPECT_EQ(conflict.status, scene_response_t::STATUS_INVALID);
   EXPECT_THAT(conflict.message, HasSubstr("request_id"));
-}
-
-/// A journal that cannot keep changes while `is_broken`.
-class BrokenJournal : public scene::SceneJournal {
- public:
-  std::atomic<bool> is_broken = false;
-
-  scene::Keeping keep_scene(const scene::Snapshot&, std::uint64_t,
-                            const scene::ChangeNote&) override {
-    return keeping();
-  }
-  scene::Keeping keep_changes(const scene::Snapshot&, const scene::Snapshot&,
-                              const scene::SceneChanges&, const scene::ChangeNote&,
-                              std::uint64_t) override {
-    return keeping();
-  }
-  scene::Keeping keep_removal(const scene::Snapshot&, const std::string&) override {
-    return keeping();
-  }
-  bool await_other(const std::string&, std::uint64_t) override { return false; }
-  bool catch_up() override { return false; }
-
- private:
-  [[nodiscard]] scene::Keeping keeping() const {
-    if (!is_broken) return {};
-    return {scene::KeepFault::kBroken, "no disk. The change may still take effect"};
-  }
-};
-
-TEST(SceneServiceWithAJournal, ARequestThatWasNotKeptIsTriedAgainWhenItIsRepeated) {
-  BrokenJournal journal;
-  RunningService running({}, testing::echo_result, {}, {}, &journal);
-  const scene_request_t request = put_box(1, "room", "crate");
-  const std::string answers = running.channels.scene_response(request.client_id);
-  const auto ask = [&](std::size_t before) {
-    running.send_on(running.channels.scene_request(), wire::encode(request));
-    const auto bytes = running.transport.message_on(answers, before);
-    return bytes ? *wire::decode<scene_response_t>(*bytes).message : scene_response_t{};
-  };
-  journal.is_broken = true;
-  const scene_response_t refused = ask(0);
-  EXPECT_EQ(refused.status, scene_response_t::STATUS_INTERNAL_ERROR);
-  EXPECT_THAT(refused.message, HasSubstr("The change may still take effect"));
-  journal.is_broken = false;
-  EXPECT_EQ(ask(1).status, scene_response_t::STATUS_OK);
-  EXPECT_TRUE(running.scenes.find("room")->find("crate"));
 }
 
 TEST_F(SceneServiceTest, ListsWhatFitsAMessage) {

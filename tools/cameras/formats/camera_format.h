@@ -38,7 +38,7 @@ struct CameraReadOptions {
   std::optional<std::string> times;  ///< text with a time in seconds in each line, for KITTI
 };
 
-/// What a written file says beside the poses.
+/// The content of a written file beside the poses.
 struct CameraWriteOptions {
   std::string name = "camera";
   double fov_x_rad = 0.0;  ///< [Limit: 0 < value < pi]

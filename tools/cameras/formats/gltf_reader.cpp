@@ -162,7 +162,7 @@ struct CameraNode {
     Eigen::Affine3d place = Eigen::Affine3d::Identity();
     for (const Node& node : chain) place = local_at(node, time_s) * place;
     Eigen::Matrix3d turn = place.linear();
-    // What hangs from a scaled node is scaled; a camera is not.
+    // A scaled node scales its children, but the frame of a camera has unit axes.
     turn.colwise().normalize();
     return {place.translation(), Quat(turn).normalized()};
   }

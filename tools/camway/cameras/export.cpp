@@ -43,7 +43,7 @@ struct ExportFlags {
 
 constexpr double kUsualRate = 24.0;
 
-/// What is exported, and what for.
+/// The path that is exported, its request, and the file to write.
 struct ExportInput {
   double fps = kUsualRate;
   PathFile response;

@@ -13,7 +13,7 @@
 
 namespace camway::tools {
 
-/// What the user says about the camera, beside its file.
+/// The user's own values for the camera, which come before those of its file.
 struct ImportLens {
   std::optional<double> fov_x_deg;
   std::optional<double> fov_y_deg;
@@ -43,7 +43,7 @@ struct RequestScene {
   scene::UpAxis up = scene::UpAxis::kAsInFile;
 };
 
-/// What `export` needs to write a file of the same kind again. A remark of the request.
+/// The remark of a request from which `export` writes a file of the same kind again.
 struct CameraRemark {
   std::string name;
   std::optional<double> fps;

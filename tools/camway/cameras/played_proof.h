@@ -14,7 +14,7 @@
 
 namespace camway::tools {
 
-/// What a camera path is proved against.
+/// The scene, the body and the options that a camera path is proved against.
 struct ProofScene {
   planning::PlanRequest request;
   motion::Body body;

@@ -20,14 +20,15 @@ namespace {
 constexpr double kUsualTicks_per_s = 25.0;
 constexpr std::size_t kMostKeys = 1'000'000;
 
-// What a motion with a key for each frame looks like.
+// A motion has a key for each frame if it has at least so many keys, and this share of them is on a
+// frame, but for this share of a frame.
 constexpr std::size_t kFewestFrames = 10;
 constexpr double kOnFrame = 0.01;
 constexpr double kRegularShare = 0.9;
 
 double value_of(ai_real number) { return static_cast<double>(number); }
 
-/// What moves a node, or null; and how many ticks are a second.
+/// The animation of a node, or null, and its ticks in a second.
 struct NodeMotion {
   const aiNodeAnim* channel = nullptr;
   double ticks_per_s = kUsualTicks_per_s;
@@ -124,9 +125,9 @@ std::set<double> key_times_s(const CameraChain& chain) {
   return times_s;
 }
 
-/// Of a motion that has a key for each frame, the times of frames. assimp adds keys to those of an
-/// FBX file where an angle jumps by a turn, for instance from 180 to -180 degrees, and they are off
-/// by degrees.
+/// Returns the times of frames if the motion has a key for each frame. assimp adds keys to those of
+/// an FBX file where an angle jumps by a turn, for instance from 180 to -180 degrees, and they are
+/// off by degrees.
 std::set<double> frame_times_s(const std::set<double>& times_s) {
   std::vector<double> steps_s;
   for (auto at = times_s.begin(), next = std::next(at); next != times_s.end(); ++at, ++next) {
@@ -173,11 +174,14 @@ std::string key_line(const CameraChain& chain, double time_s) {
 /// The angle of a camera of COLLADA without a name, which assimp does not read: its default, taken
 /// for degrees.
 constexpr double kUnreadAngle_rad = 0.25 * std::numbers::pi * std::numbers::pi / 180.0;
+/// The rounding of that angle as a float, of which it is some units in the last place.
+constexpr double kUnreadRounding_rad = 1e-8;
 
 /// assimp means half of the angle across; its readers of COLLADA and FBX give the whole one.
 /// Returns 0 if it did not read the angle.
 double fov_x_rad(const aiCamera& camera, std::string_view format) {
-  if (std::abs(static_cast<double>(camera.mHorizontalFOV) - kUnreadAngle_rad) < 1e-6) return 0.0;
+  if (std::abs(static_cast<double>(camera.mHorizontalFOV) - kUnreadAngle_rad) < kUnreadRounding_rad)
+    return 0.0;
   const bool is_whole = format.find("Collada") != std::string_view::npos ||
                         format.find("FBX") != std::string_view::npos;
   return (is_whole ? 1.0 : 2.0) * static_cast<double>(camera.mHorizontalFOV);

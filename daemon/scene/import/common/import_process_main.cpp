@@ -76,14 +76,7 @@ std::optional<rlim_t> parse_limit(std::string_view text) {
 }  // namespace
 
 int write_record(layout::Record& record) {
-  record.header.text_bytes = record.text.size();
-  record.header.note_bytes = record.notes.size();
-  record.header.vertices = record.vertices.size();
-  record.header.triangles = record.triangles.size();
-  record.header.objects = record.objects.size();
-  record.header.name_bytes = record.names.size();
-  record.header.occupied = record.occupied.size();
-  record.header.free = record.free.size();
+  layout::set_counts(record);
   const bool written = write_all(&record.header, sizeof record.header) &&
                        write_all(record.text.data(), record.text.size()) &&
                        write_all(record.notes.data(), record.notes.size()) &&

@@ -6,7 +6,7 @@
 
 #include "daemon/scene/import/record/record_layout.h"
 
-/// What the programs that read scene files share. They are started by `import_mesh` alone, as
+/// The common part of the programs that read scene files. They are started by `import_mesh` alone, as
 /// PROGRAM FILE MEMORY_BYTES CPU_SECONDS, and write a record to `kOutputFd`.
 namespace camway::scene::import_process {
 

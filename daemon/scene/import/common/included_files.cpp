@@ -32,7 +32,7 @@ base::Result<fs::path> path_below(const fs::path& folder, const fs::path& name) 
   std::error_code error;
   fs::path real = fs::canonical(folder / name, error);
   if (error == std::errc::no_such_file_or_directory) return base::Failure{"is not there"};
-  // What lies outside may not be looked at by this process.
+  // This process may not look at files outside, so it cannot tell whether they are there.
   if (error || !is_below(real, folder)) {
     return base::Failure{"is not in the folder of the scene or below it"};
   }

@@ -107,6 +107,8 @@ void start_coin() {
   SoWWWInline::setBoundingBoxVisibility(SoWWWInline::NEVER);
   SoVRMLInline::setReadAsSoFile(FALSE);
   SoVRMLInline::setBoundingBoxVisibility(SoVRMLInline::NEVER);
+  // Two reads must not differ by the clock. Rotors and engines that were tried do not move without
+  // an event loop; this is for one that reads the clock directly.
   if (auto* const now = dynamic_cast<SoSFTime*>(SoDB::getGlobalField("realTime"))) {
     now->setValue(SbTime(0.0));
   }

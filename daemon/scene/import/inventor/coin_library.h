@@ -14,7 +14,7 @@ namespace camway::scene::inventor {
 /// same at each import.
 void start_coin();
 
-/// What Coin said since the last call: the texts of its errors of reading, and its warnings, one
+/// Messages of Coin since the last call: the texts of its errors of reading, and its warnings, one
 /// line each.
 struct CoinMessages {
   std::vector<std::string> errors;

@@ -18,7 +18,7 @@ class Placement {
   explicit Placement(const SbMatrix& matrix);
 
   [[nodiscard]] Point apply(const Point& point) const;
-  /// Of a point with its weight, (w x, w y, w z, w).
+  /// Takes and returns a point with its weight, (w x, w y, w z, w).
   [[nodiscard]] std::array<double, 4> apply(const std::array<double, 4>& point) const;
   [[nodiscard]] bool mirrors() const;
   /// Bound of how much the placement stretches a length.

@@ -237,7 +237,7 @@ class ShapeReader {
     ++counts_.smooth;
   }
 
-  /// What is not finite is left out, and has no error.
+  /// A value that is not finite belongs to a triangle that is left out, and has no error.
   static void raise(double& bound, double value) {
     if (std::isfinite(value)) bound = std::max(bound, value);
   }

@@ -16,7 +16,7 @@ namespace camway::scene::inventor {
 /// More do not fit into the memory of the import process, by default.
 inline constexpr std::size_t kMostVerticesAndTriangles = 100'000'000;
 
-/// What was found in a scene beside its triangles.
+/// Counts of nodes of a scene that gave no triangles.
 struct ShapeCounts {
   std::map<std::string, std::uint64_t> no_surface;   ///< shapes that are none, by their type
   std::map<std::string, std::uint64_t> unknown;      ///< shapes of types that are not read

@@ -27,7 +27,7 @@ struct ImportRecordResult {
   double surface_error = 0.0;
 };
 
-/// What the import process says of the cameras of a file.
+/// The answer of the import process about the cameras of a file.
 struct CameraRecordResult {
   std::string cameras;  ///< text of `camera_import.h`; empty if the file has none
   double unit_m = 1.0;  ///< metres per file unit

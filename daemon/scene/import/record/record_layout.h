@@ -86,4 +86,16 @@ struct Record {
   std::vector<Cube> free;
 };
 
+/// Sets the counts of the header to the sizes of the members.
+inline void set_counts(Record& record) {
+  record.header.text_bytes = record.text.size();
+  record.header.note_bytes = record.notes.size();
+  record.header.vertices = record.vertices.size();
+  record.header.triangles = record.triangles.size();
+  record.header.objects = record.objects.size();
+  record.header.name_bytes = record.names.size();
+  record.header.occupied = record.occupied.size();
+  record.header.free = record.free.size();
+}
+
 }  // namespace camway::scene::import_record

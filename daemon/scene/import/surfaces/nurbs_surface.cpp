@@ -292,7 +292,7 @@ class Facets {
   std::vector<Net> patches_;  ///< of all spans of u, for each span of v
 };
 
-/// What is wrong with the knots of one direction; empty if nothing is.
+/// Returns the fault of the knots of one direction; empty if they have none.
 std::string fault_of_knots(const std::vector<double>& knots, std::size_t points) {
   if (knots.size() < points + 2) return "has too few knots";
   const std::size_t degree = knots.size() - points - 1;

@@ -27,7 +27,7 @@ struct Use {
   std::uint64_t count = 1;
 };
 
-/// What is inside a definition, or the whole scene: vertices, faces, and instances of definitions
+/// The content of a definition, or of the whole scene: vertices, faces, and instances of definitions
 /// that were complete before it, so that no definition contains itself.
 class Definition {
  public:

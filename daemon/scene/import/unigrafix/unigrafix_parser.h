@@ -17,7 +17,7 @@ namespace camway::scene::unigrafix {
 using scene::IncludedFile;
 using scene::OpenInclude;
 
-/// What was found beside the geometry.
+/// Counts of statements for the notes of a report.
 struct ParseCounts {
   std::uint64_t includes = 0;
   std::uint64_t lights_and_cameras = 0;

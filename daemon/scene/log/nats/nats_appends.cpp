@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "daemon/scene/log/nats/nats_log_parts.h"
@@ -87,7 +88,7 @@ AppendResult NatsLog::Parts::put_blob(const BlobId& id, const Blob& blob, Patien
 
 bool NatsLog::Parts::may_make_room(const LogMessage& message, const AppendResult& fault,
                                    PatienceEnd end) {
-  // Of a disk that is full, deleted messages free nothing at once.
+  // Deleted messages do not free room at once on a disk that is full.
   const bool is_limit = fault.fault == AppendFault::kFull && connection_.stall().empty() &&
                         fault.error.find("no space left") == std::string::npos;
   if (!is_limit) return false;
@@ -124,7 +125,6 @@ AppendResult NatsLog::Parts::prepare(std::string_view scene, std::uint64_t expec
 AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expected,
                                     LogMessage message, PatienceEnd end) {
   bool may_be_sent = false;
-  const auto begin = std::chrono::steady_clock::now();
   for (;;) {
     const std::string unchecked = check_tail(end);
     if (!unchecked.empty()) return given_up(unchecked, may_be_sent);
@@ -135,17 +135,7 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
     const Head head = head_of(scene, message.id);
     if (head.has_it) return {};
     if (head.revision != expected) return conflict(scene, head.revision, expected);
-    message.after = head.newest;
-    message.removed = head.removed;
-    if (message.kind != Kind::kEntry) message.replaces = known_ids(scene);
-    const Bytes bytes = bytes_of(message);
-    const auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes),
-                                       head.sequence, rest_of(end));
-    // This process was stopped for longer than a blob is kept that nobody names.
-    if (!message.needs.empty() &&
-        std::chrono::steady_clock::now() > begin + *options_.blob_grace / 2) {
-      must_check_ = true;
-    }
+    const auto done = send(scene, head, message, end);
     if (done && options_.replicas == 1) {
       take_own(scene, std::move(message), *done);
       return {};
@@ -157,17 +147,42 @@ AppendResult NatsLog::Parts::commit(std::string_view scene, std::uint64_t expect
       if (!fault.empty()) return given_up(fault, may_be_sent);
       continue;
     }
-    if (done.fault == StreamFault::kStalled) return given_up(done.error, may_be_sent);
-    if (done.fault == StreamFault::kUnreachable) {
-      may_be_sent = true;
-      if (!pause_before_retry(end)) return given_up(done.error, may_be_sent);
-      continue;
-    }
-    AppendResult refused = append_fault(done.fault, done.error);
-    if (may_make_room(message, refused, end)) continue;
-    // A refusal is not the answer to a message that was sent before.
-    return may_be_sent ? given_up(done.error, may_be_sent) : refused;
+    std::optional<AppendResult> failed =
+        failure_of(message, {done.fault, done.error}, may_be_sent, end);
+    if (failed) return *std::move(failed);
   }
+}
+
+nats::StreamResult<std::uint64_t> NatsLog::Parts::send(std::string_view scene, const Head& head,
+                                                       LogMessage& message, PatienceEnd end) {
+  const auto begin = std::chrono::steady_clock::now();
+  message.after = head.newest;
+  message.removed = head.removed;
+  if (message.kind != Kind::kEntry) message.replaces = known_ids(scene);
+  const Bytes bytes = bytes_of(message);
+  auto done = stream_->publish(scene_subject(scene), payload_of_message(bytes), head.sequence,
+                               rest_of(end));
+  // This process was stopped for longer than a blob is kept that nobody names.
+  if (!message.needs.empty() &&
+      std::chrono::steady_clock::now() > begin + *options_.blob_grace / 2) {
+    must_check_ = true;
+  }
+  return done;
+}
+
+std::optional<AppendResult> NatsLog::Parts::failure_of(const LogMessage& message,
+                                                       const SendFault& fault, bool& may_be_sent,
+                                                       PatienceEnd end) {
+  if (fault.fault == StreamFault::kStalled) return given_up(fault.error, may_be_sent);
+  if (fault.fault == StreamFault::kUnreachable) {
+    may_be_sent = true;
+    if (pause_before_retry(end)) return std::nullopt;
+    return given_up(fault.error, may_be_sent);
+  }
+  AppendResult refused = append_fault(fault.fault, fault.error);
+  if (may_make_room(message, refused, end)) return std::nullopt;
+  // A refusal is not the answer to a message that was sent before.
+  return may_be_sent ? given_up(fault.error, may_be_sent) : refused;
 }
 
 void NatsLog::Parts::take_own(std::string_view scene, LogMessage message, std::uint64_t sequence) {

@@ -341,7 +341,7 @@ AppendResult NatsBlobs::drop(const BlobId& id, std::uint32_t last_part, bool is_
     const auto removed = stream_->remove(sequence, rest_of(end));
     if (!removed) return append_fault(removed.fault, removed.error);
     if (!*removed || !options_.is_alone) return {};
-    // Who writes the blob again now writes all of its parts, which come later than its part 0 did.
+    // A process that writes the blob again now writes all of its parts, later than its part 0 was.
     const auto parts =
         stream_->purge(options_.prefix + "." + token_of(id) + ".>", sequence, rest_of(end));
     return parts ? AppendResult{} : append_fault(parts.fault, parts.error);

@@ -65,7 +65,7 @@ class NatsBlobs {
 
   /// The blobs that are at the server, by their parts 0.
   nats::StreamResult<std::set<BlobId>> all(PatienceEnd end);
-  /// What a blob needs, which is there.
+  /// Returns the blobs that a blob needs. Requires that it is there.
   nats::StreamResult<std::vector<BlobId>> needs_of(const BlobId& id, PatienceEnd end);
   /// Whether blobs are about to be dropped.
   [[nodiscard]] bool has_marks();

@@ -22,7 +22,7 @@ constexpr int kDropsPerGrace = 4;
 /// one knew of the log was `kTrustedTime` old.
 constexpr int kGracePatiences = 4;
 constexpr std::chrono::seconds kGraceBeyondPatience{10};
-/// What was read of the log is trusted for so long to tell whether a blob is needed.
+/// Knowledge of the log tells whether a blob is needed for so long after it was read.
 constexpr std::chrono::seconds kTrustedTime{5};
 constexpr std::uint64_t kEndOfLog = std::numeric_limits<std::uint64_t>::max();
 /// Reads of a scene before a missing change counts as lost.

@@ -29,7 +29,7 @@ using SceneChains = std::map<std::string, SceneChain, std::less<>>;
 /// Scenes of which blobs are lost, and how many.
 using LostBlobs = std::map<std::string, std::size_t, std::less<>>;
 
-/// What is known of blobs while they are repaired.
+/// Knowledge of blobs while they are repaired.
 struct BlobRepair {
   std::set<BlobId> there;           ///< at the server
   std::map<BlobId, bool> is_whole;  ///< whether a blob and all that it needs are there
@@ -135,6 +135,16 @@ class NatsLog::Parts {
   AppendResult missing_need(const std::vector<BlobId>& needs, PatienceEnd end);
   /// Looks at the server for what it has of a scene that is not known.
   std::string refresh(const std::string& scene, PatienceEnd end);
+  /// Sends a message that follows `head`.
+  nats::StreamResult<std::uint64_t> send(std::string_view scene, const Head& head,
+                                         LogMessage& message, PatienceEnd end);
+  struct SendFault {
+    nats::StreamFault fault = nats::StreamFault::kNone;
+    std::string error;
+  };
+  /// Returns the result of an append whose message failed; nothing if it is to be sent again.
+  std::optional<AppendResult> failure_of(const LogMessage& message, const SendFault& fault,
+                                         bool& may_be_sent, PatienceEnd end);
   void purge_before_last(std::string_view scene, const MessageId& id, PatienceEnd end);
   [[nodiscard]] AppendResult conflict(std::string_view scene, std::uint64_t newest,
                                       std::uint64_t expected) const;
@@ -169,7 +179,7 @@ class NatsLog::Parts {
   /// Notes which blobs nobody has, and tells the user if that has changed.
   void note_lost(const LostBlobs& lost);
   std::string repair_notes(PatienceEnd end);
-  /// What is due from time to time while all is read.
+  /// Does the tasks that are due from time to time, once all is read.
   void keep_house();
 
   void run_follower();

@@ -133,12 +133,14 @@ void goes_on_at_its_limit(const std::string& url, NatsLogOptions options) {
   // As the removal of an object.
   for (int i = 0; i < 20; ++i) ASSERT_EQ(log.append("office", "without").error, "") << i;
   ASSERT_EQ(log.append("hall", "without").error, "");
-  // Until even that fills the log.
-  AppendResult small;
-  for (int i = 0; i < 100 && small.fault == AppendFault::kNone; ++i) {
-    small = log.append("hall", std::string(100'000, 'x'));
+  // Until not even the smallest change has room.
+  for (const std::size_t bytes : {100'000U, 10'000U, 1'000U, 1U}) {
+    AppendResult small;
+    for (int i = 0; i < 100 && small.fault == AppendFault::kNone; ++i) {
+      small = log.append("hall", std::string(bytes, 'x'));
+    }
+    EXPECT_EQ(small.fault, AppendFault::kFull) << small.error;
   }
-  EXPECT_EQ(small.fault, AppendFault::kFull) << small.error;
   EXPECT_EQ(log->summarize("hall", log.revision("hall"), log_bytes("sum"), {}).error, "");
   EXPECT_EQ(log->remove("office", log.revision("office")).error, "");
   ASSERT_EQ(log->drop_unused_blobs().error, "");
