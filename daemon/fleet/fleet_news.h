@@ -23,14 +23,39 @@ class ConnectionLog {
   explicit ConnectionLog(const std::shared_ptr<service::Log>& log);
 
   void lost(Clock::time_point now);
-  /// `planners`: how many are heard; nothing: not to be said. Silent if the loss was not logged.
-  void made_again(std::optional<int> planners);
+  /// `planners`: how many are heard; nothing: not to be said. Silent if the loss was not logged;
+  /// returns whether it was.
+  bool made_again(std::optional<int> planners);
   void report_suppressed(Clock::time_point now) { losses_.report_suppressed(now); }
 
  private:
   const std::shared_ptr<service::Log> log_;
   service::LimitedLog losses_;
   bool is_told_ = false;  ///< that the connection is lost
+};
+
+/// Logs whether planners are heard, when that changes; in few lines if that goes on.
+/// Not thread-safe.
+class PlannerPresence {
+ public:
+  using Clock = ConnectionLog::Clock;
+
+  explicit PlannerPresence(const std::shared_ptr<service::Log>& log);
+
+  /// Requires a call several times a second. `planners`: how many are heard. A change is logged
+  /// once it has lasted, so that planners that start together are counted together.
+  void tick(int planners, Clock::time_point now);
+  /// Takes what another line has said, so that it is not said twice.
+  void is_said(int planners);
+  /// Forgets a change that began: nothing is heard while the connection is lost.
+  void pause() { since_.reset(); }
+
+ private:
+  const std::shared_ptr<service::Log> log_;
+  service::LimitedLog absences_;
+  std::optional<bool> are_heard_;           ///< as logged; nothing: at the start
+  std::optional<Clock::time_point> since_;  ///< of the change that is not logged yet
+  bool is_absence_told_ = true;             ///< if not, planners that come again are not, either
 };
 
 /// A planner that cannot be expected to answer a request.
@@ -49,6 +74,13 @@ struct PlannerLoss {
   bool is_bus_heard = false;
 };
 
+/// How long silence must last before it is logged as the planners' own: more than it takes until a
+/// lost connection is noticed: three pings of a second.
+inline constexpr std::chrono::milliseconds kLossNoticed{4000};
+/// How long planners need to be heard once they start, or once the connection is made again, as
+/// each of them has to make its own.
+inline constexpr std::chrono::milliseconds kPlannersSettle{2000};
+
 /// Logs trouble of a front with its fleet: one line for one cause. A planner that is lost is
 /// named once, however many requests it had, until it is heard again. If all planners become
 /// silent at once, the connection may be lost, which is noticed later: then nothing is said of
@@ -57,12 +89,6 @@ struct PlannerLoss {
 class FleetNews {
  public:
   using Clock = ConnectionLog::Clock;
-
-  /// More than it takes until a lost connection is noticed: three pings of a second.
-  static constexpr std::chrono::milliseconds kNoticed{4000};
-  /// How long planners need to be heard once the connection is made again, as each of them has to
-  /// make its own.
-  static constexpr std::chrono::milliseconds kSettled{2000};
 
   explicit FleetNews(const std::shared_ptr<service::Log>& log);
 
@@ -83,6 +109,7 @@ class FleetNews {
   void write(const PlannerLoss& loss, Clock::time_point now);
 
   ConnectionLog connection_;
+  PlannerPresence presence_;
   service::LimitedLog losses_;
   bool is_connected_ = true;
   std::optional<Clock::time_point> made_again_;  ///< until it is logged

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fcntl.h>
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -14,6 +13,7 @@
 
 #include "daemon/base/file_descriptor.h"
 #include "daemon/nats/connection_parts.h"
+#include "daemon/nats/security_files.h"
 
 namespace camway::nats {
 namespace {
@@ -154,13 +154,6 @@ std::string fault_of_tcp(const std::string& server) {
   return lower_case(std::strerror(error));
 }
 
-/// Returns why a file cannot be read; empty if it can, or if none is named.
-std::string fault_of_file(const std::string& file) {
-  if (file.empty()) return "";
-  const base::FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  return opened.get() >= 0 ? "" : file + " cannot be read: " + lower_case(std::strerror(errno));
-}
-
 std::string words_of(natsStatus status) {
   natsStatus last = NATS_OK;
   const char* const text = nats_GetLastError(&last);
@@ -221,11 +214,8 @@ std::string shown_server(const std::string& url) {
 
 FirstConnection connect_once(const ConnectOptions& options,
                              const std::shared_ptr<ConnectionEvents>& events) {
-  for (const std::string* const file : {&options.credentials_file, &options.ca_file,
-                                        &options.certificate_file, &options.key_file}) {
-    std::string fault = fault_of_file(*file);
-    if (!fault.empty()) return {nullptr, std::move(fault), true};
-  }
+  const std::vector<SecurityFileFault> faults = faults_of_security_files(options);
+  if (!faults.empty()) return {nullptr, faults.front().reason, true};
   FirstConnection tried = try_servers(options, events);
   if (tried.handle != nullptr) return tried;
   // The library says why the last server failed, but not which one that was.

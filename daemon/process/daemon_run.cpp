@@ -252,7 +252,6 @@ class ServingDaemon {
                 {"scene_workers", options_.service.scene_workers},
                 {"queue", options_.service.queue.jobs},
                 {"client_queue", options_.service.queue.jobs_of_a_client}});
-    if (front_) log_->info("planners plan", {{"planners", front_->planners()}});
   }
 
   /// Adds to a status what the service itself does not know.

@@ -40,9 +40,6 @@ class FleetFront {
   /// Lets another front take the id of this one, which ends.
   void leave() { answerer_->leave_id(); }
 
-  /// Returns how many planners are alive.
-  [[nodiscard]] int planners() const { return board_.alive(); }
-
   void add_to(status_t& status) const;
 
  private:

@@ -56,7 +56,8 @@ scene::NatsLogOptions log_options(const FleetOptions& options,
   return log_options;
 }
 
-/// Logs a change that another process has made.
+/// Logs a change that came from the log: another process has made it, or this one, in a request
+/// that it had given up.
 void log_change(const scene::Snapshot& scene, bool is_removed, const scene::SceneStore& store,
                 service::LimitedLog& log) {
   scene::ChangeNote note{.operation = "unload"};
@@ -64,11 +65,11 @@ void log_change(const scene::Snapshot& scene, bool is_removed, const scene::Scen
     const scene::SceneStore::Kept kept = store.kept(scene.name);
     if (!kept.revisions.empty()) note = kept.revisions.back().note;
   }
-  log.write("another process changed a scene", {{"client", note.client},
-                                                {"operation", note.operation},
-                                                {"scene", scene.name},
-                                                {"object", note.object},
-                                                {"revision", scene.revision}});
+  log.write("a scene was changed in the fleet", {{"client", note.client},
+                                                 {"operation", note.operation},
+                                                 {"scene", scene.name},
+                                                 {"object", note.object},
+                                                 {"revision", scene.revision}});
 }
 
 /// Removes the scenes that the user gives up, before anything of them is read.

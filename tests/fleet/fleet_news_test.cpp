@@ -20,6 +20,10 @@ class FleetNewsTest : public ::testing::Test {
   void lose(const std::string& planner, Reason reason, bool is_bus_heard) {
     news_.planner_lost({reason, planner, "client", 7, is_bus_heard}, now_);
   }
+  void SetUp() override {
+    pass(3s, 3);
+    EXPECT_EQ(told(), "info planners plan planners=3\n");
+  }
   /// Lets time pass, as a front does.
   void pass(std::chrono::milliseconds time, int planners) {
     for (const auto end = now_ + time; now_ < end; now_ += 100ms) news_.tick(planners, now_);
@@ -62,11 +66,14 @@ TEST_F(FleetNewsTest, SilentPlannersAreNotNamedIfTheConnectionIsFoundLostLater) 
 TEST_F(FleetNewsTest, PlannersThatAreAllSilentAreOneLine) {
   for (const char* const planner : {"a", "b", "c", "a", "b"}) lose(planner, Reason::kSilent, false);
   pass(10s, 0);
-  EXPECT_EQ(told(), "warning planners are lost to requests planners=3\n");
-  pass(10s, 0);
+  EXPECT_EQ(told(),
+            "warning no planner is heard; requests are planned by this process\n"
+            "warning planners are lost to requests planners=3\n");
+  pass(10s, 1);
+  EXPECT_EQ(told(), "info planners plan planners=1\n");
   news_.planner_heard("a");
   lose("a", Reason::kSilent, false);
-  pass(10s, 0);
+  pass(10s, 1);
   EXPECT_EQ(told(),
             "warning a planner is lost to a request planner=a client=client request=7 "
             "reason=\"it was not heard\"\n");
@@ -110,6 +117,43 @@ TEST_F(FleetNewsTest, AConnectionThatIsLostAgainAtOnceIsOneLoss) {
   EXPECT_EQ(told(),
             "warning the servers of the fleet cannot be reached; trying again\n"
             "info connected to the fleet again planners=2\n");
+}
+
+TEST(PlannerPresence, SaysWhoPlansWhenThatHasChanged) {
+  testing::CapturedLog log;
+  PlannerPresence presence(log.log());
+  PlannerPresence::Clock::time_point now = PlannerPresence::Clock::time_point{} + 1h;
+  const auto pass = [&](std::chrono::milliseconds time, int planners) {
+    for (const auto end = now + time; now < end; now += 100ms) presence.tick(planners, now);
+    std::string text = log.text();
+    log.clear();
+    return text;
+  };
+  const std::string none = "warning no planner is heard; requests are planned by this process\n";
+  EXPECT_EQ(pass(3s, 0), "");
+  EXPECT_EQ(pass(3s, 0), none);
+  // Of planners that start one by one all are counted.
+  EXPECT_EQ(pass(1s, 1), "");
+  EXPECT_EQ(pass(3s, 3), "info planners plan planners=3\n");
+  EXPECT_EQ(pass(10s, 2), "");
+  // One that is started again is no absence.
+  EXPECT_EQ(pass(3s, 0), "");
+  EXPECT_EQ(pass(10s, 1), "");
+  presence.is_said(0);
+  EXPECT_EQ(pass(10s, 0), "");
+  EXPECT_EQ(pass(3s, 1), "info planners plan planners=1\n");
+}
+
+TEST(PlannerPresence, PlannersThatComeAndGoDoNotFillTheLog) {
+  testing::CapturedLog log;
+  PlannerPresence presence(log.log());
+  PlannerPresence::Clock::time_point now = PlannerPresence::Clock::time_point{} + 1h;
+  for (const auto end = now + 1h; now < end; now += 100ms) {
+    presence.tick(static_cast<int>(now.time_since_epoch() / 5s % 2), now);
+  }
+  const std::string text = log.text();
+  EXPECT_LT(std::ranges::count(text, '\n'), 500);
+  EXPECT_THAT(text, ::testing::HasSubstr("lines left out"));
 }
 
 }  // namespace

@@ -564,7 +564,7 @@ TEST_F(FleetTest, AChangeThroughAnotherFrontIsKnownAtOnceAndLogged) {
     ASSERT_TRUE(two.unload_scene(yard).ok());
     EXPECT_EQ(one.move_object(yard, "crate", beside(2.0)).status, Status::kUnknownScene);
   }
-  EXPECT_THAT(front("TWO").output(), HasSubstr("another process changed a scene"));
+  EXPECT_THAT(front("TWO").output(), HasSubstr("a scene was changed in the fleet"));
   EXPECT_THAT(front("TWO").output(), HasSubstr("operation=move scene=yard0 object=crate"));
 }
 

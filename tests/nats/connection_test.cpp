@@ -147,7 +147,7 @@ TEST(NatsConnection, NamesAFileThatIsMissing) {
   const NatsServer server(kPlain);
   ConnectOptions options = options_for({server.url()});
   options.credentials_file = "/nowhere/camway.creds";
-  EXPECT_EQ(why_not(options), "/nowhere/camway.creds cannot be read: no such file or directory");
+  EXPECT_EQ(why_not(options), "/nowhere/camway.creds cannot be read: No such file or directory");
 }
 
 std::string tls_configuration(const std::string& certificate, const std::string& key,

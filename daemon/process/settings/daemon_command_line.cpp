@@ -263,7 +263,7 @@ ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
   }
   std::vector<std::string> faults = resolve(raw, options);
   if (raw.check_config) return check(options, std::move(faults));
-  if (faults.empty()) faults = missing_fleet_files(options);
+  if (faults.empty()) faults = unusable_fleet_files(options);
   if (!faults.empty()) return failed(std::move(faults));
   return {std::move(options), {}, {}};
 }

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/process/settings/daemon_faults.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <initializer_list>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "daemon/base/file_descriptor.h"
+#include "daemon/nats/security_files.h"
 #include "daemon/process/metrics/http_page.h"
 #include "daemon/process/settings/daemon_settings.h"
 #include "lcmtypes/wire/auth/message_keys.h"
@@ -56,16 +52,6 @@ void check_shares(const DaemonOptions& options, std::vector<std::string>& faults
               service.uploads.total_bytes, faults);
   check_share(options, "watch.paths_of_a_client", service.watches.paths_of_a_client, "watch.paths",
               service.watches.paths, faults);
-}
-
-/// Returns why a file cannot be read; empty if it can, or if none is named.
-std::string fault_of_file(const std::string& file) {
-  if (file.empty()) return {};
-  const base::FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  char byte = 0;
-  // A folder can be opened, but not read.
-  if (opened.get() >= 0 && ::read(opened.get(), &byte, 1) >= 0) return {};
-  return fmt::format("{} cannot be read: {}", file, std::generic_category().message(errno));
 }
 
 /// Reports settings that do not have their defaults although the role gives them no effect. What
@@ -132,23 +118,28 @@ std::vector<std::string> contradictions(const DaemonOptions& options) {
   return faults;
 }
 
-std::vector<std::string> missing_fleet_files(const DaemonOptions& options) {
-  std::vector<std::string> faults;
+std::vector<std::string> unusable_fleet_files(const DaemonOptions& options) {
+  using File = nats::SecurityFileFault::File;
   const FleetOptions& fleet = options.fleet;
-  if (fleet.role == FleetRole::kAlone) return faults;
-  for (const auto& [key, file] : {std::pair<std::string_view, const std::string&>{
-                                      "fleet.credentials_file", fleet.credentials_file},
-                                  {"fleet.ca_file", fleet.ca_file},
-                                  {"fleet.certificate_file", fleet.certificate_file},
-                                  {"fleet.key_file", fleet.key_file}}) {
-    const std::string fault = fault_of_file(file);
-    if (!fault.empty()) faults.push_back(options.where(key) + ": " + fault);
+  if (fleet.role == FleetRole::kAlone) return {};
+  nats::ConnectOptions connect;
+  connect.credentials_file = fleet.credentials_file;
+  connect.ca_file = fleet.ca_file;
+  connect.certificate_file = fleet.certificate_file;
+  connect.key_file = fleet.key_file;
+  std::vector<std::string> faults;
+  for (const nats::SecurityFileFault& fault : nats::faults_of_security_files(connect)) {
+    const std::string_view key = fault.file == File::kCredentials   ? "fleet.credentials_file"
+                                 : fault.file == File::kCa          ? "fleet.ca_file"
+                                 : fault.file == File::kCertificate ? "fleet.certificate_file"
+                                                                    : "fleet.key_file";
+    faults.push_back(options.where(key) + ": " + fault.reason);
   }
   return faults;
 }
 
 std::vector<std::string> missing_things(const DaemonOptions& options) {
-  std::vector<std::string> faults = missing_fleet_files(options);
+  std::vector<std::string> faults = unusable_fleet_files(options);
   if (!options.auth.key_file.empty()) {
     const wire::MessageKeys::ReadResult read = wire::MessageKeys::from_file(options.auth.key_file);
     if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);

@@ -13,8 +13,9 @@ namespace camway::process {
 /// Returns the faults of values that contradict each other.
 std::vector<std::string> contradictions(const DaemonOptions& options);
 
-/// Returns the faults of the files for the way into a fleet that cannot be read. Changes nothing.
-std::vector<std::string> missing_fleet_files(const DaemonOptions& options);
+/// Returns the faults of the files that this process proves itself with in a fleet, as far as they
+/// can be found without a server. Changes nothing.
+std::vector<std::string> unusable_fleet_files(const DaemonOptions& options);
 
 /// Returns the faults of these files, of the key file and of the address for metrics if this
 /// machine lacks them. Changes nothing.

@@ -274,7 +274,7 @@ key_file = "key.pem"
                           HasSubstr("d.toml:4: fleet.replicas: must be 1, 3 or 5")));
 }
 
-TEST_F(DaemonOptionsFile, FilesForTheWayIntoAFleetHaveToBeReadable) {
+TEST_F(DaemonOptionsFile, FilesForTheWayIntoAFleetHaveToBeUsable) {
   for (const char* const key : {"credentials_file", "ca_file"}) {
     const std::string missing =
         write("e.toml", std::string("[fleet]\nrole = \"planner\"\n") + "servers = \"nats://a\"\n" +
@@ -293,7 +293,9 @@ TEST_F(DaemonOptionsFile, FilesForTheWayIntoAFleetHaveToBeReadable) {
                                  "certificate_file = \"here.pem\"\nkey_file = \".\"\n");
   write("here.pem", "text");
   EXPECT_THAT(parse({"--config", pair.c_str()}).faults,
-              ElementsAre(AllOf(HasSubstr("f.toml:5: fleet.key_file: "),
+              ElementsAre(AllOf(HasSubstr("f.toml:4: fleet.certificate_file: "),
+                                HasSubstr("here.pem is no certificate in PEM")),
+                          AllOf(HasSubstr("f.toml:5: fleet.key_file: "),
                                 HasSubstr("cannot be read: Is a directory"))));
 }
 

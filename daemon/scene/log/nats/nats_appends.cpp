@@ -41,9 +41,9 @@ AppendResult NatsLog::Parts::given_up(const std::string& reason, bool may_be_sen
   AppendResult result =
       append_fault(stall.empty() ? StreamFault::kUnreachable : StreamFault::kStalled, stall);
   if (stall.empty()) result.error = place() + " cannot be reached: " + reason;
-  result.error += may_be_sent
-                      ? ". The change may still take effect; send the same request again to know"
-                      : "; nothing was changed";
+  result.error += may_be_sent ? ". The change may still take effect: send the same "
+                                "request again, or look at the history of the scene"
+                              : "; nothing was changed";
   return result;
 }
 

@@ -275,7 +275,7 @@ TEST(NatsTrouble, AppendsEitherSucceedOrSaySoWhenTheServerHangs) {
   const auto begin = std::chrono::steady_clock::now();
   const AppendResult unheard = log->append("hall", sample_entry(0, 1, "unheard"));
   EXPECT_EQ(unheard.fault, AppendFault::kBroken);
-  EXPECT_NE(unheard.error.find("The change may still take effect; send the same request again"),
+  EXPECT_NE(unheard.error.find("The change may still take effect: send the same request again"),
             std::string::npos)
       << unheard.error;
   std::this_thread::sleep_until(begin + milliseconds(3500));
