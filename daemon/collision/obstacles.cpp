@@ -9,7 +9,8 @@ Obstacles::Obstacles(const scene::Snapshot& snapshot)
     : index(snapshot.index),
       field(snapshot.field.get()),
       solids(snapshot.solids.get()),
-      bounds(snapshot.options.bounds) {}
+      bounds(snapshot.options.bounds),
+      surface_error_m(snapshot.report.surface_error_m) {}
 
 geometry::Vec3 Obstacles::normal_W(std::uint32_t number) const {
   if (is_side(number)) return geometry::Bounds::inward(side_of(number));

@@ -58,6 +58,10 @@ struct Obstacles {
   const scene::ClearanceField* field = nullptr;
   const scene::SceneSolids* solids = nullptr;  ///< solids of the scene; null if it has none
   geometry::Bounds bounds;                     ///< bounds that the body must not leave
+  /// How far the smooth surfaces that the triangles stand for may be from them. Probes keep it from
+  /// every triangle in addition to the required clearance, so what they prove holds for the smooth
+  /// surfaces, too. [Limit: 0 <= value] [Units: metres]
+  double surface_error_m = 0.0;
 };
 
 }  // namespace camway::collision

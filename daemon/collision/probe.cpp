@@ -49,7 +49,7 @@ Probe::Probe(const Obstacles& obstacles, const motion::Body& body, double cleara
     : obstacles_(obstacles),
       body_(body),
       has_bounds_(obstacles.bounds.any()),
-      keep_m_((body.ball_radius_m() + clearance_m) * kRoundUp),
+      keep_m_((body.ball_radius_m() + clearance_m + obstacles.surface_error_m) * kRoundUp),
       radius_m_(body.radius_m()),
       center_radius_m_(body.center_radius_m() * kRoundUp) {
   if (body.tree() != nullptr) {

@@ -32,6 +32,9 @@ struct Query {
   Obstacles obstacles;
   const motion::Body& body;
   DetectOptions options = {};
+
+  /// How far the body must be from the triangles of the scene.
+  [[nodiscard]] double kept_m() const { return options.clearance_m + obstacles.surface_error_m; }
 };
 
 }  // namespace camway::collision

@@ -39,7 +39,14 @@ Box swept_box(const motion::Segment& segment, double margin_m) {
 }
 
 bool meets_added(const Box& swept, const scene::SceneDifference& change) {
-  return std::ranges::any_of(change.added, [&](const Box& box) { return swept.intersects(box); });
+  const double reach_m = change.surface_error_m * kRoundUp;
+  const Box grown(swept.min().array() - reach_m, swept.max().array() + reach_m);
+  return std::ranges::any_of(change.added, [&](const Box& box) { return grown.intersects(box); });
+}
+
+/// Whether all that was known of a path may be wrong, wherever it is.
+bool changes_all(const scene::SceneDifference& change) {
+  return change.other_bounds || change.is_coarser;
 }
 
 }  // namespace
@@ -79,17 +86,18 @@ std::optional<WatchedPath> WatchedPath::as_interpolated(const PlanRequest& reque
 }
 
 bool WatchedPath::may_meet(const scene::SceneDifference& change) const {
-  return change.other_bounds || meets_added(all_swept_, change) ||
+  return changes_all(change) || meets_added(all_swept_, change) ||
          std::ranges::any_of(change.removed,
                              [&](const Box& box) { return all_swept_.intersects(box); });
 }
 
 bool WatchedPath::stays_free(const scene::SceneDifference& change,
                              const base::Deadline& deadline) const {
-  if (change.other_bounds) return false;
+  if (changes_all(change)) return false;
   if (!meets_added(all_swept_, change)) return true;
   collision::Obstacles added(change.index);
   added.solids = change.solids.get();
+  added.surface_error_m = change.surface_error_m;
   for (std::size_t i = 0; i < swept_.size();) {
     if (!meets_added(swept_[i], change)) {
       ++i;

@@ -28,7 +28,9 @@ namespace camway::planning {
 /// rounded up. A segment whose grown box does not meet the box of an added object is free of that
 /// object. Every other segment has to be proved free of the added part alone, by
 /// `collision::first_collision`. The path stays within the bounds as long as they are the same. If
-/// the bounds of the scene change, nothing is known.
+/// the bounds of the scene change, nothing is known. Smooth surfaces of the scene are kept at the
+/// distance of its `surface_error_m` from their triangles; as long as that does not grow, what
+/// stayed is kept at the same distance. If it grows, nothing is known.
 class WatchedPath {
  public:
   /// Requires segments with increasing times.

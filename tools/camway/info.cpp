@@ -149,7 +149,9 @@ void print_import(const scene::ImportReport& report) {
     fmt::print("size         {:.3f} x {:.3f} x {:.3f} m\n", size.x(), size.y(), size.z());
     print_rounding(report);
     if (report.surface_error_m > 0.0) {
-      fmt::print("surfaces     smooth surfaces are flat within {:.2g} m\n", report.surface_error_m);
+      fmt::print(
+          "surfaces     smooth surfaces are flat within {:.2g} m; paths keep that distance, too\n",
+          report.surface_error_m);
     }
   }
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);

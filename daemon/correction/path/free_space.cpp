@@ -76,7 +76,7 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
 }
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
-  const double keep_m = radius_m + query_.options.clearance_m;
+  const double keep_m = radius_m + query_.kept_m();
   const double inside_m = query_.obstacles.bounds.depth_m(point_W) - radius_m;
   if (inside_m <= 0.0) return inside_m;
   up_to_m = std::min(up_to_m, inside_m);
@@ -98,7 +98,7 @@ bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_
       std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   if (!(inside_m > radius_m)) return false;
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
-  return !query_.obstacles.index.any_within(way, radius_m + query_.options.clearance_m);
+  return !query_.obstacles.index.any_within(way, radius_m + query_.kept_m());
 }
 
 double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {
@@ -106,8 +106,8 @@ double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m
       std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
   const std::optional<scene::Nearest> nearest =
-      query_.obstacles.index.nearest(way, up_to_m + query_.options.clearance_m);
-  return std::min(inside_m, nearest ? nearest->distance_m - query_.options.clearance_m : up_to_m);
+      query_.obstacles.index.nearest(way, up_to_m + query_.kept_m());
+  return std::min(inside_m, nearest ? nearest->distance_m - query_.kept_m() : up_to_m);
 }
 
 motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {

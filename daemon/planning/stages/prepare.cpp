@@ -56,7 +56,7 @@ std::optional<motion::Body> valid_body(const collision::Obstacles& obstacles,
 
 // Repairs the keyframes of `result` that are at fault, if the request asks for that. Returns false
 // if the request cannot be planned, or not in time.
-bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
+bool accept_keyframes(KeyframeFaults found, const PlanRequest& request, double surface_error_m,
                       const base::Deadline& deadline, PlanResult& result) {
   result.keyframe_faults = std::move(found.faults);
   const std::vector<KeyframeFault>& faults = result.keyframe_faults;
@@ -65,7 +65,7 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
   const bool may_repair =
       request.options.repair_keyframes && all_free && faults.size() < kMostKeyframeFaults;
   if (!faults.empty() && !may_repair) {
-    refuse(why_refused(faults, request, deadline.passed(), found.complete),
+    refuse(why_refused(faults, request, surface_error_m, deadline.passed(), found.complete),
            fault_to_name(faults, request).keyframe, result);
     return false;
   }
@@ -99,7 +99,8 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
   result.keyframes = std::move(prepared.keyframes);
   KeyframeFaults faults = find_keyframe_faults(
       snapshot, {obstacles, *body, detect_options(request.options)}, result.keyframes, deadline);
-  if (!accept_keyframes(std::move(faults), request, deadline, result)) return std::nullopt;
+  if (!accept_keyframes(std::move(faults), request, obstacles.surface_error_m, deadline, result))
+    return std::nullopt;
   const auto count = static_cast<double>(result.keyframes.size());
   if (leaves_too_little(deadline, kInterpolating_s_per_keyframe * count)) {
     give_up(fmt::format("the deadline of {} s is too short to interpolate {} keyframes",

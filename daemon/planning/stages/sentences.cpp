@@ -221,16 +221,28 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
   return lost == faults.end() ? faults.front() : *lost;
 }
 
+namespace {
+
+/// What the body does at the keyframe that it must not.
+std::string rule_broken(const KeyframeFault& fault, double clearance_m, double surface_error_m) {
+  if (fault.leaves_bounds) return "leaves the bounds";
+  const std::string error =
+      surface_error_m > 0.0
+          ? fmt::format("the {:.2g} m of error of its smooth surfaces", surface_error_m)
+          : "";
+  if (clearance_m > 0.0) {
+    return fmt::format("is nearer to the scene than the clearance of {:.3g} m that was asked for{}",
+                       clearance_m, error.empty() ? "" : " and " + error);
+  }
+  return error.empty() ? "collides with the scene" : "is nearer to the scene than " + error;
+}
+
+}  // namespace
+
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
-                        bool timed_out, bool are_all) {
+                        double surface_error_m, bool timed_out, bool are_all) {
   const KeyframeFault& first = fault_to_name(faults, request);
-  const double clearance_m = request.options.clearance_m;
-  const std::string rule =
-      first.leaves_bounds ? std::string("leaves the bounds")
-      : clearance_m > 0.0
-          ? fmt::format("is nearer to the scene than the clearance of {:.3g} m that was asked for",
-                        clearance_m)
-          : std::string("collides with the scene");
+  const std::string rule = rule_broken(first, request.options.clearance_m, surface_error_m);
   std::string message =
       fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
                   moving_camera(request) != nullptr ? "near quadrilateral" : "body", rule);

@@ -88,9 +88,9 @@ std::string deadline_reached(const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for
 /// `fault_to_name`. `timed_out`: the deadline passed before free poses were found. `are_all`: all
-/// keyframes were looked at.
+/// keyframes were looked at. `surface_error_m`: of the scene, kept beside the clearance.
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
-                        bool timed_out, bool are_all);
+                        double surface_error_m, bool timed_out, bool are_all);
 
 /// "no path exists: ..." by this proof; with `may_shrink` for the smallest camera that is allowed.
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink);

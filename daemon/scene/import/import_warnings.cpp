@@ -68,7 +68,8 @@ std::vector<std::string> import_warnings(const ImportReport& report,
   if (resolution_m && report.surface_error_m > *resolution_m) {
     warnings.push_back("the scene's smooth surfaces are flat facets within " +
                        metres(report.surface_error_m) + ", which is more than the " +
-                       metres(*resolution_m) + " that the request asks for");
+                       metres(*resolution_m) +
+                       " that the request asks for: paths keep that far from all of the scene");
   }
   return warnings;
 }

@@ -136,6 +136,8 @@ SceneDifference difference(const Snapshot& before, const Snapshot& after) {
   }
   SceneDifference sum = collector.take();
   sum.other_bounds = !(before.options.bounds == after.options.bounds);
+  sum.surface_error_m = after.report.surface_error_m;
+  sum.is_coarser = after.report.surface_error_m > before.report.surface_error_m;
   return sum;
 }
 

@@ -23,8 +23,13 @@ struct SceneDifference {
   std::vector<geometry::Box> removed;
 
   bool other_bounds = false;  ///< whether the bounds that bodies must not leave differ
+  /// Bound of how far smooth surfaces of the later revision are from its triangles.
+  double surface_error_m = 0.0;
+  bool is_coarser = false;  ///< whether that is more than in the earlier revision
 
-  [[nodiscard]] bool empty() const { return added.empty() && removed.empty() && !other_bounds; }
+  [[nodiscard]] bool empty() const {
+    return added.empty() && removed.empty() && !other_bounds && !is_coarser;
+  }
 };
 
 /// Computes the difference. Two objects count as equal if the two snapshots share them, as

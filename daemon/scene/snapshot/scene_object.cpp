@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/snapshot/scene_object.h"
 
+#include <array>
 #include <cassert>
+#include <charconv>
 #include <utility>
 
 #include "daemon/base/digest.h"
@@ -69,8 +71,19 @@ std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& 
   return parts;
 }
 
+/// A path keeps that distance from the triangles, too, so they alone do not determine the answer.
+std::string with_surface_error(const std::string& digest, double surface_error_m) {
+  if (surface_error_m == 0.0) return digest;
+  std::array<char, 32> error{};
+  const auto end = std::to_chars(error.data(), error.data() + error.size(), surface_error_m,
+                                 std::chars_format::hex);
+  return text_digest({digest, "surface error", std::string(error.data(), end.ptr)});
+}
+
 std::string digest_of(const SceneObject& object) {
-  if (!object.source->map_O) return object.parts.front()->digest;
+  if (!object.source->map_O) {
+    return with_surface_error(object.parts.front()->digest, object.source->report.surface_error_m);
+  }
   std::vector<std::string> digests;
   digests.reserve(object.parts.size() + 1);
   for (const auto& part : object.parts) digests.push_back(part->digest);

@@ -91,7 +91,8 @@ struct SceneObject {
   std::size_t triangles = 0;
   std::shared_ptr<const ObjectMirror> occupancy;  ///< null if no resolution was given
   /// Digest of the triangles in the world: `mesh_digest` for an object of one part, a digest of the
-  /// parts' digests in their order for an occupancy map.
+  /// parts' digests in their order for an occupancy map. That of an object with smooth surfaces
+  /// depends on their `surface_error_m`, too.
   std::string digest;
 
   /// The placed map if the object is an occupancy map, else nothing.

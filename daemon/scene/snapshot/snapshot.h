@@ -36,9 +36,9 @@ using SceneObjects = std::vector<std::shared_ptr<const SceneObject>>;
 struct Snapshot {
   std::string name;
   std::uint64_t revision = 1;
-  /// Digest of all triangles, 32 hexadecimal digits; equal objects in equal order have equal
-  /// digests. A scene with one object has the digest of that object; a scene with several objects
-  /// has a digest of their digests.
+  /// Digest of all triangles and of the errors of smooth surfaces, 32 hexadecimal digits; equal
+  /// objects in equal order have equal digests. A scene with one object has the digest of that
+  /// object; a scene with several objects has a digest of their digests.
   std::string digest;
   SceneObjects objects;
   ObjectOptions options;  ///< options that objects are built with, and bounds of the scene

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/planning/stages/keyframe_faults.h"
 #include "tests/support/random.h"
 
 namespace camway::planning {
@@ -101,9 +102,12 @@ TEST(WhyRefused, CountsTheFaultsThatAreKnown) {
   const std::vector<KeyframeFault> few(3);
   const std::vector<KeyframeFault> many(kMostKeyframeFaults);
   const PlanRequest request;
-  EXPECT_THAT(why_refused(few, request, false, true), HasSubstr("; 3 keyframes are at fault"));
-  EXPECT_THAT(why_refused(few, request, true, false), HasSubstr("; at least 3 keyframes are"));
-  EXPECT_THAT(why_refused(many, request, false, true), HasSubstr("; at least 100 keyframes are"));
+  EXPECT_THAT(why_refused(few, request, 0.0, false, true), HasSubstr("; 3 keyframes are at fault"));
+  EXPECT_THAT(why_refused(few, request, 0.0, true, false), HasSubstr("; at least 3 keyframes are"));
+  EXPECT_THAT(why_refused(few, request, 0.002, false, true),
+              HasSubstr("is nearer to the scene than the 0.002 m of error of its smooth surfaces"));
+  EXPECT_THAT(why_refused(many, request, 0.0, false, true),
+              HasSubstr("; at least 100 keyframes are"));
 }
 
 }  // namespace

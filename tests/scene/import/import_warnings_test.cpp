@@ -63,7 +63,8 @@ TEST(ImportWarnings, SetSmoothSurfacesAgainstWhatIsAskedFor) {
   EXPECT_THAT(
       import_warnings(report, 0.01),
       ElementsAre("the scene's smooth surfaces are flat facets within 0.02 m, which is more "
-                  "than the 0.01 m that the request asks for"));
+                  "than the 0.01 m that the request asks for: paths keep that far from all of the "
+                  "scene"));
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ struct ImportReport {
   double rounding_m = 0.0;
   /// Bound of the distance between smooth surfaces of the file (spheres, cones, cylinders, NURBS)
   /// and the triangles that stand for them, both ways. 0 if the file has none, or if its reader
-  /// does not say: assimp's readers of IFC and the like make curves flat without a bound.
+  /// does not say: assimp's readers of IFC and the like make curves flat without a bound. Paths
+  /// keep this distance from every triangle of the scene, in addition to the clearance.
   double surface_error_m = 0.0;
 };
 
