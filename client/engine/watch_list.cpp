@@ -120,7 +120,12 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
     return;
   }
   const bool is_first = watched.held_revision < 0;
+  if (!is_first && !watched.scene.has_all(response.daemon_start, response.scene_digest)) {
+    forget(watched, response);
+    return;
+  }
   watched.held_revision = response.scene_revision;
+  watched.scene.take_answer(response.daemon_start, response.scene_revision, response.scene_digest);
   if (has_proof(response)) {
     take_proof(watched, response, is_first);
   } else if (!is_first && watched.serial != 0) {  // the previous path stays watched
@@ -128,6 +133,17 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   } else {
     end_without_proof(watched, response);
   }
+}
+
+void WatchList::forget(Watched& watched, const PlanResponse& response) {
+  // The daemon watches the path since its answer, for nobody.
+  if (has_proof(response)) unwanted_.insert(watched.request.request_id);
+  watched.is_forgotten = true;
+  watched.offer.reset();
+  tell_lost(watched, {Status::kOldScene,
+                      "scene '" + response.scene +
+                          "' is another one: the daemon was started anew and has forgotten "
+                          "changes; make them again, then watch the path anew"});
 }
 
 void WatchList::take_proof(Watched& watched, const PlanResponse& response, bool is_first) {
@@ -157,6 +173,7 @@ void WatchList::take_answer(std::int64_t request_id, std::span<const std::uint8_
   const auto position = watched_.find(request_id);
   if (position == watched_.end() || position->second.is_asked) return;
   Watched& watched = position->second;
+  if (watched.is_forgotten) return;
   watched.collector.take(bytes);
   if (!watched.collector.complete()) return;
   PlanResponse response = watched.collector.response();
@@ -165,6 +182,7 @@ void WatchList::take_answer(std::int64_t request_id, std::span<const std::uint8_
   if (!is_answer(response) || response.scene_revision <= watched.held_revision) return;
   watched.ask_at = Clock::time_point::max();
   watched.held_revision = response.scene_revision;
+  watched.scene.take_answer(response.daemon_start, response.scene_revision, response.scene_digest);
   if (has_proof(response)) watched.is_broken = false;
   tell(watched, answer_event(std::move(response)));
 }
@@ -241,7 +259,7 @@ void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_poi
 void WatchList::tell_watched_again() {
   for (auto& [id, watched] : watched_) {
     const bool is_asked_for = watched.is_asked || watched.ask_at != Clock::time_point::max();
-    if (!watched.is_lost || watched.serial == 0 || is_asked_for) continue;
+    if (!watched.is_lost || watched.is_forgotten || watched.serial == 0 || is_asked_for) continue;
     WatchEvent event;
     event.kind = WatchEvent::Kind::kWatched;
     event.scene_revision = watched.scene_revision;
@@ -252,8 +270,11 @@ void WatchList::tell_watched_again() {
 void WatchList::take_state(const path_state_t& state, const watch_report_t& report,
                            Clock::time_point now) {
   const auto position = watched_.find(state.request_id);
-  if (position == watched_.end()) return;
+  if (position == watched_.end() || position->second.is_forgotten) return;
   Watched& watched = position->second;
+  DaemonStart start;
+  convert(report.daemon_start, start);
+  watched.scene.hear(start, std::max(state.scene_revision, state.offer_revision));
   switch (state.state) {
     case path_state_t::UNKNOWN:
       watched.serial = 0;
@@ -273,6 +294,8 @@ void WatchList::take_state(const path_state_t& state, const watch_report_t& repo
       return;
     case path_state_t::FREE:
     case path_state_t::BROKEN:
+      // The answer of a daemon that was started anew tells whether it has forgotten changes.
+      if (watched.held_revision >= 0 && !watched.scene.is_continued_by(start)) return;
       to_acknowledge_.insert(state.request_id);
       watched.refusal.reset();
       for (WatchEvent& answer : std::exchange(watched.untold, {})) tell(watched, std::move(answer));
@@ -354,6 +377,10 @@ void WatchList::note_life(Clock::time_point now) {
 void WatchList::take_heartbeat(const DaemonStatus& status, Clock::time_point now) {
   note_life(now);
   note_start(status.daemon_start);
+  for (auto& [id, watched] : watched_) {
+    const auto scene = std::ranges::find(status.scenes, watched.request.scene, &SceneInfo::name);
+    if (scene != status.scenes.end()) watched.scene.hear(status.daemon_start, scene->revision);
+  }
   // A daemon that started after the last renewal does not know the watched paths.
   if (!watched_.empty() &&
       std::chrono::duration<double>(now - renewed_at_).count() > status.uptime_s) {
@@ -374,9 +401,10 @@ void WatchList::note_start(const DaemonStart& start) {
     const auto position = watched_.find(id);
     if (position == watched_.end() || position->second.held_revision < 0) continue;
     Watched& watched = position->second;
+    if (watched.is_forgotten) continue;
     // It must not answer for a scene that it has forgotten changes of.
     watched.request.least_revision =
-        std::max(watched.request.least_revision, watched.held_revision);
+        std::max(watched.request.least_revision, watched.scene.newest_revision());
     WatchEvent event;
     event.kind = WatchEvent::Kind::kRestarted;
     event.scene_revision = watched.scene_revision;
@@ -439,7 +467,7 @@ void WatchList::renew(Clock::time_point now) {
     send(std::exchange(paths, {}), id, 0.0);
   };
   for (const auto& [id, watched] : watched_) {
-    if (watched.held_revision < 0) continue;  // nothing is watched yet
+    if (watched.held_revision < 0 || watched.is_forgotten) continue;  // it is not watched
     paths.emplace_back();
     paths.back().request_id = id;
     paths.back().known_serial = watched.serial;

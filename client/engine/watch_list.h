@@ -18,6 +18,7 @@
 #include <camway/watched_path_t.hpp>
 
 #include "client/engine/context.h"
+#include "client/engine/known_scene.h"
 #include "client/engine/plan_collector.h"
 #include "client/messages/plan.h"
 
@@ -81,7 +82,10 @@ class WatchList {
     Clock::time_point ask_at{};  ///< next time to request the path; max: not needed
     double ask_again_s = 0.0;    ///< pause between the attempt at `ask_at` and the next; it grows
     std::int64_t held_revision = -1;  ///< scene revision of the answer that is held; below 0: none
-    std::int64_t serial = 0;          ///< serial of the newest state that was received
+    KnownScene scene = {};            ///< what was heard of its scene
+    /// Whether a new daemon has forgotten changes of the scene. Such a path stays lost.
+    bool is_forgotten = false;
+    std::int64_t serial = 0;  ///< serial of the newest state that was received
     bool is_broken = false;
     WatchEvent last_break = {};           ///< the last event kBroken
     bool is_lost = false;                 ///< whether the last event was kLost
@@ -102,6 +106,8 @@ class WatchList {
 
   void ask(Watched& watched);
   void answered(std::int64_t request_id, const PlanResponse& response);
+  /// Gives up a path whose scene has lost changes with the daemon that had them.
+  void forget(Watched& watched, const PlanResponse& response);
   /// The answer has a proved path, which is watched from now on.
   void take_proof(Watched& watched, const PlanResponse& response, bool is_first);
   /// The answer has no proved path, and there is none before it: ends the watch.

@@ -25,7 +25,9 @@ struct WatchEvent {
     kFree,  ///< a broken path is proved free again, unchanged
     /// The path is not watched for now; `status` and `error` say why. This event comes once. If the
     /// daemon falls silent, it comes within 3.5 s. The client keeps trying; the next event of this
-    /// path has the result.
+    /// path has the result. With `kOldScene`, a daemon that was started anew has forgotten changes
+    /// of the scene: the path stays lost unless the scene gets the content that it had. Make the
+    /// changes again, and watch the path anew.
     kLost,
     kWatched,  ///< after kLost: watched again; the last event before kLost still holds
     /// The watch has ended. `error` has the reason: for example, the answer has no proved path.

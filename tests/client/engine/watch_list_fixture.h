@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,13 @@ namespace camway::testing_support {
 
 /// The request that is watched.
 inline constexpr std::int64_t kId = 7;
+
+/// Where an answer comes from.
+struct From {
+  std::int64_t start_id = 0;
+  bool is_durable = false;
+  const char* digest = "same";
+};
 
 /// A watch list whose messages and calls the test collects.
 class WatchListTest : public ::testing::Test {
@@ -41,10 +49,17 @@ class WatchListTest : public ::testing::Test {
   }
 
   /// The status of a daemon that has run for so long.
-  static DaemonStatus up_for(double uptime_s, std::int64_t start_id = 1) {
+  static DaemonStatus up_for(double uptime_s, std::int64_t start_id = 1,
+                             std::int64_t scene_revision = 0) {
     DaemonStatus status;
     status.uptime_s = uptime_s;
     status.daemon_start.id = start_id;
+    if (scene_revision > 0) {
+      SceneInfo scene;
+      scene.name = "office";
+      scene.revision = scene_revision;
+      status.scenes = {scene};
+    }
     return status;
   }
 
@@ -62,8 +77,13 @@ class WatchListTest : public ::testing::Test {
     return std::ranges::count(events_, kind, &WatchEvent::kind);
   }
 
-  static Bytes answer(std::int64_t revision, std::int32_t status = plan_response_t::STATUS_OK) {
+  static Bytes answer(std::int64_t revision, std::int32_t status = plan_response_t::STATUS_OK,
+                      const From& from = {}) {
     plan_response_t page{};
+    page.scene = "office";
+    page.scene_digest = from.digest;
+    page.daemon_start.id = from.start_id;
+    page.daemon_start.durable = from.is_durable ? 1 : 0;
     page.client_id = "tester";
     page.request_id = kId;
     page.num_pages = 1;
@@ -89,8 +109,9 @@ class WatchListTest : public ::testing::Test {
 
   void report(std::int64_t serial, std::int8_t state, std::int64_t revision,
               std::int64_t answer_revision, std::int64_t answers = 0,
-              std::int64_t offer_revision = 0) {
+              std::int64_t offer_revision = 0, std::int64_t start_id = 0) {
     watch_report_t message{};
+    message.daemon_start.id = start_id;
     message.client_id = "tester";
     message.request_id = answers;
     path_state_t path{};

@@ -153,6 +153,95 @@ TEST_F(WatchListTest, ARestartIsToldOnceAndNoOlderSceneIsAnsweredFor) {
   EXPECT_EQ(told(EventKind::kAnswer), 2);
 }
 
+constexpr std::int32_t kOk = plan_response_t::STATUS_OK;
+
+/// A path of start 1 that is answered at revision 3.
+class ForgetfulDaemonTest : public WatchListTest {
+ protected:
+  void SetUp() override {
+    step_at({});
+    finish_call(answer(3, kOk, {.start_id = 1}));
+    report(100, path_state_t::FREE, 3, 3, 0, 0, 1);
+    step_at({});
+    sent();
+  }
+  /// Lets start 2 be heard, which does not know the path.
+  void restart() {
+    list_.take_heartbeat(up_for(1.0, 2), now_);
+    ASSERT_EQ(told(EventKind::kRestarted), 1);
+    report(0, path_state_t::UNKNOWN, 0, 0, 0, 0, 2);
+    step_at(seconds(1));
+  }
+  /// Expects that the path is lost for good, though start 2 answers with a proof at that revision.
+  void stays_lost_at(std::int64_t revision) {
+    finish_call(answer(revision, kOk, {.start_id = 2}));
+    report(200, path_state_t::FREE, revision, revision, 0, 0, 2);
+    list_.take_heartbeat(up_for(60.0, 2, revision), now_);
+    step_at(seconds(60));
+    EXPECT_EQ(told(EventKind::kLost), 1);
+    EXPECT_EQ(told(EventKind::kAnswer), 1) << "the first one";
+    EXPECT_EQ(told(EventKind::kFree) + told(EventKind::kWatched), 0);
+    EXPECT_EQ(events_.back().status, Status::kOldScene);
+  }
+};
+
+TEST_F(ForgetfulDaemonTest, TheSameSceneIsAnsweredFor) {
+  restart();
+  EXPECT_EQ(least_revision_of(*calls_.back()), 3);
+  finish_call(answer(3, kOk, {.start_id = 2}));
+  EXPECT_EQ(told(EventKind::kAnswer), 2);
+  EXPECT_EQ(told(EventKind::kLost), 0);
+}
+
+TEST_F(ForgetfulDaemonTest, AnotherSceneOfTheSameRevisionIsLost) {
+  restart();
+  finish_call(answer(3, kOk, {.start_id = 2, .digest = "other"}));
+  EXPECT_EQ(told(EventKind::kLost), 1);
+  EXPECT_EQ(told(EventKind::kAnswer), 1);
+  EXPECT_NE(events_.back().error.find("watch the path anew"), std::string::npos);
+  // The daemon watches it since its answer.
+  step_at({});
+  const std::vector<watch_t> messages = sent();
+  EXPECT_TRUE(
+      std::ranges::any_of(messages, [](const watch_t& message) { return message.lease_s < 0.0; }));
+}
+
+TEST_F(ForgetfulDaemonTest, ABreakThatWasToldIsNotForgottenWithItsRevision) {
+  report(101, path_state_t::BROKEN, 4, 3, 0, 0, 1);
+  ASSERT_EQ(told(EventKind::kBroken), 1);
+  restart();
+  EXPECT_EQ(least_revision_of(*calls_.back()), 4);
+  // Its report overtakes its answer.
+  report(200, path_state_t::FREE, 4, 3, 0, 0, 2);
+  EXPECT_EQ(told(EventKind::kFree), 0);
+  stays_lost_at(4);
+}
+
+TEST_F(ForgetfulDaemonTest, AnOfferThatWasToldIsNotForgotten) {
+  report(101, path_state_t::FREE, 3, 3, 0, 5, 1);
+  restart();
+  EXPECT_EQ(least_revision_of(*calls_.back()), 5);
+  stays_lost_at(6);
+}
+
+TEST_F(ForgetfulDaemonTest, ARevisionInAHeartbeatIsNotForgotten) {
+  list_.take_heartbeat(up_for(100.0, 1, 6), now_);
+  restart();
+  EXPECT_EQ(least_revision_of(*calls_.back()), 6);
+  finish_call(answer(1, plan_response_t::STATUS_OLD_SCENE, {.start_id = 2}));
+  EXPECT_EQ(told(EventKind::kLost), 1);
+  step_at(seconds(1));
+  stays_lost_at(7);
+}
+
+TEST_F(ForgetfulDaemonTest, ADurableSceneGoesOn) {
+  report(101, path_state_t::BROKEN, 4, 3, 0, 0, 1);
+  restart();
+  finish_call(answer(5, kOk, {.start_id = 2, .is_durable = true, .digest = "newer"}));
+  EXPECT_EQ(told(EventKind::kAnswer), 2);
+  EXPECT_EQ(told(EventKind::kLost), 0);
+}
+
 TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
   begin();
   live(seconds(20), /*beats=*/true);
