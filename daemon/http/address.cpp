@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/process/metrics/http_address.h"
+#include "daemon/http/address.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -8,9 +8,9 @@
 
 #include "daemon/base/file_descriptor.h"
 
-namespace camway::process {
+namespace camway::http {
 
-std::optional<SocketAddress> socket_address(const HttpAddress& address) {
+std::optional<SocketAddress> socket_address(const Address& address) {
   SocketAddress made;
   auto* const v4 = reinterpret_cast<sockaddr_in*>(&made.storage);
   auto* const v6 = reinterpret_cast<sockaddr_in6*>(&made.storage);
@@ -42,4 +42,4 @@ bool is_address_of_this_machine(const std::string& text) {
              0;
 }
 
-}  // namespace camway::process
+}  // namespace camway::http

@@ -74,10 +74,10 @@ base::Result<std::shared_ptr<wire::MessageAuth>> open_auth(const AuthOptions& op
 }
 
 /// Opens the page for Prometheus; null if the options ask for none.
-base::Result<std::unique_ptr<HttpPage>> open_metrics(const DaemonOptions& options,
-                                                     const LatestStatus& latest,
-                                                     const std::shared_ptr<service::Log>& log) {
-  if (options.metrics.port == 0) return std::unique_ptr<HttpPage>();
+base::Result<std::unique_ptr<http::Server>> open_metrics(const DaemonOptions& options,
+                                                         const LatestStatus& latest,
+                                                         const std::shared_ptr<service::Log>& log) {
+  if (options.metrics.port == 0) return std::unique_ptr<http::Server>();
   HttpContent content;
   content.path = "/metrics";
   content.type = "text/plain; version=0.0.4; charset=utf-8";
@@ -211,7 +211,7 @@ class ServingDaemon {
   }
 
   std::optional<int> open_page_of_metrics() {
-    base::Result<std::unique_ptr<HttpPage>> page = open_metrics(options_, latest_, log_);
+    base::Result<std::unique_ptr<http::Server>> page = open_metrics(options_, latest_, log_);
     if (!page) {
       log_->error("there can be no page of metrics", {{"reason", page.error}});
       return kExitMetrics;
@@ -272,7 +272,7 @@ class ServingDaemon {
   std::shared_ptr<wire::MessageAuth> auth_;        ///< null without keys
   std::optional<service::AuthTransport> signing_;  ///< over the network, with keys
   LatestStatus latest_;
-  std::unique_ptr<HttpPage> metrics_;  ///< null if the options ask for none
+  std::unique_ptr<http::Server> metrics_;  ///< null if the options ask for none
   const ServiceManager manager_;
   ReloadRecord reloads_;
   std::shared_ptr<service::PlanAnswerer> here_;  ///< plans in this process

@@ -35,6 +35,8 @@ class LocalConnection {
   bool send(const std::string& text) const {
     return ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
+  /// Lets the other side know that nothing more comes.
+  void end_sending() const { shutdown(fd_, SHUT_WR); }
   /// Returns whether bytes or the end of the connection come within `timeout_s`.
   [[nodiscard]] bool has_something(double timeout_s) const {
     pollfd input{fd_, POLLIN, 0};

@@ -95,8 +95,8 @@ LC_ALL=C exec awk '
       fault("SQLite is for daemon/scene/log/sqlite")
     } else if (file ~ /^nats\// && here !~ /^(daemon\/nats|tests)$/) {
       fault("NATS is for daemon/nats")
-    } else if (file == "microhttpd.h" && FILENAME != "daemon/process/metrics/http_page.cpp") {
-      fault("libmicrohttpd is for daemon/process/metrics/http_page.cpp")
+    } else if (file ~ /^boost\/(asio|beast)/ && here !~ /^(daemon\/http|tests)$/) {
+      fault("Boost.Asio and Boost.Beast are for daemon/http")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {
       fault("spdlog is for daemon/service/log/log.cpp")
     } else {

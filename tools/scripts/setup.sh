@@ -28,8 +28,6 @@ kPackages=(
   libsqlite3-dev
   # messages between daemons, and the log that they share
   libnats-dev
-  # the page for Prometheus
-  libmicrohttpd-dev
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it

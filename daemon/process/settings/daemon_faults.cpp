@@ -146,7 +146,7 @@ std::vector<std::string> missing_things(const DaemonOptions& options) {
   }
   const bool address_counts =
       options.metrics.port != 0 || options.set_at.contains("metrics.address");
-  if (address_counts && !is_address_of_this_machine(options.metrics.ip)) {
+  if (address_counts && !http::is_address_of_this_machine(options.metrics.ip)) {
     faults.push_back(fmt::format("{}: {} is no address of this machine",
                                  options.where("metrics.address"), options.metrics.ip));
   }

@@ -79,7 +79,7 @@ struct DaemonOptions {
   service::LogFormat log_format = service::LogFormat::kText;
   bool share_prefix = false;  ///< `--share-prefix`: serve even if another daemon has the prefix
   std::string scene_roots;    ///< folders with ':' between them; see `service::SceneRoots`
-  HttpAddress metrics;        ///< address of the page for Prometheus; port 0: no page
+  http::Address metrics;      ///< address of the page for Prometheus; port 0: no page
   HttpLimits metrics_limits = {};
   AuthOptions auth;
   std::string cache_folder;  ///< of prepared scenes; empty: the one that the environment names

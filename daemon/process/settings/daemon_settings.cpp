@@ -96,7 +96,7 @@ std::string fault_of_servers(const std::string& text) {
 }
 
 std::string fault_of_address(const std::string& text) {
-  return is_ip_address(text) ? "" : "must be an IPv4 or IPv6 address";
+  return http::is_ip_address(text) ? "" : "must be an IPv4 or IPv6 address";
 }
 
 }  // namespace

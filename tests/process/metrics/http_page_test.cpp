@@ -25,8 +25,8 @@ HttpContent hello() {
   return {"/page", "text/plain; charset=x", [] { return "hello\n"; }};
 }
 
-base::Result<std::unique_ptr<HttpPage>> open_page(const HttpAddress& address = {},
-                                                  const HttpLimits& limits = {}) {
+base::Result<std::unique_ptr<http::Server>> open_page(const http::Address& address = {},
+                                                      const HttpLimits& limits = {}) {
   return open_http_page(address, hello(), limits);
 }
 
@@ -144,7 +144,6 @@ TEST(HttpPage, RubbishDoesNotEndIt) {
   EXPECT_EQ(body_of(http_request(port, "GET", "/page")), "hello\n");
 }
 
-/// On the library's own thread this ended the process in about one of fifty stops.
 TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
   for (int i = 0; i < 300; ++i) {
     auto opened = open_page();
