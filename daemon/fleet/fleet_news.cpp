@@ -13,7 +13,7 @@ constexpr service::LimitedLog::Limits kTroubleLimits{.lines_per_s = 1.0 / 30, .b
 
 constexpr std::array<std::string_view, 4> kReasons{"it has ended", "it was not heard",
                                                    "it says nothing of the request",
-                                                   "the bus did not take the request"};
+                                                   "NATS did not take the request"};
 
 }  // namespace
 

@@ -70,7 +70,7 @@ base::Result<std::unique_ptr<PlannerServer>> PlannerServer::open(
   }
   std::unique_ptr<PlannerServer> server(
       new PlannerServer(parts, options, std::move(position), log));
-  if (!server->subscribe()) return base::Failure{"the bus takes no subscription"};
+  if (!server->subscribe()) return base::Failure{"NATS takes no subscription"};
   server->begin_threads();
   return server;
 }
@@ -317,7 +317,7 @@ void PlannerServer::send(const JobTable::Key& key, std::int8_t kind,
   head.kind = kind;
   head.scene_revision = revision;
   if (!publish_parts(parts_.bus, subjects_.answer(key.first), std::move(head), payload)) {
-    warn("the bus did not take a message to a front", {{"front", key.first}});
+    warn("NATS did not take a message to a front", {{"front", key.first}});
   }
 }
 

@@ -40,7 +40,7 @@ base::Result<std::unique_ptr<RemoteAnswerer>> RemoteAnswerer::open(
     return base::Failure{"the front's id is not of [A-Za-z0-9_-]{1,32}"};
   std::unique_ptr<RemoteAnswerer> answerer(
       new RemoteAnswerer(parts, options, std::move(position_of), log));
-  if (!answerer->link_.open()) return base::Failure{"the bus takes no subscription"};
+  if (!answerer->link_.open()) return base::Failure{"NATS takes no subscription"};
   return answerer;
 }
 

@@ -16,11 +16,9 @@ struct SecurityFileFault {
   std::string reason;  ///< names the file
 };
 
-/// Reads the files that a connection proves itself with, as a connection would, but makes none.
-/// Returns what is wrong with them; a key that is another certificate's is the key's fault.
-/// Thread-safe.
-///
-/// Whether a server takes them is for the server to say.
+/// Reads the files that a connection proves itself with. Returns what is wrong with them: what
+/// cannot be read, certificates that do not hold now, a key that is encrypted or another
+/// certificate's. Whether a server takes them is for the server to say. Thread-safe.
 std::vector<SecurityFileFault> faults_of_security_files(const ConnectOptions& options);
 
 }  // namespace camway::nats

@@ -139,6 +139,19 @@ TestCertificates::TestCertificates() {
   sign("client", "DNS:client.example");
 }
 
+std::string TestCertificates::valid_for_days(int days) const {
+  const std::string made = file("client_" + std::to_string(days) + ".pem");
+  run({"x509", "-req", "-in", file("client.csr"), "-CA", ca(), "-CAkey", file("ca.key"),
+       "-CAcreateserial", "-days", std::to_string(days), "-out", made});
+  return made;
+}
+
+std::string TestCertificates::encrypted_client_key() const {
+  const std::string made = file("encrypted.key");
+  run({"pkcs8", "-topk8", "-in", client_key(), "-passout", "pass:secret", "-out", made});
+  return made;
+}
+
 void TestCertificates::run(const std::vector<std::string>& arguments) const {
   std::vector<std::string> command{OPENSSL_BINARY};
   command.insert(command.end(), arguments.begin(), arguments.end());

@@ -81,6 +81,10 @@ class TestCertificates {
   [[nodiscard]] std::string stranger_key() const { return file("stranger.key"); }
   [[nodiscard]] std::string client() const { return file("client.pem"); }
   [[nodiscard]] std::string client_key() const { return file("client.key"); }
+  /// Makes another certificate for the client's key; it has expired if `days` is negative.
+  [[nodiscard]] std::string valid_for_days(int days) const;
+  /// Makes a copy of the client's key that needs a password.
+  [[nodiscard]] std::string encrypted_client_key() const;
 
  private:
   [[nodiscard]] std::string file(const std::string& name) const {

@@ -93,6 +93,8 @@ LC_ALL=C exec awk '
       fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp and daemon/scene/log/blob_id.cpp")
     } else if (file == "sqlite3.h" && here !~ /^(daemon\/scene\/log\/sqlite|tests)$/) {
       fault("SQLite is for daemon/scene/log/sqlite")
+    } else if (file ~ /^openssl\// && FILENAME != "daemon/nats/security_files.cpp") {
+      fault("OpenSSL is for daemon/nats/security_files.cpp")
     } else if (file ~ /^nats\// && here !~ /^(daemon\/nats|tests)$/) {
       fault("NATS is for daemon/nats")
     } else if (file ~ /^boost\/(asio|beast)/ && here !~ /^(daemon\/http|tests)$/) {

@@ -26,8 +26,8 @@ kPackages=(
   libsodium-dev
   # scenes that outlive the daemon
   libsqlite3-dev
-  # messages between daemons, and the log that they share
-  libnats-dev
+  # messages between daemons, and the log that they share; the certificates of their connections
+  libnats-dev libssl-dev
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it

@@ -67,8 +67,13 @@ void check_effect(const DaemonOptions& options, std::initializer_list<std::strin
 
 void check_fleet(const DaemonOptions& options, std::vector<std::string>& faults) {
   const FleetOptions& fleet = options.fleet;
+  if (!options.drop_scenes.empty() && fleet.role != FleetRole::kFront) {
+    faults.push_back("--fleet-drop: has no effect but on a front: give --role front");
+  }
   if (fleet.role == FleetRole::kAlone) {
-    check_effect(options, {"fleet.servers"},
+    check_effect(options,
+                 {"fleet.servers", "fleet.credentials_file", "fleet.ca_file",
+                  "fleet.certificate_file", "fleet.key_file"},
                  "has no effect without a role in the fleet: give --role front or --role planner "
                  "(fleet.role)",
                  faults);

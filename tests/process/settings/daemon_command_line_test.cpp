@@ -225,6 +225,8 @@ TEST_F(DaemonOptionsFile, RolesOfAFleetNeedAndRefuseSettings) {
               ElementsAre(HasSubstr("--role: needs the servers of NATS")));
   EXPECT_THAT(parse({"--scene", "a=x.obj", "--fleet", "nats://a:4222"}).faults,
               ElementsAre(HasSubstr("--fleet: has no effect without a role")));
+  EXPECT_THAT(parse({"--scene", "a=x.obj", "--fleet-drop", "a"}).faults,
+              ElementsAre(HasSubstr("--fleet-drop: has no effect but on a front")));
   EXPECT_THAT(parse({"--role", "front", "--fleet", "a:4222"}).faults,
               ElementsAre(AllOf(HasSubstr("--fleet"), HasSubstr("'a:4222'"))));
   for (const auto& [server, fault] : std::vector<std::pair<std::string, std::string>>{
@@ -294,7 +296,7 @@ TEST_F(DaemonOptionsFile, FilesForTheWayIntoAFleetHaveToBeUsable) {
   write("here.pem", "text");
   EXPECT_THAT(parse({"--config", pair.c_str()}).faults,
               ElementsAre(AllOf(HasSubstr("f.toml:4: fleet.certificate_file: "),
-                                HasSubstr("here.pem is no certificate in PEM")),
+                                HasSubstr("here.pem has no certificate in PEM that can be read")),
                           AllOf(HasSubstr("f.toml:5: fleet.key_file: "),
                                 HasSubstr("cannot be read: Is a directory"))));
 }
