@@ -44,7 +44,8 @@ struct CameraWriteOptions {
   double fov_x_rad = 0.0;  ///< [Limit: 0 < value < pi]
   double fov_y_rad = 0.0;
   double near_m = 0.1;
-  int width_px = 1920;  ///< of the picture; its height follows from the fields of view
+  int width_px = 1920;   ///< of the picture; its height follows from the fields of view
+  bool is_text = false;  ///< glTF as JSON that holds its buffer, not as `.glb`
 };
 
 /// A file that belongs beside a written one.

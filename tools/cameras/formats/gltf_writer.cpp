@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -109,12 +113,36 @@ Json document_of(const FloatBuffer& buffer, const CameraWriteOptions& options) {
   return root;
 }
 
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = (bits << 8U) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    const std::size_t digits = std::min<std::size_t>(bytes.size() - i, 3) + 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k < digits ? kDigits[(bits >> (18U - 6U * k)) & 0x3FU] : '=';
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options) {
   const FloatBuffer buffer = buffer_of(track);
+  Json document = document_of(buffer, options);
+  if (options.is_text) {
+    document["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64," + base64(buffer.bytes());
+    return document.dump() + "\n";
+  }
   std::string chunks;
-  append_chunk(chunks, document_of(buffer, options).dump(), "JSON", ' ');
+  append_chunk(chunks, document.dump(), "JSON", ' ');
   append_chunk(chunks, buffer.bytes(), std::string_view("BIN\0", 4), '\0');
   constexpr std::uint32_t kHeaderBytes = 12;
   std::string file = "glTF";

@@ -78,8 +78,10 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
     return base::Failure{source_of(flags.request) + ": camera: is missing"};
   }
   const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
-  const CameraWriteOptions options{name, camera.fov_x_rad, camera.fov_y_rad,
-                                   camera.near_m * response->near_scale, flags.width_px};
+  const bool is_text = fs::path(flags.out).extension() == ".gltf";
+  const CameraWriteOptions options{
+      name,           camera.fov_x_rad, camera.fov_y_rad, camera.near_m * response->near_scale,
+      flags.width_px, is_text};
   return ExportInput{fps, *std::move(response), *std::move(request), camera_format(flags.format),
                      options};
 }
