@@ -10,6 +10,8 @@
 #include "tools/cameras/formats/chan_format.h"
 #include "tools/cameras/formats/colmap_format.h"
 #include "tools/cameras/formats/gltf_formats.h"
+#include "tools/cameras/formats/mcap_formats.h"
+#include "tools/cameras/formats/mcap_records.h"
 #include "tools/cameras/formats/nerf_formats.h"
 #include "tools/cameras/formats/pose_tables.h"
 #include "tools/cameras/formats/scene_file_format.h"
@@ -19,10 +21,11 @@ namespace {
 
 constexpr double kUsualRate = 24.0;
 
-constexpr std::array<CameraFormat, 10> kFormats = {{
+constexpr std::array<CameraFormat, 11> kFormats = {{
     {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf},
     {"fbx", ".fbx", "FBX, an animated camera", read_scene_file, nullptr},
     {"collada", ".dae", "COLLADA, an animated camera", read_scene_file, nullptr},
+    {"mcap", ".mcap", "MCAP with messages in JSON, for Foxglove", read_mcap, write_mcap},
     {"tum", ".txt", "TUM trajectory: t x y z qx qy qz qw", read_tum, write_tum},
     {"csv", ".csv", "table with named columns; EuRoC", read_csv, write_csv},
     {"kitti", ".txt", "KITTI poses: 3 x 4 matrices", read_kitti, write_kitti},
@@ -68,6 +71,7 @@ const CameraFormat* format_of(const CameraFile& file) {
   if (is(".glb") || is(".gltf")) return camera_format("gltf");
   if (is(".fbx")) return camera_format("fbx");
   if (is(".dae")) return camera_format("collada");
+  if (is(".mcap") || file.bytes.starts_with(kMcapMagic)) return camera_format("mcap");
   if (is(".chan")) return camera_format("chan");
   if (has_text(file, "\"camera_path\"")) return camera_format("nerfstudio");
   if (has_text(file, "\"transform_matrix\"")) return camera_format("transforms");

@@ -46,6 +46,7 @@ struct CameraWriteOptions {
   double near_m = 0.1;
   int width_px = 1920;   ///< of the picture; its height follows from the fields of view
   bool is_text = false;  ///< glTF as JSON that holds its buffer, not as `.glb`
+  std::vector<TrackKey> keyframes = {};  ///< of the path, given ones and those of corrections
 };
 
 /// A file that belongs beside a written one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -52,6 +53,16 @@ struct ExportInput {
   CameraWriteOptions options;
 };
 
+/// The path at its keyframes. Leaves out those whose time is unknown.
+std::vector<TrackKey> keyframes_of(const PathFile& response) {
+  std::vector<TrackKey> keys;
+  for (const motion::Keyframe& keyframe : response.keyframes) {
+    if (!std::isfinite(keyframe.time_s)) continue;
+    keys.push_back({keyframe.time_s, response.path.pose(keyframe.time_s), std::nullopt});
+  }
+  return keys;
+}
+
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
   base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return base::Failure{request.error};
@@ -79,9 +90,13 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   }
   const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
   const bool is_text = fs::path(flags.out).extension() == ".gltf";
-  const CameraWriteOptions options{
-      name,           camera.fov_x_rad, camera.fov_y_rad, camera.near_m * response->near_scale,
-      flags.width_px, is_text};
+  const CameraWriteOptions options{name,
+                                   camera.fov_x_rad,
+                                   camera.fov_y_rad,
+                                   camera.near_m * response->near_scale,
+                                   flags.width_px,
+                                   is_text,
+                                   keyframes_of(*response)};
   return ExportInput{fps, *std::move(response), *std::move(request), camera_format(flags.format),
                      options};
 }
