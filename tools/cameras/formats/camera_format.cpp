@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/scene/import/readers/tokens.h"
+#include "tools/cameras/formats/blender_script.h"
 #include "tools/cameras/formats/chan_format.h"
 #include "tools/cameras/formats/colmap_format.h"
 #include "tools/cameras/formats/gltf_formats.h"
@@ -21,8 +22,10 @@ namespace {
 
 constexpr double kUsualRate = 24.0;
 
-constexpr std::array<CameraFormat, 11> kFormats = {{
+constexpr std::array<CameraFormat, 12> kFormats = {{
     {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf},
+    {"blender", ".py", "script that makes the camera in Blender", read_blender_script,
+     write_blender_script},
     {"fbx", ".fbx", "FBX, an animated camera", read_scene_file, nullptr},
     {"collada", ".dae", "COLLADA, an animated camera", read_scene_file, nullptr},
     {"mcap", ".mcap", "MCAP with messages in JSON, for Foxglove", read_mcap, write_mcap},
@@ -72,6 +75,7 @@ const CameraFormat* format_of(const CameraFile& file) {
   if (is(".fbx")) return camera_format("fbx");
   if (is(".dae")) return camera_format("collada");
   if (is(".mcap") || file.bytes.starts_with(kMcapMagic)) return camera_format("mcap");
+  if (is(".py")) return camera_format("blender");
   if (is(".chan")) return camera_format("chan");
   if (has_text(file, "\"camera_path\"")) return camera_format("nerfstudio");
   if (has_text(file, "\"transform_matrix\"")) return camera_format("transforms");

@@ -38,6 +38,13 @@ struct CameraReadOptions {
   std::optional<std::string> times;  ///< text with a time in seconds in each line, for KITTI
 };
 
+/// A part of a path that a correction changed.
+struct CorrectedStretch {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  double moved_m = 0.0;
+};
+
 /// The content of a written file beside the poses.
 struct CameraWriteOptions {
   std::string name = "camera";
@@ -46,6 +53,7 @@ struct CameraWriteOptions {
   double near_m = 0.1;
   int width_px = 1920;   ///< of the picture; its height follows from the fields of view
   bool is_text = false;  ///< glTF as JSON that holds its buffer, not as `.glb`
+  std::vector<CorrectedStretch> corrections = {};
   std::vector<TrackKey> keyframes = {};  ///< of the path, given ones and those of corrections
 };
 

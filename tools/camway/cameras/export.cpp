@@ -63,13 +63,32 @@ std::vector<TrackKey> keyframes_of(const PathFile& response) {
   return keys;
 }
 
+/// The stretches that corrections changed; none where the file is no whole response.
+std::vector<CorrectedStretch> corrections_of(const std::string& text) {
+  const base::Result<planning::PlanResult> response =
+      parse_as<planning::PlanResult>(text, "response");
+  std::vector<CorrectedStretch> stretches;
+  if (!response) return stretches;
+  for (const correction::Correction& each : response->corrections) {
+    if (each.kind == correction::CorrectionKind::kNone) continue;
+    const CorrectedStretch stretch{each.t_begin_s, each.t_end_s, each.moved_m};
+    // One correction may be that of several collisions.
+    const bool is_same = !stretches.empty() && stretches.back().t_begin_s == stretch.t_begin_s &&
+                         stretches.back().t_end_s == stretch.t_end_s;
+    if (!is_same) stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
   base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return base::Failure{request.error};
   if (const auto fault = planning::validate(*request)) {
     return base::Failure{source_of(flags.request) + ": " + fault->message};
   }
-  base::Result<PathFile> response = read_as<PathFile>(flags.response);
+  const base::Result<std::string> answer = read_text(flags.response);
+  if (!answer) return base::Failure{answer.error};
+  base::Result<PathFile> response = parse_as<PathFile>(*answer, source_of(flags.response));
   if (!response) return base::Failure{response.error};
   if (response->path.empty()) {
     return base::Failure{source_of(flags.response) + ": has no path"};
@@ -96,6 +115,7 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
                                    camera.near_m * response->near_scale,
                                    flags.width_px,
                                    is_text,
+                                   corrections_of(*answer),
                                    keyframes_of(*response)};
   return ExportInput{fps, *std::move(response), *std::move(request), camera_format(flags.format),
                      options};
