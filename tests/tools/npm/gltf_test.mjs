@@ -15,14 +15,17 @@ async function issues_of(bytes) {
 
 for (const name of ['office-graze-column', 'office-graze-door']) {
   const planned = plan(name);
-  for (const extension of ['glb', 'gltf']) {
-    test(`${name}, dense, .${extension}`, async () => {
-      const bytes = planned.write(`shot.${extension}`, '--format', 'gltf');
-      assert.equal(bytes.subarray(0, 4).toString(), extension === 'glb' ? 'glTF' : '{"as');
-      const issues = await issues_of(bytes);
-      assert.deepEqual(issues.messages, []);
-      assert.equal(issues.numErrors + issues.numWarnings + issues.numInfos + issues.numHints, 0);
-    });
+  for (const keys of ['dense', 'sparse']) {
+    for (const extension of ['glb', 'gltf']) {
+      test(`${name}, ${keys}, .${extension}`, async () => {
+        const bytes = planned.write(`shot.${extension}`, '--format', 'gltf', '--keys', keys);
+        assert.equal(bytes.subarray(0, 4).toString(), extension === 'glb' ? 'glTF' : '{"as');
+        assert.equal(bytes.includes('CUBICSPLINE'), keys === 'sparse');
+        const issues = await issues_of(bytes);
+        assert.deepEqual(issues.messages, []);
+        assert.equal(issues.numErrors + issues.numWarnings + issues.numInfos + issues.numHints, 0);
+      });
+    }
   }
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr double kUsualRate = 24.0;
 
 constexpr std::array<CameraFormat, 12> kFormats = {{
-    {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf},
+    {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf, nullptr, true},
     {"blender", ".py", "script that makes the camera in Blender", read_blender_script,
      write_blender_script},
     {"fbx", ".fbx", "FBX, an animated camera", read_scene_file, nullptr},

@@ -73,6 +73,7 @@ struct CameraFormat {
   base::Result<std::string> (*write)(const CameraTrack&, const CameraWriteOptions&);
   /// The file that a reader needs beside it; null if it needs none.
   CompanionFile (*companion)(const CameraWriteOptions&) = nullptr;
+  bool has_curves = false;  ///< `write` takes cubic tracks with few keys, too
 };
 
 /// All formats.
