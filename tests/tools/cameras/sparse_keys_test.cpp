@@ -87,6 +87,29 @@ TEST(SparseKeys, HaveTheDerivativesOfThePath) {
   }
 }
 
+/// Both quaternions of an orientation are the same motion, in each segment.
+TEST(SparseKeys, DoNotDependOnTheSideOfTheSphere) {
+  Random random(kSparseSeed);
+  const motion::Path path = random_path(random, 2.0);
+  std::vector<motion::Segment> segments(path.segments().begin(), path.segments().end());
+  for (std::size_t i = 1; i < segments.size(); i += 2) {
+    for (geometry::Vec4& point : segments[i].orientation) point = -point;
+  }
+  SparseKeys keys(path, kSparseFps);
+  SparseKeys turned(motion::Path(segments), kSparseFps);
+  keys.keep_within({1e-3, 1e-3});
+  turned.keep_within({1e-3, 1e-3});
+  const CameraTrack expected = keys.track();
+  const CameraTrack track = turned.track();
+  ASSERT_EQ(track.keys.size(), expected.keys.size());
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    EXPECT_EQ(track.keys[i].pose_W.orientation.coeffs(),
+              expected.keys[i].pose_W.orientation.coeffs());
+    EXPECT_EQ(track.tangents[i].orientation_in_per_s, expected.tangents[i].orientation_in_per_s);
+    EXPECT_EQ(track.tangents[i].orientation_out_per_s, expected.tangents[i].orientation_out_per_s);
+  }
+}
+
 /// A turn by 540 degrees in three keyframes is a turn by 540 degrees with sparse keys, too.
 TEST(SparseKeys, KeepTurnsOfAnySize) {
   std::vector<motion::Keyframe> keyframes;
