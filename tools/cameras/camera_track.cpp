@@ -37,6 +37,12 @@ motion::Pose pose_between(const CameraTrack& track, std::size_t i, double u) {
     return {Vec3((1.0 - u) * from.position + u * to.position),
             from.orientation.slerp(u, to.orientation)};
   }
+  if (track.playback == Playback::kBlend) {
+    const Vec4 blend =
+        (1.0 - u) * geometry::wxyz(from.orientation) + u * geometry::wxyz(to.orientation);
+    return {Vec3((1.0 - u) * from.position + u * to.position),
+            geometry::from_wxyz(blend).normalized()};
+  }
   const double step_s = track.keys[i + 1].time_s - track.keys[i].time_s;
   const KeyTangents& out = track.tangents[i];
   const KeyTangents& in = track.tangents[i + 1];

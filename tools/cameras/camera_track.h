@@ -21,6 +21,7 @@ struct TrackKey {
 /// The curve on which a program plays a track between two keys.
 enum class Playback {
   kLinear,  ///< positions on a line, orientations by slerp on the shorter way
+  kBlend,   ///< positions on a line, orientations blended component by component and normalised
   kCubic,   ///< glTF 2.0, appendix C.5: cubic Hermite splines, orientations normalised after it
 };
 

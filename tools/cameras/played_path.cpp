@@ -36,18 +36,23 @@ std::array<Vec4, kOrientationDegree + 1> elevated(std::vector<Vec4> points) {
   return result;
 }
 
-Segment straight(double t0_s, double t1_s, const motion::Pose& from, const motion::Pose& to) {
+/// A line, with orientations blended to the four-vector `end`.
+Segment straight(double t0_s, double t1_s, const motion::Pose& from, const motion::Pose& to,
+                 const Vec4& end) {
   Segment segment;
   segment.t0_s = t0_s;
   segment.t1_s = t1_s;
   const Vec3 way = to.position - from.position;
   segment.position = {from.position, Vec3(from.position + way / 3.0), Vec3(to.position - way / 3.0),
                       to.position};
-  const Vec4 end = geometry::wxyz(to.orientation);
-  const bool is_other_side = end.dot(geometry::wxyz(from.orientation)) < 0.0;
-  segment.orientation =
-      elevated({geometry::wxyz(from.orientation), is_other_side ? Vec4(-end) : end});
+  segment.orientation = elevated({geometry::wxyz(from.orientation), end});
   return segment;
+}
+
+/// The four-vector of `to` on the side of `from`.
+Vec4 on_side_of(const Quat& from, const Quat& to) {
+  const Vec4 end = geometry::wxyz(to);
+  return end.dot(geometry::wxyz(from)) < 0.0 ? Vec4(-end) : end;
 }
 
 /// The angle between the four-vectors of two orientations, on the shorter way.
@@ -68,11 +73,19 @@ double add_linear(const CameraTrack& track, std::size_t i, std::vector<Segment>&
     const double time_s = is_last ? to.time_s : from.time_s + share * (to.time_s - from.time_s);
     const motion::Pose pose = is_last ? to.pose_W : pose_at(track, time_s);
     if (!(time_s > before_s)) continue;
-    segments.push_back(straight(before_s, time_s, before, pose));
+    segments.push_back(
+        straight(before_s, time_s, before, pose, on_side_of(before.orientation, pose.orientation)));
     before = pose;
     before_s = time_s;
   }
   return angle_rad / static_cast<double>(pieces);
+}
+
+void add_blend(const CameraTrack& track, std::size_t i, std::vector<Segment>& segments) {
+  const TrackKey& from = track.keys[i];
+  const TrackKey& to = track.keys[i + 1];
+  segments.push_back(straight(from.time_s, to.time_s, from.pose_W, to.pose_W,
+                              geometry::wxyz(to.pose_W.orientation)));
 }
 
 void add_cubic(const CameraTrack& track, std::size_t i, std::vector<Segment>& segments) {
@@ -102,6 +115,8 @@ PlayedPath played_path(const CameraTrack& track) {
   for (std::size_t i = 0; i + 1 < track.keys.size(); ++i) {
     if (track.playback == Playback::kCubic) {
       add_cubic(track, i, segments);
+    } else if (track.playback == Playback::kBlend) {
+      add_blend(track, i, segments);
     } else {
       largest_rad = std::max(largest_rad, add_linear(track, i, segments));
     }

@@ -15,10 +15,11 @@ struct PlayedPath {
 };
 
 /// Returns the path that a track is played on. Positions are exact: lines and cubics are Bézier
-/// curves. So are the orientations of a cubic track: the normalised spline is the normalised spline
-/// of degree 6. Slerp is no rational curve of its parameter. Between two orientations whose
-/// four-vectors differ by the angle φ, their normalised linear blend takes the same way at another
-/// pace. Pieces are cut, at exact points of slerp, until φ is at most `kLargestPieceAngle_rad`.
+/// curves. So are the orientations of a cubic track and of a blend: the normalised curve is the
+/// normalised curve of degree 6. Slerp is no rational curve of its parameter. Between two
+/// orientations whose four-vectors differ by the angle φ, their normalised linear blend takes the
+/// same way at another pace. Pieces are cut, at exact points of slerp, until φ is at most
+/// `kLargestPieceAngle_rad`.
 ///
 /// Error of a piece: slerp has turned the four-vector by u·φ at u, the blend by
 /// a(u) = atan2(u·sin φ, 1 - u + u·cos φ), so that

@@ -37,7 +37,7 @@ void read_passed(const Field& item, motion::Keyframe& keyframe) {
   const JsonReader io(item);
   keyframe.time_s = std::numeric_limits<double>::quiet_NaN();
   io(may_lack("origin"), keyframe.origin);
-  if (keyframe.origin == motion::KeyframeOrigin::kGiven) io(may_lack("time"), keyframe.time_s);
+  io(may_lack("time"), keyframe.time_s);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void read_value(const Field& root, planning::PlanResult& result);
 
 /// A path file: a response of which little but the path is known. A response of Camway is one;
 /// `{"segments": [...]}` is the smallest one. Read are the path, its bounds and scales, and of each
-/// keyframe the origin and, if it is a given one, the time: "not a number" if it has none.
+/// keyframe the origin and the time: "not a number" if it has none.
 struct PathFile : planning::PlanResult {
   std::string scene_digest;  ///< digest of the scene that it was made for; empty if unknown
 };

@@ -36,6 +36,11 @@ kPackages=(
   iproute2 util-linux iptables
 )
 
+# Readers of other projects, with which tests compare written files. Node.js of another source is kept.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  kPackages+=(nodejs npm)
+fi
+
 # 163 packages, 70 MB to fetch and 600 MB on the disk: not for everyone.
 readonly kBlenderPackages=(blender python3-numpy)
 

@@ -60,6 +60,18 @@ TEST(PlayedPath, HasABoundOfItsTurnThatIsNotFarOff) {
   EXPECT_LE(largest, 1.0);
 }
 
+TEST(PlayedPath, IsWhatABlendPlays) {
+  Random random(kPlayedSeed);
+  for (int trial = 0; trial < 50; ++trial) {
+    // Quaternions on the other side are blended as they are, the longer way. At 1.4 radians apart
+    // four-vectors on either side do not vanish between.
+    CameraTrack track = random_track(random, 8, 0.25, 1.4);
+    track.playback = Playback::kBlend;
+    compare(track, random);
+    EXPECT_EQ(played_path(track).turn_error_rad, 0.0);
+  }
+}
+
 TEST(PlayedPath, IsWhatACubicTrackPlays) {
   Random random(kPlayedSeed);
   for (int trial = 0; trial < 50; ++trial) {

@@ -98,6 +98,34 @@ TEST_F(CliCameras, SayWhereAndAtWhichRateWhatIsPlayedIsFree) {
   EXPECT_EQ(export_path("csv", {"--fps", "3", "--no-proof"}).exit_code, 0);
 }
 
+TEST_F(CliCameras, WriteFewKeysOnCurvesAndMoreWhereThatIsNotFree) {
+  write_flight(1.05);
+  ASSERT_EQ(import_flight().exit_code, 0);
+  plan();
+  const auto keys_of = [&] {
+    std::ifstream stream(folder_.file("out.gltf"), std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    const auto track = read_camera(*camera_format("gltf"), {"out.glb", bytes, {}}, {});
+    EXPECT_TRUE(track && track->playback == Playback::kCubic) << track.error;
+    return track ? track->keys.size() : 0;
+  };
+  const CliRun run = export_path("gltf", {"--keys", "sparse"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("for 25 frames; within "));
+  EXPECT_THAT(run.err, HasSubstr("proved free as played between its "));
+  EXPECT_LT(keys_of(), 10U);
+  // With two keys the flight is a straight line through the wall; keys are added until it is free.
+  const std::vector<std::string> far{"--keys", "sparse", "--within-m", "50", "--within-deg", "90"};
+  EXPECT_EQ(export_path("gltf", far).exit_code, 0);
+  EXPECT_GT(keys_of(), 2U);
+  std::vector<std::string> unproved = far;
+  unproved.emplace_back("--no-proof");
+  EXPECT_EQ(export_path("gltf", unproved).exit_code, 0);
+  EXPECT_EQ(keys_of(), 2U);
+  EXPECT_THAT(export_path("csv", {"--keys", "sparse"}).err,
+              HasSubstr("--keys sparse: csv has no curves between keys"));
+}
+
 /// A camera that turns by 450 degrees and rolls, 25 times a second from 0.04 s on.
 CameraTrack turning_track() {
   CameraTrack track;

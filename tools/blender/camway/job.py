@@ -5,6 +5,7 @@ from __future__ import annotations
 import pathlib
 import shutil
 import tempfile
+import uuid
 from typing import Iterator, Sequence
 
 import bpy
@@ -34,6 +35,8 @@ class Job:
         self._given_folder = folder
         self._owners: dict[str, scene_file.Owner] = {}
         self._notes: list[str] = []
+        self._daemon = context.scene.camway.daemon()
+        self._is_sent = False  # the scene, to the daemon
         self.is_reading = True  # frames change: nobody should edit
 
     @property
@@ -59,6 +62,7 @@ class Job:
             chosen = choose_keyframes(shot, lambda keys: run.interpolate(self._program, folder, shot, keys))
             shot_reader.frame_set(self.scene, frame)
             self.is_reading = False
+            yield from self._send(folder)
             before = yield from self._collisions(folder, shot, chosen)
             answer = yield from self._plan(folder, shot, chosen, before)
             run.write_json(folder / "request.json", answer.request)  # of several, those that belong together
@@ -68,6 +72,8 @@ class Job:
         finally:
             if self._scene_name in bpy.data.scenes:
                 shot_reader.frame_set(self.scene, frame)
+            if self._is_sent:
+                run.forget_scene(self._program, folder, self._daemon)
             if not self._given_folder:
                 shutil.rmtree(folder, ignore_errors=True)
 
@@ -88,7 +94,7 @@ class Job:
         depsgraph = context.evaluated_depsgraph_get()
         self._owners = scene_file.write_scene(folder / "scene.obj", depsgraph, camera, settings,
                                               shot_reader.unit_of(scene))
-        if not self._owners:
+        if not self._owners and not (self._daemon and self._daemon.scene):
             raise CamwayError("There is nothing in the way: no visible object has a surface.")
         self._note_motion(context, shot)
         if found := jumps(shot.samples, shot.within):
@@ -109,8 +115,21 @@ class Job:
             more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
             self._notes.append(f"moving obstacles stand still for Camway: {listed}{more}")
 
+    def _send(self, folder: pathlib.Path) -> Iterator[tuple[float, str]]:
+        """Sends the scene to the daemon, unless the user named one that it has."""
+        if self._daemon is None:
+            return
+        if self._daemon.scene:
+            self._notes.append(f"planned in the daemon's scene {self._daemon.scene}, not among what is visible here")
+            return
+        self._daemon = self._daemon._replace(scene=f"blender-{uuid.uuid4().hex[:12]}")
+        self._is_sent = True
+        yield from _with_words(run.send_scene(self._program, folder, self._daemon), 0.55, "sending the scene")
+
     def _collisions(self, folder: pathlib.Path, shot: Shot, chosen: Chosen) -> Iterator[tuple[float, str]]:
-        """Returns where the artist's path collides, as `camway check` has it."""
+        """Returns where the artist's path collides with what is visible, as `camway check` has it."""
+        if not self._owners:
+            return []
         request = request_of(shot, chosen.keyframes, "scene.obj")
         checking = run.check(self._program, folder, request, chosen.path)
         return (yield from _with_words(checking, 0.6, "looking for collisions"))["collisions"]
@@ -140,7 +159,7 @@ class Job:
         """Returns Camway's answer for keyframes; `members` and `options` replace those of the request."""
         request = {**request_of(shot, keyframes, "scene.obj"), **members}
         request["options"] = {**shot.options, **options}
-        content = yield from _with_words(run.plan(self._program, folder, request), 0.7, "planning")
+        content = yield from _with_words(run.plan(self._program, folder, request, self._daemon), 0.7, "planning")
         return Answer(shot, [k.frame for k in keyframes], request, content)
 
     def _finish(self, chosen: Chosen, answer: Answer, before: Sequence[dict]) -> None:

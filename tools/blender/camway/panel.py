@@ -45,9 +45,17 @@ class CAMWAY_PT_main(_Part, bpy.types.Panel):
         column.label(text="Obstacles" if settings.collection else "Obstacles: all that is visible")
         column.prop(settings, "collection", text="")
         layout.prop(settings, "clearance_m")
+        self._draw_planner(settings)
         layout.operator("camway.plan", icon="PLAY")
         if camera and camera.camway.status:
             self._draw_result(context, camera)
+
+    def _draw_planner(self, settings):
+        column = self.layout.column(align=True)
+        column.prop(settings, "plan_with")
+        if settings.plan_with == "DAEMON":
+            for name in ("daemon_scene", "daemon_prefix", "daemon_url"):
+                column.prop(settings, name)
 
     def _draw_result(self, context, camera):
         layout, result = self.layout, camera.camway

@@ -7,7 +7,7 @@ import os
 import pathlib
 import shutil
 import subprocess
-from typing import Iterator, Sequence
+from typing import Iterator, NamedTuple, Sequence
 
 from .motion import Path, Sample
 from .request import Shot, request_of
@@ -17,6 +17,12 @@ _NOTHING_NEAR = "g nothing\nv 1e6 0 -1e6\nv 1000001 0 -1e6\nv 1e6 1 -1e6\nf 1 2 
 
 # Interpolation takes milliseconds; a program that takes this long hangs.
 _LONGEST_INTERPOLATION_S = 60.0
+
+# A program that is ended cancels its request at a daemon first, which takes milliseconds.
+_LONGEST_END_S = 2.0
+
+# How long a daemon may take to forget a scene. It forgets by itself when it ends.
+_LONGEST_UNLOAD_S = 5.0
 
 
 class CamwayError(Exception):
@@ -60,9 +66,13 @@ class Child:
             raise CamwayError(f"camway did not end within {seconds:g} s") from None
 
     def stop(self) -> None:
-        """Kills the program if it still runs. It keeps no state that a signal could harm."""
+        """Ends the program if it still runs. It keeps no state that a signal could harm."""
         if self.is_running():
-            self._process.kill()
+            self._process.terminate()
+            try:
+                self._process.wait(_LONGEST_END_S)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
         self._process.wait()
 
     @property
@@ -118,14 +128,47 @@ def read_json(file: pathlib.Path, child: Child) -> dict:
         raise CamwayError(child.words) from None
 
 
-def plan(program: str, folder: pathlib.Path, request: dict) -> Iterator[None]:
-    """Plans; yields while the program runs, and returns the answer."""
+class Daemon(NamedTuple):
+    """A daemon that plans, and the name of its scene to plan in."""
+    scene: str
+    prefix: str = ""
+    url: str = ""
+
+    @property
+    def flags(self) -> list[str]:
+        """How the program reaches it."""
+        return [word for flag, value in (("--prefix", self.prefix), ("--url", self.url)) if value
+                for word in (flag, value)]
+
+
+def send_scene(program: str, folder: pathlib.Path, daemon: Daemon) -> Iterator[None]:
+    """Makes `scene.obj` the scene of the daemon; yields while that takes."""
+    child = Child(program, ["scene", "load", daemon.scene, "--upload", "scene.obj", *daemon.flags], folder)
+    yield from running(child)
+    if child.code != 0:
+        raise CamwayError(child.words)
+
+
+def forget_scene(program: str, folder: pathlib.Path, daemon: Daemon) -> None:
+    """Has the daemon forget a scene, as far as it answers."""
+    try:
+        Child(program, ["scene", "unload", daemon.scene, *daemon.flags], folder).wait(_LONGEST_UNLOAD_S)
+    except CamwayError:
+        pass  # it is gone, and the scene with it
+
+
+def plan(program: str, folder: pathlib.Path, request: dict, daemon: Daemon | None = None) -> Iterator[None]:
+    """Plans, here or by a daemon; yields while the program runs, and returns the answer."""
     write_json(folder / "request.json", request)
     response = folder / "response.json"
     response.unlink(missing_ok=True)
-    child = Child(program, ["plan", "--request", "request.json", "--response", response.name], folder)
+    by = ["--daemon", daemon.scene, *daemon.flags] if daemon else []
+    child = Child(program, ["plan", "--request", "request.json", "--response", response.name, *by], folder)
     yield from running(child)
-    return read_json(response, child)
+    answer = read_json(response, child)
+    if answer["status"] == "unknown_scene":
+        raise CamwayError(answer["message"])
+    return answer
 
 
 def check(program: str, folder: pathlib.Path, request: dict, path: Path) -> Iterator[None]:

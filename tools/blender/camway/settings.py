@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the panel asks for, and what a run left with the camera. Both are saved in the .blend file."""
+from __future__ import annotations
+
 import json
 
 import bpy
@@ -7,7 +9,7 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        StringProperty)
 
 from .motion import Difference
-from .run import CamwayError
+from .run import CamwayError, Daemon
 
 
 def _is_camera(_, thing: bpy.types.Object) -> bool:
@@ -36,6 +38,18 @@ class CamwaySettings(bpy.types.PropertyGroup):
                ("KEEP", "Keep all", "The path meets the camera at each key"),
                ("CHOOSE", "Follow the motion", "The path follows the motion, and may miss keys where it is corrected")),
         description="Whether the path has to meet the camera at its keys")
+    plan_with: EnumProperty(
+        name="Plan with", default="HERE",
+        items=(("HERE", "This computer", "The camway program plans"),
+               ("DAEMON", "A daemon", "A running camwayd plans, here or elsewhere")),
+        description="Who plans")
+    daemon_scene: StringProperty(
+        name="Its scene",
+        description="Scene of the daemon to plan in; if empty, what is visible is sent, and forgotten afterwards")
+    daemon_prefix: StringProperty(name="Prefix", default="CAMWAY", description="First part of the daemon's channels")
+    daemon_url: StringProperty(
+        name="Network", description="LCM network of the daemon, as udpm://239.255.76.67:7667?ttl=1; if empty, "
+                                    "$LCM_DEFAULT_URL, or else this computer alone")
     body: EnumProperty(
         name="Body", default="NEAR",
         items=(("NEAR", "Near plane", "The part of the near plane that the camera sees"),
@@ -80,6 +94,12 @@ class CamwaySettings(bpy.types.PropertyGroup):
     @property
     def within(self) -> Difference:
         return Difference(self.within_m, self.within_deg)
+
+    def daemon(self) -> Daemon | None:
+        """Returns the daemon that plans, its scene empty if it is sent; None if this computer plans."""
+        if self.plan_with == "HERE":
+            return None
+        return Daemon(self.daemon_scene.strip(), self.daemon_prefix.strip(), self.daemon_url.strip())
 
     def body_of_request(self) -> dict | None:
         return {"type": "sphere", "radius_m": self.radius_m} if self.body == "BALL" else None

@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "daemon/scene/import/readers/tokens.h"
+#include "tools/cameras/formats/blender_script.h"
 #include "tools/cameras/formats/chan_format.h"
 #include "tools/cameras/formats/colmap_format.h"
 #include "tools/cameras/formats/gltf_formats.h"
+#include "tools/cameras/formats/mcap_formats.h"
+#include "tools/cameras/formats/mcap_records.h"
 #include "tools/cameras/formats/nerf_formats.h"
 #include "tools/cameras/formats/pose_tables.h"
 #include "tools/cameras/formats/scene_file_format.h"
@@ -19,10 +22,13 @@ namespace {
 
 constexpr double kUsualRate = 24.0;
 
-constexpr std::array<CameraFormat, 10> kFormats = {{
-    {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf},
+constexpr std::array<CameraFormat, 12> kFormats = {{
+    {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf, nullptr, true},
+    {"blender", ".py", "script that makes the camera in Blender", read_blender_script,
+     write_blender_script},
     {"fbx", ".fbx", "FBX, an animated camera", read_scene_file, nullptr},
     {"collada", ".dae", "COLLADA, an animated camera", read_scene_file, nullptr},
+    {"mcap", ".mcap", "MCAP with messages in JSON, for Foxglove", read_mcap, write_mcap},
     {"tum", ".txt", "TUM trajectory: t x y z qx qy qz qw", read_tum, write_tum},
     {"csv", ".csv", "table with named columns; EuRoC", read_csv, write_csv},
     {"kitti", ".txt", "KITTI poses: 3 x 4 matrices", read_kitti, write_kitti},
@@ -68,6 +74,8 @@ const CameraFormat* format_of(const CameraFile& file) {
   if (is(".glb") || is(".gltf")) return camera_format("gltf");
   if (is(".fbx")) return camera_format("fbx");
   if (is(".dae")) return camera_format("collada");
+  if (is(".mcap") || file.bytes.starts_with(kMcapMagic)) return camera_format("mcap");
+  if (is(".py")) return camera_format("blender");
   if (is(".chan")) return camera_format("chan");
   if (has_text(file, "\"camera_path\"")) return camera_format("nerfstudio");
   if (has_text(file, "\"transform_matrix\"")) return camera_format("transforms");

@@ -38,13 +38,23 @@ struct CameraReadOptions {
   std::optional<std::string> times;  ///< text with a time in seconds in each line, for KITTI
 };
 
+/// A part of a path that a correction changed.
+struct CorrectedStretch {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  double moved_m = 0.0;
+};
+
 /// The content of a written file beside the poses.
 struct CameraWriteOptions {
   std::string name = "camera";
   double fov_x_rad = 0.0;  ///< [Limit: 0 < value < pi]
   double fov_y_rad = 0.0;
   double near_m = 0.1;
-  int width_px = 1920;  ///< of the picture; its height follows from the fields of view
+  int width_px = 1920;   ///< of the picture; its height follows from the fields of view
+  bool is_text = false;  ///< glTF as JSON that holds its buffer, not as `.glb`
+  std::vector<CorrectedStretch> corrections = {};
+  std::vector<TrackKey> keyframes = {};  ///< of the path, given ones and those of corrections
 };
 
 /// A file that belongs beside a written one.
@@ -63,6 +73,7 @@ struct CameraFormat {
   base::Result<std::string> (*write)(const CameraTrack&, const CameraWriteOptions&);
   /// The file that a reader needs beside it; null if it needs none.
   CompanionFile (*companion)(const CameraWriteOptions&) = nullptr;
+  bool has_curves = false;  ///< `write` takes cubic tracks with few keys, too
 };
 
 /// All formats.

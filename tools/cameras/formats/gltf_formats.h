@@ -11,9 +11,9 @@ namespace camway::tools {
 /// as frames of a usual rate.
 base::Result<CameraTrack> read_gltf(const CameraFile& file, const CameraReadOptions& options);
 
-/// Writes a `.glb` with the camera and a linear animation, a key for each frame, in single
-/// precision. Times are kept, unless they begin before 0 or later than an hour: then they count
-/// from 0.
+/// Writes a `.glb`, or a `.gltf` that holds its buffer, with the camera and its animation, linear
+/// or on cubic splines as the track is, in single precision. Times are kept, unless they begin
+/// before 0 or later than an hour: then they count from 0.
 base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options);
 
 }  // namespace camway::tools

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -62,18 +66,41 @@ class FloatBuffer {
 /// of a frame there.
 constexpr double kLatestBegin_s = 3600.0;
 
+/// Appends numbers; those of a quaternion in the order x, y, z, w of glTF.
+void append_floats(const geometry::Vec3& v, std::vector<float>& numbers) {
+  for (const double x : v) numbers.push_back(static_cast<float>(x));
+}
+void append_floats(const geometry::Vec4& wxyz, std::vector<float>& numbers) {
+  for (const Eigen::Index i : {1, 2, 3, 0}) numbers.push_back(static_cast<float>(wxyz[i]));
+}
+
+/// A key of a cubic track: the tangent before it, its value, and the tangent after it.
+void append_cubic(const TrackKey& key, const KeyTangents& tangents, std::vector<float>& positions,
+                  std::vector<float>& rotations) {
+  append_floats(tangents.position_in_m_per_s, positions);
+  append_floats(key.pose_W.position, positions);
+  append_floats(tangents.position_out_m_per_s, positions);
+  append_floats(tangents.orientation_in_per_s, rotations);
+  append_floats(geometry::wxyz(key.pose_W.orientation), rotations);
+  append_floats(tangents.orientation_out_per_s, rotations);
+}
+
 FloatBuffer buffer_of(const CameraTrack& track) {
   const double first_s = track.keys.front().time_s;
   const double begin_s = first_s >= 0.0 && first_s < kLatestBegin_s ? 0.0 : first_s;
   std::vector<float> times;
   std::vector<float> positions;
   std::vector<float> rotations;
-  for (const TrackKey& key : track.keys) {
+  const bool is_cubic = track.playback == Playback::kCubic;
+  for (std::size_t i = 0; i < track.keys.size(); ++i) {
+    const TrackKey& key = track.keys[i];
     times.push_back(static_cast<float>(key.time_s - begin_s));
-    for (const double x : key.pose_W.position) positions.push_back(static_cast<float>(x));
-    // Eigen's own order is that of glTF: x, y, z, w.
-    for (const double x : key.pose_W.orientation.coeffs())
-      rotations.push_back(static_cast<float>(x));
+    if (is_cubic) {
+      append_cubic(key, track.tangents[i], positions, rotations);
+      continue;
+    }
+    append_floats(key.pose_W.position, positions);
+    append_floats(geometry::wxyz(key.pose_W.orientation), rotations);
   }
   FloatBuffer buffer;
   buffer.add(times, 1, "SCALAR", true);
@@ -86,7 +113,8 @@ Json channel(int sampler, const char* path) {
   return {{"sampler", sampler}, {"target", {{"node", 0}, {"path", path}}}};
 }
 
-Json document_of(const FloatBuffer& buffer, const CameraWriteOptions& options) {
+Json document_of(const FloatBuffer& buffer, Playback playback, const CameraWriteOptions& options) {
+  const char* const curve = playback == Playback::kCubic ? "CUBICSPLINE" : "LINEAR";
   Json root;
   root["asset"] = {{"version", "2.0"}, {"generator", "Camway"}};
   root["scene"] = 0;
@@ -101,20 +129,44 @@ Json document_of(const FloatBuffer& buffer, const CameraWriteOptions& options) {
   root["animations"] = Json::array(
       {{{"name", options.name},
         {"channels", Json::array({channel(0, "translation"), channel(1, "rotation")})},
-        {"samplers", Json::array({{{"input", 0}, {"interpolation", "LINEAR"}, {"output", 1}},
-                                  {{"input", 0}, {"interpolation", "LINEAR"}, {"output", 2}}})}}});
+        {"samplers", Json::array({{{"input", 0}, {"interpolation", curve}, {"output", 1}},
+                                  {{"input", 0}, {"interpolation", curve}, {"output", 2}}})}}});
   root["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
   root["bufferViews"] = buffer.views();
   root["accessors"] = buffer.accessors();
   return root;
 }
 
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = (bits << 8U) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    const std::size_t digits = std::min<std::size_t>(bytes.size() - i, 3) + 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k < digits ? kDigits[(bits >> (18U - 6U * k)) & 0x3FU] : '=';
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options) {
   const FloatBuffer buffer = buffer_of(track);
+  Json document = document_of(buffer, track.playback, options);
+  if (options.is_text) {
+    document["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64," + base64(buffer.bytes());
+    return document.dump() + "\n";
+  }
   std::string chunks;
-  append_chunk(chunks, document_of(buffer, options).dump(), "JSON", ' ');
+  append_chunk(chunks, document.dump(), "JSON", ' ');
   append_chunk(chunks, buffer.bytes(), std::string_view("BIN\0", 4), '\0');
   constexpr std::uint32_t kHeaderBytes = 12;
   std::string file = "glTF";

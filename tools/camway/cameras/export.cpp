@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/result/path_faults.h"
 #include "daemon/planning/stages/path_check.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
+#include "tools/cameras/sparse_keys.h"
 #include "tools/camway/cameras/import_request.h"
 #include "tools/camway/cameras/played_proof.h"
 #include "tools/camway/common/commands.h"
@@ -29,6 +36,13 @@ namespace fs = std::filesystem;
 /// Ten hours at 24 frames a second.
 constexpr double kMostFrames = 1e6;
 
+/// Which poses become keys of the written animation.
+enum class KeyChoice { kDense, kSparse };
+constexpr std::array<std::string_view, 2> names_of(KeyChoice) { return {"dense", "sparse"}; }
+
+/// Rounds in which keys are added where what is played is not free. Each halves intervals.
+constexpr int kMostRounds = 12;
+
 struct ExportFlags {
   SceneFlags scene;
   std::string response;
@@ -38,6 +52,9 @@ struct ExportFlags {
   std::optional<std::string> name;
   std::optional<double> fps;
   int width_px = 1920;
+  KeyChoice keys = KeyChoice::kDense;
+  std::optional<double> within_m;
+  std::optional<double> within_deg;
   bool no_proof = false;
 };
 
@@ -52,13 +69,42 @@ struct ExportInput {
   CameraWriteOptions options;
 };
 
+/// The path at its keyframes. Leaves out those whose time is unknown.
+std::vector<TrackKey> keyframes_of(const PathFile& response) {
+  std::vector<TrackKey> keys;
+  for (const motion::Keyframe& keyframe : response.keyframes) {
+    if (!std::isfinite(keyframe.time_s)) continue;
+    keys.push_back({keyframe.time_s, response.path.pose(keyframe.time_s), std::nullopt});
+  }
+  return keys;
+}
+
+/// The stretches that corrections changed; none where the file is no whole response.
+std::vector<CorrectedStretch> corrections_of(const std::string& text) {
+  const base::Result<planning::PlanResult> response =
+      parse_as<planning::PlanResult>(text, "response");
+  std::vector<CorrectedStretch> stretches;
+  if (!response) return stretches;
+  for (const correction::Correction& each : response->corrections) {
+    if (each.kind == correction::CorrectionKind::kNone) continue;
+    const CorrectedStretch stretch{each.t_begin_s, each.t_end_s, each.moved_m};
+    // One correction may be that of several collisions.
+    const bool is_same = !stretches.empty() && stretches.back().t_begin_s == stretch.t_begin_s &&
+                         stretches.back().t_end_s == stretch.t_end_s;
+    if (!is_same) stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
   base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return base::Failure{request.error};
   if (const auto fault = planning::validate(*request)) {
     return base::Failure{source_of(flags.request) + ": " + fault->message};
   }
-  base::Result<PathFile> response = read_as<PathFile>(flags.response);
+  const base::Result<std::string> answer = read_text(flags.response);
+  if (!answer) return base::Failure{answer.error};
+  base::Result<PathFile> response = parse_as<PathFile>(*answer, source_of(flags.response));
   if (!response) return base::Failure{response.error};
   if (response->path.empty()) {
     return base::Failure{source_of(flags.response) + ": has no path"};
@@ -77,11 +123,22 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   if (!(camera.fov_x_rad > 0.0)) {
     return base::Failure{source_of(flags.request) + ": camera: is missing"};
   }
+  const CameraFormat* const format = camera_format(flags.format);
+  if (flags.keys == KeyChoice::kSparse && !format->has_curves) {
+    return base::Failure{"--keys sparse: " + flags.format +
+                         " has no curves between keys; gltf has"};
+  }
   const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
-  const CameraWriteOptions options{name, camera.fov_x_rad, camera.fov_y_rad,
-                                   camera.near_m * response->near_scale, flags.width_px};
-  return ExportInput{fps, *std::move(response), *std::move(request), camera_format(flags.format),
-                     options};
+  const bool is_text = fs::path(flags.out).extension() == ".gltf";
+  const CameraWriteOptions options{name,
+                                   camera.fov_x_rad,
+                                   camera.fov_y_rad,
+                                   camera.near_m * response->near_scale,
+                                   flags.width_px,
+                                   is_text,
+                                   corrections_of(*answer),
+                                   keyframes_of(*response)};
+  return ExportInput{fps, *std::move(response), *std::move(request), format, options};
 }
 
 /// Reads what was written back, as its consumer would.
@@ -126,16 +183,12 @@ base::Result<ProofScene> load_scene(const ExportFlags& flags, const ExportInput&
   return ProofScene{input.request, *std::move(body), loaded.snapshot, bounds};
 }
 
-/// Says whether what is played is free, and otherwise where it is not and at which rate it would
-/// be.
-ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraTrack& played) {
-  const base::Result<ProofScene> scene = load_scene(flags, input);
-  if (!scene) return fail(scene.error);
-  const PlayedProof proof = prove_played(played, *scene);
+/// Says what the proof came to. Returns whether there is nothing more to say.
+std::optional<ExitCode> report_proof(const ExportFlags& flags, const PlayedProof& proof,
+                                     const std::string& keys) {
   if (proof.search.certificate.certified) {
-    print_error(fmt::format("{}: proved free as played between its {} frames; clearance {:.3g} m",
-                            flags.out, played.keys.size(),
-                            proof.search.certificate.clearance_lower_bound_m));
+    print_error(fmt::format("{}: proved free as played between its {}; clearance {:.3g} m",
+                            flags.out, keys, proof.search.certificate.clearance_lower_bound_m));
     return ExitCode::kSuccess;
   }
   if (!proof.search.complete) {
@@ -145,10 +198,21 @@ ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraT
   }
   for (const collision::CollisionInterval& each : proof.search.collisions) {
     print_error(
-        fmt::format("{}: as played between its frames, it is too near to the scene from "
+        fmt::format("{}: as played between its {}, it is too near to the scene from "
                     "{:.6g} s to {:.6g} s",
-                    flags.out, each.t_begin_s, each.t_end_s));
+                    flags.out, keys, each.t_begin_s, each.t_end_s));
   }
+  return std::nullopt;
+}
+
+/// Says whether what is played is free, and otherwise where it is not and at which rate it would
+/// be.
+ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraTrack& played) {
+  const base::Result<ProofScene> scene = load_scene(flags, input);
+  if (!scene) return fail(scene.error);
+  const auto said = report_proof(flags, prove_played(played, *scene),
+                                 fmt::format("{} frames", played.keys.size()));
+  if (said) return *said;
   const std::optional<double> rate = free_rate(input.response.path, input.fps, *scene);
   print_error(rate ? fmt::format("--fps {:g} would be free", *rate)
                    : "no rate up to 32 times as high would be free");
@@ -163,22 +227,112 @@ std::string write_files(const ExportFlags& flags, const ExportInput& input,
   return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
 }
 
-ExitCode run_export(const ExportFlags& flags) {
-  const base::Result<ExportInput> input = read_input(flags);
-  if (!input) return fail(input.error);
-  const CameraTrack frames =
-      frames_of(input->response.path, input->fps, input->response.path.begin_s());
-  const base::Result<std::string> bytes = input->format->write(frames, input->options);
+/// A track as a file, and as a program plays that file.
+struct WrittenTrack {
+  std::string bytes;
+  CameraTrack played;
+};
+
+/// Writes a track and reads it back. Without one, the exit code says what went wrong, which was
+/// printed.
+std::variant<ExitCode, WrittenTrack> written_track(const ExportFlags& flags,
+                                                   const ExportInput& input,
+                                                   const CameraTrack& track) {
+  const base::Result<std::string> bytes = input.format->write(track, input.options);
   if (!bytes) return fail(flags.out + ": " + bytes.error);
-  const base::Result<CameraTrack> played = read_back(*input, flags.out, *bytes, frames);
-  if (!played || played->keys.size() != frames.keys.size()) {
+  base::Result<CameraTrack> played = read_back(input, flags.out, *bytes, track);
+  if (!played || played->keys.size() != track.keys.size()) {
     print_error(flags.out + ": cannot be read back: " + played.error);
     return ExitCode::kOurFault;
   }
-  const std::string error = write_files(flags, *input, *bytes);
+  return WrittenTrack{*bytes, *std::move(played)};
+}
+
+ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
+  const auto result = written_track(
+      flags, input, frames_of(input.response.path, input.fps, input.response.path.begin_s()));
+  if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
+  const auto& written = std::get<WrittenTrack>(result);
+  const std::string error = write_files(flags, input, written.bytes);
   if (!error.empty()) return fail(error);
   if (flags.no_proof) return ExitCode::kSuccess;
-  return prove(flags, *input, *played);
+  return prove(flags, input, written.played);
+}
+
+SparseKeys few_keys(const ExportFlags& flags, const ExportInput& input) {
+  SparseKeys keys(input.response.path, input.fps);
+  ThinningTolerance tolerance;
+  if (flags.within_m) tolerance.position_m = *flags.within_m;
+  if (flags.within_deg) tolerance.turn_rad = radians(*flags.within_deg);
+  keys.keep_within(tolerance);
+  return keys;
+}
+
+/// Adds keys where what is played collides. Returns whether there was a time to add.
+bool add_keys(SparseKeys& keys, const PlayedProof& proof, double offset_s) {
+  bool has_added = false;
+  for (const collision::CollisionInterval& each : proof.search.collisions) {
+    has_added = keys.add_near(each.t_begin_s + offset_s, each.t_end_s + offset_s) || has_added;
+  }
+  return has_added;
+}
+
+void print_sparse(const ExportFlags& flags, const ExportInput& input, const SparseKeys& keys,
+                  const CameraTrack& played, double offset_s) {
+  const SparseKeys::Difference off = keys.difference(played, offset_s);
+  print_error(
+      fmt::format("{}: {} keys for {:.0f} frames; within {:.2g} m and {:.2g} degrees of "
+                  "the path",
+                  flags.out, played.keys.size(), frame_count(input.response.path, input.fps),
+                  off.position_m, degrees(off.turn_rad)));
+}
+
+/// Writes few keys on curves, and adds some where what is played of them is not free.
+ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
+  std::optional<ProofScene> scene;
+  if (!flags.no_proof) {
+    base::Result<ProofScene> loaded = load_scene(flags, input);
+    if (!loaded) return fail(loaded.error);
+    scene = *std::move(loaded);
+  }
+  SparseKeys keys = few_keys(flags, input);
+  for (int round = 0;; ++round) {
+    const CameraTrack track = keys.track();
+    const auto result = written_track(flags, input, track);
+    if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
+    const auto& written = std::get<WrittenTrack>(result);
+    // A file may count its times from 0.
+    const double offset_s = track.keys.front().time_s - written.played.keys.front().time_s;
+    std::optional<PlayedProof> proof;
+    if (scene) proof = prove_played(written.played, *scene);
+    const bool is_settled =
+        !proof || proof->search.certificate.certified || !proof->search.complete;
+    if (!is_settled && round < kMostRounds && add_keys(keys, *proof, offset_s)) continue;
+    const std::string error = write_files(flags, input, written.bytes);
+    if (!error.empty()) return fail(error);
+    print_sparse(flags, input, keys, written.played, offset_s);
+    if (!proof) return ExitCode::kSuccess;
+    return report_proof(flags, *proof, fmt::format("{} keys", track.keys.size()))
+        .value_or(ExitCode::kNegative);
+  }
+}
+
+ExitCode run_export(const ExportFlags& flags) {
+  const base::Result<ExportInput> input = read_input(flags);
+  if (!input) return fail(input.error);
+  return flags.keys == KeyChoice::kSparse ? export_sparse(flags, *input)
+                                          : export_dense(flags, *input);
+}
+
+void add_key_flags(CLI::App& command, ExportFlags& flags) {
+  cli_support::add_choice(command, "--keys", flags.keys, base::named_values<KeyChoice>(),
+                          "dense: a key for each frame; sparse: few keys, on cubic splines");
+  command
+      .add_option("--within-m", flags.within_m,
+                  "With sparse keys, farthest that they may be played from the path [0.005]")
+      ->check(cli_support::above_0());
+  command.add_option("--within-deg", flags.within_deg, "Farthest that it may be turned [0.2]")
+      ->check(cli_support::above_0());
 }
 
 }  // namespace
@@ -206,11 +360,17 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--width", flags->width_px, "Width of the picture, in pixels")
       ->check(cli_support::whole_number(1, 100'000))
       ->capture_default_str();
+  add_key_flags(*command, *flags);
   command->add_flag("--no-proof", flags->no_proof, "Do not prove what is played");
   add_request_scene_flags(*command, flags->scene);
   command->footer(
-      "The file has a pose for each frame. It is read back, and the path that a program plays of "
-      "it,\non straight lines and by slerp between the frames, is proved again. Where that is not "
+      "The file has a pose for each frame; with --keys sparse, glTF has as few keys as stay within "
+      "--within-m and\n--within-deg of the path, with its derivatives as tangents, and more where "
+      "the "
+      "path would not be free.\nThe file is read back, and the path that a program plays of "
+      "it,\non straight lines and by slerp between frames, on splines between sparse keys, is "
+      "proved "
+      "again. Where that is not "
       "free, the\nfile is written all the same, and the exit code is 3.\n" +
       exit_code_help("what is played between the frames is not free") +
       "\nExample: camway export out.json --request scenes/requests/office-graze-door.json --format "

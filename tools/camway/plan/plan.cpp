@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -19,10 +20,12 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/plan/daemon_plan.h"
 #include "tools/camway/plan/option_flags.h"
 #include "tools/camway/plan/plan_summary.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
+#include "tools/support/client_response.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -37,6 +40,7 @@ struct PlanFlags {
   std::string response;
   std::string response_dir;
   OptionFlags options;
+  DaemonFlags daemon;
   bool no_timing = false;
 };
 
@@ -48,6 +52,14 @@ struct Answer {
   std::vector<std::string> scene_warnings;    ///< warnings of the scene's import
   std::vector<std::string> request_warnings;  ///< a sentence each
   std::shared_ptr<const scene::Mesh> mesh;    ///< mesh of the scene; null if it was not loaded
+  /// Exit code where a daemon was asked and gave no result, which was said; else nothing.
+  std::optional<ExitCode> no_result;
+};
+
+/// Those who plan: the loaded scenes of this process, or a daemon.
+struct Planners {
+  LoadedScenes scenes;
+  std::optional<DaemonPlanner> daemon;
 };
 
 PlanResult invalid(std::string message) {
@@ -96,7 +108,41 @@ void answer_in_scene(const scene::Snapshot& snapshot, const RequestFile& request
   planning::name_witnesses(snapshot.mesh, request, answer.result);
 }
 
-Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedScenes& scenes) {
+/// Plans a request that is valid in a scene that this process loads.
+void answer_here(const PlanFlags& flags, const std::string& file, const RequestFile& request,
+                 LoadedScenes& scenes, Answer& answer) {
+  answer.scene_file = flags.scene.file_for(file, request);
+  if (answer.scene_file.empty()) {
+    answer.result =
+        invalid(source_of(file) + ": scene: is missing, and there is no --scene or --daemon");
+    return;
+  }
+  const LoadedScene& scene =
+      scenes.load(answer.scene_file, flags.scene.import_options(request.reading));
+  if (!scene.result.snapshot) {
+    answer.result = invalid(scene.result.error);
+    return;
+  }
+  answer_in_scene(*scene.result.snapshot, request, answer);
+  answer.result.timing.load_scene_ms = scene.load_ms;
+}
+
+/// Has a daemon plan a request that is valid.
+void answer_by_daemon(const PlanFlags& flags, const std::string& file, const RequestFile& request,
+                      DaemonPlanner& daemon, Answer& answer) {
+  answer.scene_file = flags.daemon.scene;
+  answer.request_warnings = warnings_of(request);
+  warn_of_reading(source_of(file), request);
+  const PlanResponse response = daemon.plan(request);
+  if (!has_result(response.status)) {
+    answer.no_result = daemon.report(response);
+    return;
+  }
+  answer.scene_digest = response.scene_digest;
+  answer.result = to_plan_result(response);
+}
+
+Answer answer_request(const PlanFlags& flags, const std::string& file, Planners& planners) {
   Answer answer;
   base::Result<RequestFile> request = read_request(file);
   if (!request) {
@@ -110,19 +156,13 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, LoadedSce
     answer.result.keyframe = fault->keyframe;
     return answer;
   }
-  answer.scene_file = flags.scene.file_for(file, *request);
-  if (answer.scene_file.empty()) {
-    answer.result = invalid(source + ": scene: is missing, and there is no --scene");
-    return answer;
+  if (planners.daemon) {
+    answer_by_daemon(flags, file, *request, *planners.daemon, answer);
+  } else {
+    answer_here(flags, file, *request, planners.scenes, answer);
+    // What could not be begun names its file already.
+    if (answer.scene_digest.empty()) return answer;
   }
-  const LoadedScene& scene =
-      scenes.load(answer.scene_file, flags.scene.import_options(request->reading));
-  if (!scene.result.snapshot) {
-    answer.result = invalid(scene.result.error);
-    return answer;
-  }
-  answer_in_scene(*scene.result.snapshot, *request, answer);
-  answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
     answer.result.message = source + ": " + answer.result.message;
   }
@@ -174,13 +214,14 @@ std::string why_unwritable_response(const std::string& file) {
   return is_open ? "" : "standard output cannot be written";
 }
 
-ExitCode plan_one(const PlanFlags& flags, LoadedScenes& scenes) {
+ExitCode plan_one(const PlanFlags& flags, Planners& planners) {
   const std::string& file = flags.requests.front();
   if (const std::string fault = why_unwritable_response(flags.response); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
   }
-  const Answer answer = answer_request(flags, file, scenes);
+  const Answer answer = answer_request(flags, file, planners);
+  if (answer.no_result) return *answer.no_result;
   print_warnings(answer.scene_file, answer.scene_warnings);
   print_warnings(source_of(file), answer.request_warnings);
   print_summary(source_of(file), answer);
@@ -225,7 +266,7 @@ void print_row(const std::string& request, const PlanResult& result) {
   std::fflush(stdout);
 }
 
-ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
+ExitCode plan_set(const PlanFlags& flags, Planners& planners) {
   std::error_code error;
   std::filesystem::create_directories(flags.response_dir, error);
   if (error) {
@@ -243,7 +284,11 @@ ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
   print_head();
   for (std::size_t i = 0; i < flags.requests.size(); ++i) {
     const std::string source = source_of(flags.requests[i]);
-    const Answer answer = answer_request(flags, flags.requests[i], scenes);
+    const Answer answer = answer_request(flags, flags.requests[i], planners);
+    if (answer.no_result) {
+      outcome = worse(outcome, *answer.no_result);
+      continue;
+    }
     if (warned_of.insert(answer.scene_file).second) {
       print_warnings(answer.scene_file, answer.scene_warnings);
     }
@@ -263,9 +308,16 @@ ExitCode plan_set(const PlanFlags& flags, LoadedScenes& scenes) {
 }
 
 ExitCode run_plan(const PlanFlags& flags) {
-  LoadedScenes scenes(flags.scene);
-  if (!flags.response_dir.empty()) return plan_set(flags, scenes);
-  if (flags.requests.size() == 1) return plan_one(flags, scenes);
+  Planners planners{LoadedScenes(flags.scene), {}};
+  if (flags.daemon.is_asked()) {
+    planners.daemon.emplace(flags.daemon);
+    if (!planners.daemon->error().empty()) {
+      print_error(planners.daemon->error());
+      return ExitCode::kInvalidInput;
+    }
+  }
+  if (!flags.response_dir.empty()) return plan_set(flags, planners);
+  if (flags.requests.size() == 1) return plan_one(flags, planners);
   print_error("several requests need --response-dir");
   return ExitCode::kInvalidInput;
 }
@@ -277,6 +329,10 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "plan", "Plan a path through the keyframes of a request and write the response");
   add_request_scene_flags(*command, flags->scene);
+  CLI::Option* const daemon = add_daemon_flags(*command, flags->daemon);
+  for (const char* const flag : {"--scene", "--scale", "--up", "--unknown", "--no-cache"}) {
+    command->get_option(flag)->excludes(daemon);
+  }
   command->add_option("--request", flags->requests, "Request file, '-' for standard input")
       ->required()
       ->type_name("FILE");
@@ -293,7 +349,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--no-timing", flags->no_timing,
                     "Leave timing_ms out, so that two responses compare byte by byte");
   command->footer(
-      exit_code_help("no path free of collision was found (partial, infeasible, timeout)") +
+      exit_code_help(
+          "no path free of collision was found (partial, infeasible, timeout, cancelled)",
+          /*asks_daemon=*/true) +
       "\nWhat must not collide is the request's body: the camera's near quadrilateral, or a box, "
       "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
       "camera's frame). options.clearance_m asks for a distance to keep; "
@@ -305,6 +363,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "it, "
       "and how hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
+      "With --daemon a running daemon plans, and the response is the same, except that it has the "
+      "name of\nthe daemon's scene, and neither the warnings of its import nor the time of loading "
+      "it.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }

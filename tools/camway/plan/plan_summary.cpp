@@ -208,8 +208,10 @@ std::string duration(double ms) {
 
 std::string headline(const PlanResult& result) {
   if (result.status == Status::kInvalid) return result.message;
-  return fmt::format("{}: {} (scene read in {}, planned in {})", planning::to_string(result.status),
-                     result.message, duration(result.timing.load_scene_ms),
+  // A daemon has read the scene before.
+  const double load_ms = result.timing.load_scene_ms;
+  return fmt::format("{}: {} ({}planned in {})", planning::to_string(result.status), result.message,
+                     load_ms > 0.0 ? "scene read in " + duration(load_ms) + ", " : "",
                      duration(result.timing.total_ms));
 }
 

@@ -73,7 +73,7 @@ TEST(CameraFormats, ReadBackWhatTheyWrite) {
       reading.fps = 4.0;
       const CameraTrack read = sound(format.name, *text, reading, others);
       ASSERT_EQ(read.keys.size(), track.keys.size());
-      const bool is_single = format.name == "gltf";
+      const bool is_single = format.name == "gltf" || format.name == "blender";
       for (std::size_t i = 0; i < track.keys.size(); ++i) {
         const motion::Pose& expected = track.keys[i].pose_W;
         const motion::Pose& pose = read.keys[i].pose_W;
@@ -93,6 +93,8 @@ TEST(CameraFormats, KnowTheirFilesByNameAndContent) {
   EXPECT_EQ(name_of("a.glb", ""), "gltf");
   EXPECT_EQ(name_of("a.GLTF", ""), "gltf");
   EXPECT_EQ(name_of("a.chan", ""), "chan");
+  EXPECT_EQ(name_of("a.py", ""), "blender");
+  EXPECT_EQ(name_of("a.mcap", ""), "mcap");
   EXPECT_EQ(name_of("a.json", R"({"camera_path": []})"), "nerfstudio");
   EXPECT_EQ(name_of("a.json", R"({"frames": [{"transform_matrix": []}]})"), "transforms");
   EXPECT_EQ(name_of("a.json", "{}"), "none");

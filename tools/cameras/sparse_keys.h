@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "daemon/motion/path/path.h"
+#include "tools/cameras/camera_track.h"
+#include "tools/cameras/track_thinning.h"
+
+namespace camway::tools {
+
+/// Few keys of a path for programs that play cubic Hermite splines between keys
+/// (`Playback::kCubic`). Keys are on the path, and tangents are the derivatives of the path: of the
+/// position, and of the orientation's unit quaternion, from either side where the path has a kink.
+/// Quaternions follow the path without a jump to the other side of the sphere, however far it turns
+/// between two keys. A value type.
+class SparseKeys {
+ public:
+  /// Keys are chosen from `kCandidatesPerFrame` times in each frame, and the joins of the path.
+  /// Begins with the joins. Requires a path and 0 < fps.
+  SparseKeys(const motion::Path& path, double fps);
+
+  /// Adds the worst time of each interval between keys until what is played is within the tolerance
+  /// of the path at all candidates, and then drops each key that is not needed for that. Need not
+  /// find the fewest keys.
+  void keep_within(const ThinningTolerance& tolerance);
+
+  /// Adds a key in the middle of each interval between keys that meets the stretch. Returns whether
+  /// there was a time to add.
+  bool add_near(double begin_s, double end_s);
+
+  /// Returns the keys with their tangents.
+  [[nodiscard]] CameraTrack track() const;
+
+  /// The largest differences of a track from the path, at the candidates. The times of the track
+  /// are those of the path less `offset_s`.
+  struct Difference {
+    double position_m = 0.0;
+    double turn_rad = 0.0;
+  };
+  [[nodiscard]] Difference difference(const CameraTrack& track, double offset_s) const;
+
+  static constexpr double kCandidatesPerFrame = 4.0;
+
+ private:
+  struct Candidate {
+    TrackKey key;
+    KeyTangents tangents;
+  };
+  /// A key interval, as indices of candidates, and what is played of it.
+  [[nodiscard]] CameraTrack interval(std::size_t begin, std::size_t end) const;
+  /// The worst candidate within a key interval; nothing if none is off by more than the tolerance.
+  [[nodiscard]] std::optional<std::size_t> worst_in(std::size_t begin, std::size_t end,
+                                                    const ThinningTolerance& tolerance) const;
+  void drop_needless(const ThinningTolerance& tolerance);
+  void add_candidate(const motion::Path& path, double time_s);
+
+  std::vector<Candidate> candidates_;  ///< in order of time
+  std::vector<std::size_t> kept_;      ///< indices of candidates, increasing
+};
+
+}  // namespace camway::tools
