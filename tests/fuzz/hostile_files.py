@@ -251,24 +251,24 @@ def samples_in(folder, options):
 def main():
     options = parse_options()
     os.environ["CAMWAY_CACHE_DIR"] = ""
-    with tempfile.TemporaryDirectory(prefix="camway-samples-") as folder:
-        samples = samples_in(Path(folder).resolve(), options)
-        with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
-            workers = list(pool.map(lambda sample: Worker(sample, options).run(), samples))
     total = collections.Counter()
     faults = []
     print(f"{'sample':28} {'read':>7} {'refused':>8} {'limited':>8} {'fallen':>7} {'longest':>9}")
-    for worker in workers:
-        counts = worker.counts
-        print(f"{worker.sample.name:28} {counts['read']:7} {counts['refused']:8} "
-              f"{counts['limited']:8} {counts['fallen']:7} {worker.longest_s:7.2f} s")
-        total += counts
-        faults += worker.faults
+    with tempfile.TemporaryDirectory(prefix="camway-samples-") as folder:
+        samples = samples_in(Path(folder).resolve(), options)
+        with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
+            for worker in pool.map(lambda sample: Worker(sample, options).run(), samples):
+                counts = worker.counts
+                print(f"{worker.sample.name:28} {counts['read']:7} {counts['refused']:8} "
+                      f"{counts['limited']:8} {counts['fallen']:7} {worker.longest_s:7.2f} s",
+                      flush=True)
+                total += counts
+                faults += worker.faults
     print(f"{'all':28} {total['read']:7} {total['refused']:8} {total['limited']:8} "
           f"{total['fallen']:7}")
     for fault in faults:
         print(fault, file=sys.stderr)
-    if not workers:
+    if not total:
         sys.exit("there is no sample")
     sys.exit(1 if faults else 0)
 
