@@ -3,7 +3,7 @@
 """Reads damaged files of every format with the programs as they are installed.
 
   tests/fuzz/hostile_files.py --programs FOLDER [--mutants 40] [--seed 1] [--workers 2]
-                              [--samples FOLDER] [--only TEXT] [--keep FOLDER]
+                              [--samples FOLDER] [--only TEXT] [--without TEXT] [--keep FOLDER]
 
 Each sample file is damaged in many ways: cut off, bits flipped, bytes replaced, spans removed,
 repeated and exchanged, numbers replaced by huge, negative and meaningless ones. `camway info` reads
