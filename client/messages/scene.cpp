@@ -89,6 +89,7 @@ Bytes put_mesh(const SceneMesh& mesh, scene_request_t& request) {
   request.scale = mesh.scale;
   request.up = static_cast<std::int8_t>(mesh.up);
   request.unknown = static_cast<std::int8_t>(mesh.unknown);
+  request.cell_m = mesh.voxel_m;
   request.file = mesh.file;
   if (!mesh.file.empty() || mesh.bytes.empty()) return {};
   request.upload_format = mesh.format;

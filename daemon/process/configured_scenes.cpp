@@ -60,7 +60,8 @@ bool has_content(const scene::SceneObject& object, const scene::ImportResult& re
 std::shared_ptr<const scene::ObjectSource> source_of(scene::ImportResult read,
                                                      const scene::ObjectOptions& options) {
   if (read.map) {
-    return scene::make_map_source(std::move(read.map), std::move(read.report), options);
+    return scene::make_map_source(std::move(read.map), std::move(read.report), options,
+                                  read.map_origin_m);
   }
   return scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh), std::move(read.report),
                             options);
@@ -80,6 +81,7 @@ bool same(const SceneArgument& a, const SceneArgument& b) {
   return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
          a.options.import.up == b.options.import.up &&
          a.options.import.unknown == b.options.import.unknown &&
+         a.options.import.voxel_m == b.options.import.voxel_m &&
          a.options.occupancy_resolution_m == b.options.occupancy_resolution_m &&
          a.options.bounds == b.options.bounds;
 }
@@ -268,7 +270,8 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
   const std::string other = origins_.other_reader_of(scene);
   if (!other.empty()) {
     log_->warn(
-        "another front reads the scene with another scale, up or unknown: the one that was "
+        "another front reads the scene with another scale, up, unknown or voxel_m: the one that "
+        "was "
         "started last counts",
         {{"scene", scene.name}, {"front", other}});
   }

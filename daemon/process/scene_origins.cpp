@@ -103,8 +103,9 @@ std::string SceneOrigins::arguments_of(const SceneArgument& scene) {
 
 std::string SceneOrigins::reading_of(const SceneArgument& scene) {
   const scene::ImportOptions& import = scene.options.import;
-  return fmt::format("scale {} up {} unknown {}", import.scale, static_cast<int>(import.up),
-                     static_cast<int>(import.unknown));
+  const std::string voxels = import.voxel_m ? fmt::format(" voxel_m {}", *import.voxel_m) : "";
+  return fmt::format("scale {} up {} unknown {}{}", import.scale, static_cast<int>(import.up),
+                     static_cast<int>(import.unknown), voxels);
 }
 
 std::string SceneOrigins::options_of(const SceneArgument& scene) {

@@ -12,7 +12,8 @@ std::span<const FuzzTarget> fuzz_targets() {
       kResponseJsonTarget, kPathJsonTarget,     kSessionTarget,      kImportRecordTarget,
       kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
       kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
-      kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kCameraFileTarget,
+      kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kPointsTarget,
+      kCameraFileTarget,
 #ifdef CAMWAY_WITH_INVENTOR
       kInventorFileTarget,
 #endif

@@ -56,6 +56,7 @@ extern const FuzzTarget kEnvelopeTarget;
 extern const FuzzTarget kFleetTarget;
 extern const FuzzTarget kFleetPartsTarget;
 extern const FuzzTarget kMeshTarget;
+extern const FuzzTarget kPointsTarget;
 extern const FuzzTarget kUnigrafixTarget;
 extern const FuzzTarget kCameraFileTarget;
 extern const FuzzTarget kRequestJsonTarget;

@@ -13,8 +13,25 @@ constexpr double kSameFrame = 1e-6;
 /// Keys that are this much more than a frame apart are a frame apart: files round times to floats.
 constexpr double kRoundedFrame = 0.01;
 constexpr double kUsualRate = 24.0;
-/// Most frames between two keys: a camera that stands still for an hour at 60 frames a second.
+/// Most frames between the keys of a track: a camera that stands still for an hour at 60 frames a
+/// second. Times of a damaged file may be centuries apart, each from the next.
 constexpr double kMostFramesBetween = 216'000.0;
+
+/// The steps from frame to frame between key `i` and the next one.
+double steps_after(const CameraTrack& track, std::size_t i) {
+  const double fps = track.fps.value_or(kUsualRate);
+  const double length_s = track.keys[i + 1].time_s - track.keys[i].time_s;
+  return std::min(kMostFramesBetween, std::ceil(length_s * fps - kRoundedFrame));
+}
+
+/// The most steps between two keys: only where there are too many in all, each has its share.
+double most_steps(const CameraTrack& track) {
+  const std::size_t gaps = track.keys.size() - 1;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < gaps; ++i) sum += steps_after(track, i);
+  if (sum <= kMostFramesBetween + static_cast<double>(gaps)) return kMostFramesBetween;
+  return std::max(1.0, std::floor(kMostFramesBetween / static_cast<double>(gaps)));
+}
 
 }  // namespace
 
@@ -40,8 +57,8 @@ CameraTrack frames_of(const motion::Path& path, double fps, double begin_s) {
 }
 
 CameraTrack with_frames_between(const CameraTrack& track) {
-  if (!track.has_times) return track;
-  const double step_s = 1.0 / track.fps.value_or(kUsualRate);
+  if (!track.has_times || track.keys.empty()) return track;
+  const double most = most_steps(track);
   CameraTrack result = track;
   result.keys.clear();
   result.tangents.clear();
@@ -51,8 +68,7 @@ CameraTrack with_frames_between(const CameraTrack& track) {
     if (i + 1 == track.keys.size()) break;
     const double begin_s = track.keys[i].time_s;
     const double end_s = track.keys[i + 1].time_s;
-    const double steps =
-        std::min(kMostFramesBetween, std::ceil((end_s - begin_s) / step_s - kRoundedFrame));
+    const double steps = std::min(most, steps_after(track, i));
     for (double k = 1.0; k < steps; k += 1.0) {
       const double time_s = begin_s + k * (end_s - begin_s) / steps;
       if (!(time_s > result.keys.back().time_s && time_s < end_s)) continue;

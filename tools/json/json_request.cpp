@@ -140,6 +140,10 @@ SceneReading read_reading(const Field& root) {
   if (reading.scale && !(*reading.scale > 0.0)) root.member("scale").fail_number("be above 0");
   io(may_lack("up"), reading.up);
   io(may_lack("unknown"), reading.unknown);
+  io(may_lack("voxel_m"), reading.voxel_m);
+  if (reading.voxel_m && !scene::VoxelGrid::valid_resolution(*reading.voxel_m)) {
+    root.member("voxel_m").fail_number("be from 1e-9 to 1e9");
+  }
   return reading;
 }
 
@@ -169,8 +173,8 @@ planning::FieldSpelling json_spelling(const DocumentNotes& notes) {
 }
 
 void read_value(const Field& root, RequestFile& request) {
-  root.allow_only(
-      {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
+  root.allow_only({"scene", "scale", "up", "unknown", "voxel_m", "camera", "body", "keyframes",
+                   "frame", "options"});
   const JsonReader io(root);
   io(may_lack("scene"), request.scene);
   request.reading = read_reading(root);

@@ -16,6 +16,7 @@ struct SceneReading {
   std::optional<double> scale;  ///< metres per unit of the file [Limit: 0 < value]
   std::optional<scene::UpAxis> up;
   std::optional<scene::UnknownSpace> unknown;
+  std::optional<double> voxel_m;  ///< edge of a cloud's voxels [Limit: 1e-9 <= value <= 1e9]
 };
 
 /// A mesh file that is the body of a request.

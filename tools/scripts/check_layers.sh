@@ -83,6 +83,8 @@ LC_ALL=C exec awk '
       fault("assimp is for daemon/scene/import/child")
     } else if (file ~ /^(Inventor\/|zlib\.h$)/ && here !~ /^(daemon\/scene\/import\/inventor|tests)$/) {
       fault("Coin and zlib are for daemon/scene/import/inventor")
+    } else if (file ~ /^liblzf\// && here !~ /^(daemon\/scene\/import\/points|tests)$/) {
+      fault("LZF is for daemon/scene/import/points")
     } else if (file ~ /^octo(map|math)\// &&
                here !~ /^(daemon\/scene\/(voxels|mirror|import\/child)|tests)$/) {
       fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")

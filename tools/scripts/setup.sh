@@ -18,6 +18,8 @@ kPackages=(
   libseccomp-dev
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
+  # compressed clouds of points
+  liblzf-dev
   # scenes of Open Inventor and VRML; the build works without
   libcoin-dev zlib1g-dev
   # logs, flags, JSON, configuration files, pictures

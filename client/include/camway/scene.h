@@ -46,8 +46,8 @@ struct SceneRevision {
   std::int64_t restored_revision = 0;  ///< "restore": revision whose objects it has; else 0
 };
 
-/// A mesh or an OctoMap in a file format that Camway reads: a file below the daemon's scene roots,
-/// or bytes to upload.
+/// A mesh, an OctoMap or a cloud of points in a file format that Camway reads: a file below the
+/// daemon's scene roots, or bytes to upload.
 struct SceneMesh {
   std::string file;                 ///< path relative to a scene root of the daemon; empty: `bytes`
   std::vector<std::uint8_t> bytes;  ///< content of a file; used if `file` is empty
@@ -58,6 +58,9 @@ struct SceneMesh {
   /// State of the voxels that an OctoMap does not know. `kOccupied` fills those in the box of the
   /// known voxels, and one layer of voxels around that box.
   enum class Unknown { kFree = 0, kOccupied = 1 } unknown = Unknown::kFree;
+  /// Edge of the voxels of a cloud of points (PCD, XYZ, LAS), in metres. 0: about twice the
+  /// distance of neighbouring points.
+  double voxel_m = 0.0;
 };
 
 /// A box centred at the object's origin.

@@ -28,8 +28,9 @@
 namespace camway::process {
 namespace {
 
-constexpr std::array<std::string_view, 8> kSceneKeys{
-    "name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch", "bounds"};
+constexpr std::array<std::string_view, 9> kSceneKeys{
+    "name",  "file",  "scale", "up", "unknown", "voxel_m", "occupancy_resolution_m",
+    "watch", "bounds"};
 
 constexpr double kMaxSceneNumber = 1e9;
 
@@ -131,6 +132,11 @@ std::string read_number_above_0(const toml::node& node, double& value) {
 /// Applies one key of a [[scene]]. Returns an error about its value, or an empty text.
 std::string apply_to_scene(std::string_view key, const toml::node& node, SceneArgument& scene) {
   if (key == "scale") return read_number_above_0(node, scene.options.import.scale);
+  if (key == "voxel_m") {
+    const double voxel_m = node.value<double>().value_or(0.0);
+    scene.options.import.voxel_m = voxel_m;
+    return scene::VoxelGrid::valid_resolution(voxel_m) ? "" : messages::kResolutionRule;
+  }
   if (key == "occupancy_resolution_m") {
     const double resolution_m = node.value<double>().value_or(0.0);
     scene.options.occupancy_resolution_m = resolution_m;

@@ -16,7 +16,7 @@
 namespace camway::process {
 namespace {
 
-constexpr std::array<std::string_view, 6> kOptionNames{"scale",     "up",    "unknown",
+constexpr std::array<std::string_view, 7> kOptionNames{"scale",     "up",    "unknown", "voxel_m",
                                                        "occupancy", "watch", "bounds"};
 
 std::optional<double> positive_number(std::string_view text) {
@@ -61,7 +61,11 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     scene.options.import.scale = *number;
     return {};
   }
-  scene.options.occupancy_resolution_m = *number;
+  if (key == "voxel_m") {
+    scene.options.import.voxel_m = *number;
+  } else {
+    scene.options.occupancy_resolution_m = *number;
+  }
   if (scene::VoxelGrid::valid_resolution(*number)) return {};
   return std::string(key) + "=" + std::string(value) + ": " + messages::kResolutionRule;
 }
@@ -77,7 +81,8 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
     const std::string_view key = last.substr(0, equals);
     if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
       return "'" + std::string(key) +
-             "' is no option of a scene (scale, up, unknown, occupancy, watch, bounds are)";
+             "' is no option of a scene (scale, up, unknown, voxel_m, occupancy, watch, bounds "
+             "are)";
     }
     if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
       return error;

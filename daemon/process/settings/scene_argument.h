@@ -22,7 +22,8 @@ struct SceneArgument {
 
 /// The form of a scene argument, for `--help`.
 inline constexpr char kSceneArgumentForm[] =
-    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"
+    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,voxel_m=EDGE_M][,occupancy="
+    "RESOLUTION_M]"
     "[,watch=yes|no][,bounds=X0..X1/Y0..Y1/Z0..Z1]";
 
 /// Reads `text` of that form. Options are taken off the end, so a FILE may hold commas unless the

@@ -68,13 +68,20 @@ std::string describe(const fs::path& file, const ImportProcessResult& process,
   return "cannot be imported";
 }
 
+/// The bounds of a record's mesh in the frame of the scene.
+geometry::Box bounds_of(const ImportRecordResult& record) {
+  geometry::Box bounds = record.mesh->bounds();
+  if (!bounds.isEmpty()) bounds.translate(record.map_origin_m);
+  return bounds;
+}
+
 /// See `ImportReport::rounding_m`. The reader's rounding is relative to coordinates or absolute in
 /// file units; the product with the scale rounds once more, and so does the product of a scale with
 /// the unit of the file.
-double rounding_m(const ImportRecordResult& record, const Mesh& mesh, const ImportReport& report,
+double rounding_m(const ImportRecordResult& record, const ImportReport& report,
                   double asked_scale) {
-  if (mesh.triangles.empty()) return 0.0;
-  const geometry::Box bounds_m = mesh.bounds();
+  const geometry::Box& bounds_m = report.bounds_m;
+  if (bounds_m.isEmpty()) return 0.0;
   const double largest_m = bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
   const bool has_product = report.unit_m != 0.0 && asked_scale != 1.0;
   const double of_scale = (report.scale == 1.0 ? 0.0 : geometry::kUnitRoundoff) +
@@ -101,13 +108,14 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
   report.objects = mesh.objects.size();
-  report.bounds_m = mesh.bounds();
-  report.rounding_m = rounding_m(record, mesh, report, options.scale);
+  report.bounds_m = bounds_of(record);
+  report.rounding_m = rounding_m(record, report, options.scale);
   report.surface_error_m = record.surface_error * report.scale;
   if (mesh.triangles.empty()) {
     return record.map ? "holds no occupied voxel" : "holds no triangle with an area";
   }
   result.map = std::move(record.map);
+  result.map_origin_m = record.map_origin_m;
   result.mesh = std::move(record.mesh);
   return "";
 }

@@ -20,6 +20,8 @@ namespace camway::scene {
 struct ImportResult {
   std::optional<Mesh> mesh;
   std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null for a mesh
+  /// Where the frame of the map, and of its mesh, begins in the frame of the scene.
+  geometry::Vec3 map_origin_m = geometry::Vec3::Zero();
   ImportReport report;
   std::string error;           ///< names the file; empty exactly when `mesh` holds a value
   Limit limit = Limit::kNone;  ///< limit that the error is about
@@ -27,10 +29,11 @@ struct ImportResult {
 
 /// Reads a scene file in a child process with limits of memory and time, since a hostile file of a
 /// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY, STL and UniGrafix with our own
-/// readers (`readers/mesh_reader.h`, `unigrafix/unigrafix_reader.h`), occupancy maps (.bt and .ot)
-/// with OctoMap, Open Inventor and VRML with Coin, other formats with assimp. Checks the result
-/// again (indices, finiteness, counts). Never throws for a bad file. Fails within milliseconds
-/// after a stop is requested. Thread-safe.
+/// readers (`readers/mesh_reader.h`, `unigrafix/unigrafix_reader.h`), clouds of points and voxels
+/// of Gaussian splats, too, as occupancy maps (`points/point_reader.h`, `child/splat_voxels.h`),
+/// occupancy maps (.bt and .ot) with OctoMap, Open Inventor and VRML with Coin, other formats with
+/// assimp. Checks the result again (indices, finiteness, counts). Never throws for a bad file.
+/// Fails within milliseconds after a stop is requested. Thread-safe.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,
                          const std::stop_token& stop = {});
 

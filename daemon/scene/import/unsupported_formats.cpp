@@ -16,13 +16,11 @@ struct Unsupported {
 constexpr std::string_view kUsd = "USD is not supported: export glTF from the same program";
 constexpr std::string_view kSolids =
     "solids of CAD programs (STEP, IGES) are not supported: export a mesh (OBJ, STL, glTF)";
-constexpr std::string_view kPoints =
-    "a cloud of points is no surface: make it an occupancy map (camway scene add --map, scene "
-    "scan)";
 constexpr std::string_view kSplat =
-    "Gaussian splats are no surface: export their collision mesh (.collision.glb)";
+    "Gaussian splats are no surface: export their voxels (.voxel.json) or their collision mesh "
+    "(.collision.glb)";
 
-constexpr std::array<Unsupported, 21> kUnsupported = {{
+constexpr std::array<Unsupported, 18> kUnsupported = {{
     {".usd", kUsd},
     {".usda", kUsd},
     {".usdc", kUsd},
@@ -31,11 +29,9 @@ constexpr std::array<Unsupported, 21> kUnsupported = {{
     {".stp", kSolids},
     {".iges", kSolids},
     {".igs", kSolids},
-    {".pcd", kPoints},
-    {".xyz", kPoints},
-    {".las", kPoints},
-    {".laz", kPoints},
-    {".e57", kPoints},
+    {".laz",
+     "compressed LAS is not supported: make .las of it, with laszip, las2las or CloudCompare"},
+    {".e57", "E57 is not supported: save the points as .las, .pcd or .xyz, as CloudCompare does"},
     {".splat", kSplat},
     {".spz", kSplat},
     {".sog", kSplat},

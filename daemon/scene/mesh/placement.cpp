@@ -34,6 +34,10 @@ Placement Placement::of_unit(const Vec3& position_W, const Quat& orientation_WO)
   return placement;
 }
 
+Placement Placement::with_origin(const Vec3& origin_O) const {
+  return origin_O.isZero(0.0) ? *this : of_unit(to_world(origin_O), orientation_WO_);
+}
+
 Mesh placed_mesh(const Mesh& mesh_O, const Placement& placement) {
   Mesh mesh = mesh_O;
   for (Vec3& vertex : mesh.vertices) vertex = placement.to_world(vertex);

@@ -35,6 +35,9 @@ class Placement {
   [[nodiscard]] const geometry::Vec3& position_W() const { return position_W_; }
   /// Returns the rotation, of unit length up to rounding.
   [[nodiscard]] const geometry::Quat& orientation_WO() const { return orientation_WO_; }
+  /// Returns the placement of a frame that has the axes of the object and begins at `origin_O` in
+  /// it. Rounded as `to_world`; without a rotation, the position is a sum that rounds once.
+  [[nodiscard]] Placement with_origin(const geometry::Vec3& origin_O) const;
   /// Returns whether both placements hold equal numbers. Then they map every point to equal
   /// coordinates (0 and -0 count as equal).
   bool operator==(const Placement& other) const {

@@ -44,7 +44,7 @@ class Collector {
 
   void change(const Object& old, const Object& now) {
     const bool is_scanned =
-        old->source->map_O && now->source->map_O && old->placement == now->placement &&
+        old->source->map_O && now->source->map_O && old->parts_placement == now->parts_placement &&
         old->source->map_O->resolution_m() == now->source->map_O->resolution_m();
     if (!is_scanned) {
       go(old);

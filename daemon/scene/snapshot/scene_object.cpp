@@ -35,7 +35,7 @@ std::vector<std::shared_ptr<const PlacedPart>> parts_there(const ObjectSource& s
                                                            const Placement& placement,
                                                            const SceneObject* before) {
   std::vector<std::shared_ptr<const PlacedPart>> parts(source.parts_O.size());
-  if (before == nullptr || !(before->placement == placement)) return parts;
+  if (before == nullptr || !(before->parts_placement == placement)) return parts;
   const std::vector<MeshPart>& olds = before->source->parts_O;
   std::size_t old = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -93,7 +93,7 @@ std::string digest_of(const SceneObject& object) {
 
 /// Whether the voxels of the mirror are those of the object's map.
 bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
-  return object.source->map_O && object.placement.is_identity() &&
+  return object.source->map_O && object.parts_placement.is_identity() &&
          object.source->map_O->resolution_m() == *options.occupancy_resolution_m;
 }
 
@@ -205,7 +205,8 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
 
 std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
                                                     ImportReport report,
-                                                    const ObjectOptions& options) {
+                                                    const ObjectOptions& options,
+                                                    const geometry::Vec3& map_origin_O) {
   assert(map_O && map_O->faces());
   auto source = std::make_shared<ObjectSource>();
   source->kind = ObjectKind::kMap;
@@ -215,12 +216,13 @@ std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelM
   source->why_no_field =
       options.field ? "occupancy maps have none, so that scans are quick" : "it was not asked for";
   source->map_O = std::move(map_O);
+  source->map_origin_O = map_origin_O;
   return source;
 }
 
 std::optional<PlacedVoxelMap> SceneObject::solid() const {
   if (!source->map_O) return std::nullopt;
-  return PlacedVoxelMap{source->map_O, placement, bounds_W};
+  return PlacedVoxelMap{source->map_O, parts_placement, bounds_W};
 }
 
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
@@ -228,18 +230,20 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
                           const SceneObject* before, const std::stop_token& stop) {
   assert(source);
   auto object = std::make_shared<SceneObject>();
-  object->parts = placed_parts(*source, placement, options.index, before, stop);
+  const Placement of_parts = placement.with_origin(source->map_origin_O);
+  object->parts = placed_parts(*source, of_parts, options.index, before, stop);
   if (stop.stop_requested()) return {nullptr, name + ": making it was cancelled"};
   for (const auto& part : object->parts) {
     object->bounds_W.extend(part->indexed->tree.bounds());
     object->triangles += part->indexed->mesh->triangles.size();
   }
   // An object imported with the identity keeps its own, wider limit.
-  if (!placement.is_identity() && is_too_far(object->bounds_W)) {
+  if (!of_parts.is_identity() && is_too_far(object->bounds_W)) {
     return {nullptr, name + ": would lie more than 1e9 m from the origin"};
   }
   object->source = std::move(source);
   object->placement = placement;
+  object->parts_placement = of_parts;
   object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
     ObjectMirror::BuildResult mirror = mirror_of(*object, options, before, stop);

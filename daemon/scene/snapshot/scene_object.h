@@ -41,11 +41,15 @@ const char* to_string(ObjectKind kind);
 /// it.
 struct ObjectSource {
   ObjectKind kind = ObjectKind::kMesh;
-  /// Meshes in the frame of the object: one for a mesh or a shape; one for each brick with faces of
-  /// an occupancy map, where the maps before and after a scan share equal bricks.
+  /// Meshes in the frame of the object (for a map see `map_origin_O`): one for a mesh or a shape;
+  /// one for each brick with faces of an occupancy map, where the maps before and after a scan
+  /// share equal bricks.
   std::vector<MeshPart> parts_O;
-  std::shared_ptr<const VoxelMap> map_O;         ///< map whose faces the parts are; kMap only
-  geometry::Box bounds_O;                        ///< bounds of all parts
+  std::shared_ptr<const VoxelMap> map_O;  ///< map whose faces the parts are; kMap only
+  /// Where the frame of the map and of the parts begins in the frame of the object, which has equal
+  /// axes: voxels are numbered from here. Zero for all but maps.
+  geometry::Vec3 map_origin_O = geometry::Vec3::Zero();
+  geometry::Box bounds_O;                        ///< bounds of all parts, in their frame
   std::shared_ptr<const DistanceField> field_O;  ///< null if there is none
   std::string why_no_field;                      ///< empty exactly when `field_O` is set
   ImportReport report;
@@ -63,11 +67,11 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
 
 /// Builds the content of an occupancy map; `report` counts its faces. The object has no distance
 /// field. A field depends on the whole map, so each scan would rebuild it; and planning in maps of
-/// buildings was measured to be no more than a tenth faster with a field. Requires that the map has
-/// a `faces`.
-std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
-                                                    ImportReport report,
-                                                    const ObjectOptions& options);
+/// buildings was measured to be no more than a tenth faster with a field. `map_origin_O`: where the
+/// frame of the map begins in the frame of the object. Requires that the map has a `faces`.
+std::shared_ptr<const ObjectSource> make_map_source(
+    std::shared_ptr<const VoxelMap> map_O, ImportReport report, const ObjectOptions& options,
+    const geometry::Vec3& map_origin_O = geometry::Vec3::Zero());
 
 /// Returns the report that an import of this mesh would have made.
 ImportReport report_of(const Mesh& mesh, std::string format);
@@ -86,6 +90,9 @@ struct SceneObject {
   std::string name;
   std::shared_ptr<const ObjectSource> source;
   Placement placement;
+  /// Maps the frame of the source's parts to the world: other than `placement` only for a map with
+  /// an origin (`ObjectSource::map_origin_O`).
+  Placement parts_placement;
   std::vector<std::shared_ptr<const PlacedPart>> parts;  ///< the source's parts, in their order
   geometry::Box bounds_W;                                ///< bounds of all parts
   std::size_t triangles = 0;

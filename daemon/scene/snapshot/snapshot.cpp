@@ -176,7 +176,8 @@ SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file
   if (!import.mesh) return {nullptr, import.error, import.limit};
   const bool is_map = import.map != nullptr;
   const std::shared_ptr<const ObjectSource> source =
-      is_map ? make_map_source(std::move(import.map), std::move(import.report), options)
+      is_map ? make_map_source(std::move(import.map), std::move(import.report), options,
+                               import.map_origin_m)
              : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),
                            options);
   SnapshotResult result = build(std::move(name), source, options, stop);

@@ -55,7 +55,7 @@ std::vector<const void*> used_members(const Request& r) {
   add(counts.of({Request::BOX}), {&r.size_m});
   add(counts.of({Request::SPHERE, Request::CYLINDER}), {&r.radius_m, &r.chord_error_m});
   add(counts.of({Request::CYLINDER}), {&r.height_m});
-  add(counts.of({Request::MAP, Request::POINTS}), {&r.cell_m});
+  add(counts.of_mesh() || counts.of({Request::MAP, Request::POINTS}), {&r.cell_m});
   add(is_map, {&r.hit_probability, &r.miss_probability, &r.least_probability, &r.most_probability,
                &r.max_range_m});
   add(is_posed || is_scan || counts.in({Request::REMOVE}), {&r.object});

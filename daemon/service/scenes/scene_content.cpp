@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/messages/scene_names.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/map_scan.h"
@@ -49,6 +50,12 @@ Made<scene::ImportOptions> import_options(const Request& request, const SceneRul
   const Made<scene::UnknownSpace> unknown = unknown_space(request);
   if (!unknown) return base::Failure{unknown.error};
   options.unknown = *unknown;
+  if (request.cell_m != 0.0) {
+    if (!scene::VoxelGrid::valid_resolution(request.cell_m)) {
+      return base::Failure{std::string("cell_m: ") + messages::kResolutionRule};
+    }
+    options.voxel_m = request.cell_m;
+  }
   switch (request.up) {
     case Request::UP_AS_IN_FILE:
       break;
@@ -69,7 +76,8 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
   scene::ImportResult result = scene::import_mesh(file, options, stop);
   if (result.mesh) {
     const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
-    return Content{kind, std::move(*result.mesh), std::move(result.report), result.map};
+    return Content{kind, std::move(*result.mesh), std::move(result.report), result.map,
+                   result.map_origin_m};
   }
   // The path on the daemon's disk is replaced by the name in the request: clients must not see it.
   std::string error = std::move(result.error);
@@ -116,7 +124,8 @@ Made<Content> empty_map(const Request& request, const SceneRules& rules) {
 std::shared_ptr<const scene::ObjectSource> source_of(Content content,
                                                      const scene::ObjectOptions& options) {
   if (content.map) {
-    return scene::make_map_source(std::move(content.map), std::move(content.report), options);
+    return scene::make_map_source(std::move(content.map), std::move(content.report), options,
+                                  content.map_origin_O);
   }
   return scene::make_source(content.kind, std::move(content.mesh), std::move(content.report),
                             options);
@@ -175,14 +184,15 @@ std::optional<scene::ObjectKind> kind_of(const Request& request) {
   }
 }
 
-Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
+Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map, const Vec3& origin_O) {
   if (!map->faces()) {
     return {
         base::Failure{fmt::format("the map has more than {} triangles", map->limits().triangles)},
         scene::Limit::kMapTriangles};
   }
   scene::ImportReport report = scene::report_of(*map, "OctoMap");
-  return Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)};
+  if (!report.bounds_m.isEmpty()) report.bounds_m.translate(origin_O);
+  return Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map), origin_O};
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,

@@ -36,6 +36,7 @@ struct Content {
   scene::Mesh mesh;  ///< empty if the content is a map
   scene::ImportReport report;
   std::shared_ptr<const scene::VoxelMap> map = nullptr;
+  geometry::Vec3 map_origin_O = geometry::Vec3::Zero();  ///< `scene::ObjectSource::map_origin_O`
 };
 
 /// Returns the source of an object with that content; takes time proportional to the content.
@@ -62,7 +63,8 @@ Made<Content> make_mesh(const scene_request_t& request, scene::ObjectKind kind,
 /// Reads the points of an upload of doubles. An error if its size is not that of whole points.
 Made<std::vector<geometry::Vec3>> read_points(const UploadedBytes& upload);
 
-/// Returns the content of an object that is this map.
-Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map);
+/// Returns the content of an object that is this map, which begins at `origin_O` in it.
+Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map,
+                     const geometry::Vec3& origin_O = geometry::Vec3::Zero());
 
 }  // namespace camway::service

@@ -241,15 +241,15 @@ class SceneOperation {
     }
     Made<std::vector<Vec3>> points = read_points(upload_);
     if (!points) return invalid(points.error);
-    const scene::Placement placement = object->placement;
-    for (Vec3& point : *points) point = placement.to_object(point);
-    const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points};
+    const scene::Placement& map_placement = object->parts_placement;
+    for (Vec3& point : *points) point = map_placement.to_object(point);
+    const scene::Scan seen{map_placement.to_object(vec3(request_.position_m)), *points};
     scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
     if (!next.map) return refused(next.error, next.limit);
-    Made<Content> made = of_map(std::move(next.map));
+    Made<Content> made = of_map(std::move(next.map), object->source->map_origin_O);
     if (!made) return refused(made.error, made.limit);
     return change({SceneChange::Kind::kPut, request_.object,
-                   source_of(*std::move(made), snapshot->options), placement},
+                   source_of(*std::move(made), snapshot->options), object->placement},
                   "");
   }
 

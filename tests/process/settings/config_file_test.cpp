@@ -72,6 +72,10 @@ TEST_F(ConfigFile, TheSceneOfTheSampleIsThere) {
   ASSERT_EQ(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = true\n"),
             std::vector<std::string>{});
   EXPECT_TRUE(options_.scenes.back().watch);
+  EXPECT_FALSE(options_.scenes.back().options.import.voxel_m);
+  ASSERT_EQ(read("[[scene]]\nname = \"b\"\nfile = \"f\"\nvoxel_m = 0.02\n"),
+            std::vector<std::string>{});
+  EXPECT_EQ(options_.scenes.back().options.import.voxel_m, 0.02);
   EXPECT_FALSE(options_.scenes.back().options.bounds.any());
   EXPECT_THAT(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nbounds = \"2..1/../..\"\n"),
               ::testing::ElementsAre(::testing::HasSubstr("bounds '2..1/../..': min[0]")));
@@ -97,7 +101,7 @@ TEST_F(ConfigFile, EverySettingIsNamedWhereItsValueIsWrong) {
     if (!setting.is_switch()) expect_named(head, key, "true");
   }
   for (const char* key :
-       {"name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch"}) {
+       {"name", "file", "scale", "up", "unknown", "voxel_m", "occupancy_resolution_m", "watch"}) {
     for (const char* value : {"[]", "{}", "1979-05-27", "nan", "-1"}) {
       expect_named("[[scene]]", key, value);
     }
@@ -116,7 +120,8 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\noccupancy_resolution_m = 1e-10\n",
        ":4: scene.occupancy_resolution_m: must be from 1e-9"},
       {"\nqueue = 1\n", ":2: 'queue' must be a table"},
-      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, fleet, lcm, "},
+      {"[lcm]\n\n[qeue]\nrequests = 1\n",
+       ":3: 'qeue' is no setting; the file has auth, fleet, lcm, "},
       {"[queue]\nlenght = 5\n",
        ":2: 'queue.lenght' is no setting; [queue] has answer_bytes, answer_pages, answers, "
        "answers_of_a_client, malformed_answers_per_s, newcomers_count_as, refusals, "

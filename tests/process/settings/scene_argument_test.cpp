@@ -33,6 +33,8 @@ TEST(SceneArgument, OptionsInAnyOrder) {
   EXPECT_FALSE(parsed("a=b").watch);
   EXPECT_FALSE(parsed("a=b,watch=no").watch);
   EXPECT_TRUE(parsed("a=b,watch=yes,scale=2").watch);
+  EXPECT_EQ(parsed("a=b.las,voxel_m=0.02,scale=2").options.import.voxel_m, 0.02);
+  EXPECT_FALSE(parsed("a=b.las,occupancy=0.1").options.import.voxel_m);
   EXPECT_EQ(parsed("a=b,up=y-to-z").options.import.up, scene::UpAxis::kYToZ);
   const geometry::Bounds bounds = parsed("a=b,bounds=-3..3.5/0../..,scale=2").options.bounds;
   EXPECT_EQ(bounds.min_W.head<2>(), Eigen::Vector2d(-3, 0));

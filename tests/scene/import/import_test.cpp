@@ -450,7 +450,7 @@ TEST_F(Import, SaysWhatToDoWithFormatsThatAreNotRead) {
   EXPECT_THAT(error_of(write("a.usda", "#usda 1.0\n")),
               HasSubstr("USD is not supported: export glTF"));
   EXPECT_THAT(error_of(write("a.STEP", "ISO-10303-21;\n")), HasSubstr("export a mesh"));
-  EXPECT_THAT(error_of(write("a.pcd", "VERSION 0.7\n")), HasSubstr("no surface"));
+  EXPECT_THAT(error_of(write("a.laz", "LASF")), HasSubstr("las2las"));
   const std::string gltf =
       R"({"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_meshopt_compression"],
           "scene": 0, "scenes": [{}], "buffers": [{"byteLength": 4}]})";

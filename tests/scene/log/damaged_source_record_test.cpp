@@ -92,6 +92,7 @@ std::vector<SmallRecord> small_records(testing::Random& random) {
     records.push_back({record_of(*map), nullptr});
     const SourcePtr next = source_of_map(scanned_sample(random, *map->map_O, 1, 0.3));
     records.push_back({record_of(*next), nullptr});
+    records.push_back({record_of(*source_of_map(map->map_O, {0.25, -3.0, 1e5})), nullptr});
     const SourcePtr base = source_of_map(scanned_sample(random, *map->map_O, 30, 1.5));
     const SourcePtr last = source_of_map(scanned_sample(random, *base->map_O, 1, 0.3));
     const auto difference = record_of_difference(*last, *base, blob_id_of({}));
@@ -149,9 +150,9 @@ TEST(DamagedSourceRecord, SaysWhatIsWrong) {
   EXPECT_THAT(error_of({}), HasSubstr("no content of an object"));
   const Bytes record = small_records(random)[0].bytes;
   Bytes newer = record;
-  newer[8] = std::byte{3};
-  EXPECT_THAT(error_of(newer), HasSubstr("version 3"));
-  EXPECT_THAT(base_of_record(newer).error, HasSubstr("version 3"));
+  newer[8] = std::byte{4};
+  EXPECT_THAT(error_of(newer), HasSubstr("version 4"));
+  EXPECT_THAT(base_of_record(newer).error, HasSubstr("version 4"));
   Bytes odd = record;
   odd[12] = std::byte{6};
   EXPECT_THAT(error_of(odd), HasSubstr("header"));

@@ -59,6 +59,7 @@ void expect_equal(const ObjectSource& a, const ObjectSource& b) {
     ASSERT_NO_FATAL_FAILURE(testing::expect_same_mesh(*a.parts_O[i].mesh, *b.parts_O[i].mesh));
   }
   ASSERT_EQ(a.map_O == nullptr, b.map_O == nullptr);
+  EXPECT_EQ(a.map_origin_O, b.map_origin_O);
   if (a.map_O) expect_equal(*a.map_O, *b.map_O);
 }
 
@@ -94,6 +95,17 @@ TEST(SourceRecord, GivesBackAnyMesh) {
     ASSERT_FALSE(*base_of_record(record));
     ASSERT_NO_FATAL_FAILURE(expect_same(source, decoded(record)));
   }
+}
+
+TEST(SourceRecord, IsWhatItWasWhereAMapBeginsWhereItsObjectDoes) {
+  testing::Random random(kRecordSeed);
+  const auto map = map_sample(random, UnknownSpace::kFree, 50);
+  const Bytes before = record_of(*source_of_map(map));
+  EXPECT_EQ(before[sizeof(std::uint64_t)], std::byte{1});
+  const Bytes moved = record_of(*source_of_map(map, {0.0, 0.25, 0.0}));
+  EXPECT_EQ(moved[sizeof(std::uint64_t)], std::byte{3});
+  EXPECT_EQ(moved.size(), before.size() + 3 * sizeof(double));
+  ASSERT_NO_FATAL_FAILURE(expect_same(source_of_map(map, {0.0, 0.25, 0.0}), decoded(moved)));
 }
 
 TEST(SourceRecord, GivesBackTheFieldThatTheOptionsAskFor) {

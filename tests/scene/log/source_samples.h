@@ -119,20 +119,25 @@ inline std::shared_ptr<const VoxelMap> scanned_sample(testing::Random& random, c
   return result.map;
 }
 
-inline SourcePtr source_of_map(std::shared_ptr<const VoxelMap> map) {
+inline SourcePtr source_of_map(std::shared_ptr<const VoxelMap> map,
+                               const geometry::Vec3& origin = geometry::Vec3::Zero()) {
   const ImportReport report = report_of(*map, "OctoMap");
-  return make_map_source(std::move(map), report, without_field());
+  return make_map_source(std::move(map), report, without_field(), origin);
 }
 
 /// Returns a series of maps, each after one scan of the map before; the later scans are small.
 inline std::vector<SourcePtr> scanned_samples(testing::Random& random, UnknownSpace unknown) {
   SensorModel sensor;
   if (random.chance(0.5)) sensor = {0.8, 0.3, 0.05, 0.9, 2.5};
-  std::vector<SourcePtr> sources{source_of_map(map_sample(random, unknown, 300, sensor))};
+  // Most maps begin where their object does.
+  const geometry::Vec3 origin =
+      random.chance(0.4) ? random.in_cube(1e6) : geometry::Vec3(geometry::Vec3::Zero());
+  std::vector<SourcePtr> sources{source_of_map(map_sample(random, unknown, 300, sensor), origin)};
   for (int i = 0; i < 10; ++i) {
     const VoxelMap& before = *sources.back()->map_O;
-    sources.push_back(source_of_map(i < 3 ? scanned_sample(random, before, 200, 3.0)
-                                          : scanned_sample(random, before, 3, 1.0)));
+    sources.push_back(source_of_map(
+        i < 3 ? scanned_sample(random, before, 200, 3.0) : scanned_sample(random, before, 3, 1.0),
+        origin));
   }
   return sources;
 }

@@ -31,6 +31,7 @@ TEST(SceneIdle, WhatTheOperationNamesCounts) {
   load.unknown = Request::UNKNOWN_OCCUPIED;
   load.occupancy_resolution_m = 0.1;
   load.body_bounds.has_min[1] = 1;
+  load.cell_m = 0.02;
   EXPECT_EQ(ineffective_member(load), "");
   Request put = request(Request::PUT, Request::CYLINDER);
   put.object = "pillar";

@@ -215,6 +215,44 @@ TEST_F(SceneServiceTest, LoadsWhatIsUploaded) {
   EXPECT_EQ(put.objects[0].kind, "point cloud");
 }
 
+/// The points of a survey, far from the origin, and then those of a scan in the same place.
+TEST_F(SceneServiceTest, MakesAMapOfAnUploadedCloudAndScansIntoIt) {
+  ASSERT_EQ(ask(request_for(1, scene_request_t::LOAD, "site")).status, scene_response_t::STATUS_OK);
+  const std::string text = "635619.85 848899.7 406.59\n635621.05 848899.7 406.59\n";
+  scene_request_t put = request_for(2, scene_request_t::PUT, "site", "survey");
+  put.kind = scene_request_t::MESH;
+  put.upload_format = "xyz";
+  put.cell_m = 0.1;
+  put.position_m[2] = 100.0;
+  upload(Bytes(text.begin(), text.end()), put);
+  const scene_response_t made = ask(put);
+  ASSERT_EQ(made.status, scene_response_t::STATUS_OK) << made.message;
+  EXPECT_EQ(made.objects[0].kind, "occupancy map");
+  EXPECT_EQ(made.scene.num_triangles, 2 * 12);
+  EXPECT_EQ(made.objects[0].position_m[0], 0.0);
+  EXPECT_NEAR(made.objects[0].bounds_min_m[2], 506.59, 0.1);
+
+  scene_request_t scan = request_for(3, scene_request_t::SCAN, "site", "survey");
+  const double seen[] = {635620.45, 848899.75, 506.55};
+  scan.position_m[0] = 635620.45;
+  scan.position_m[1] = 848899.75;
+  scan.position_m[2] = 507.0;
+  Bytes bytes(sizeof seen);
+  std::memcpy(bytes.data(), seen, sizeof seen);
+  upload(bytes, scan);
+  const scene_response_t scanned = ask(scan);
+  ASSERT_EQ(scanned.status, scene_response_t::STATUS_OK) << scanned.message;
+  const auto snapshot = running_.scenes.find("site");
+  EXPECT_EQ(snapshot->objects[0]->source->map_O->occupied().size(), 3U);
+  EXPECT_TRUE(snapshot->solids->hold({635620.45, 848899.75, 506.55}));
+  EXPECT_TRUE(snapshot->solids->hold({635619.85, 848899.7, 506.59}));
+  EXPECT_FALSE(snapshot->solids->hold({635620.45, 848899.75, 506.75}));
+
+  put.request_id = 4;
+  put.cell_m = -1.0;
+  EXPECT_THAT(ask(put).message, HasSubstr("cell_m: must be from 1e-9 to 1e9 m"));
+}
+
 /// A daemon that was started anew has the history of durable scenes, but neither answers nor
 /// uploads.
 TEST_F(SceneServiceTest, MakesAChangeOnceThoughTheUploadIsGoneWithTheDaemonBefore) {

@@ -116,5 +116,17 @@ TEST(PathSamples, PutFramesBetweenKeysThatAreFarApart) {
   EXPECT_EQ(with_frames_between(track).keys.size(), 3U);
 }
 
+TEST(FramesBetween, AreBoundedWhereTimesAreCenturiesApart) {
+  CameraTrack track;
+  track.has_times = true;
+  for (int i = 0; i < 3000; ++i) {
+    // Two seconds from one key to the next, and now and then a gap that no camera films.
+    track.keys.push_back({2.0 * i + 1e12 * (i / 10), motion::Pose{}, std::nullopt});
+  }
+  const CameraTrack dense = with_frames_between(track);
+  EXPECT_LE(dense.keys.size(), 216'000U + track.keys.size());
+  EXPECT_GE(dense.keys.size(), 2700U * 48U) << "ordinary gaps keep their frames";
+}
+
 }  // namespace
 }  // namespace camway::tools

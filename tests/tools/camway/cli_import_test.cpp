@@ -132,6 +132,35 @@ TEST_F(CliImport, WarnsOfWhatIsLeftOut) {
   EXPECT_THAT(read_all(response), HasSubstr("\"warnings\": [\n    \"the scene is"));
 }
 
+/// A wall of points, 635 km from the origin, that a path has to go over.
+TEST_F(CliImport, LeadsAPathRoundAWallOfPoints) {
+  constexpr double kFar_m = 635'000.0;
+  std::string points = "x y z\n";
+  for (int i = -40; i <= 40; ++i) {
+    for (int k = -40; k <= 10; ++k) {
+      points += fmt::format("{} {} 0\n", kFar_m + 0.05 * i, 0.05 * k);
+    }
+  }
+  const std::string scene = folder_.write("wall.xyz", points);
+  const std::string response = folder_.file("round.json");
+  const std::string request = folder_.write(
+      "far.json", request_json({keyframe_json(kFar_m, 0, 1), keyframe_json(kFar_m, 0, -1)}));
+  CliRun run = run_camway({"plan", "--scene", scene, "--request", request, "--response", response});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("1 collision at first"));
+  run = run_camway({"check", "--scene", scene, "--request", request, "--response", response});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  // Voxels of 1 cm are 4 cm apart, so each has all of its faces.
+  run = run_camway({"info", "--json", "--voxel-m", "0.01", scene});
+  const auto info = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_TRUE(info.is_object()) << run.out << run.err;
+  EXPECT_EQ(info["import"]["triangles"], 12 * 81 * 51);
+  run = run_camway(
+      {"plan", "--scene", scene, "--request", request, "--response", response, "--voxel-m", "3"});
+  EXPECT_EQ(run.exit_code, 2) << "a keyframe is in a voxel";
+  EXPECT_THAT(run.err, HasSubstr("keyframe"));
+}
+
 TEST_F(CliImport, IsSilentAboutASoundScene) {
   const std::string response = path_at(5.0);
   EXPECT_THAT(read_all(response), Not(HasSubstr("warnings")));

@@ -86,7 +86,8 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("camera": {)", R"("_camera": {)", "camera: is missing"},
       {R"("near": 0.1)", R"("_near": 0.1)", "camera.near: is missing"},
       {R"("camera": {)", R"("kamera": {)",
-       "kamera: is unknown; a request has scene, scale, up, unknown, camera, body, keyframes, "
+       "kamera: is unknown; a request has scene, scale, up, unknown, voxel_m, camera, body, "
+       "keyframes, "
        "frame, options, and for remarks comment or _..."},
       {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
        "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
@@ -268,15 +269,20 @@ TEST(JsonRequest, QuaternionsMayBeWrittenXyzw) {
 TEST(JsonRequest, SaysHowToReadTheScene) {
   const auto said = parse_as<RequestFile>(
       edited(R"("scene": "office.obj")",
-             R"("scene": "office.obj", "scale": 0.0254, "up": "z-to-y", "unknown": "occupied")"),
+             R"("scene": "office.obj", "scale": 0.0254, "up": "z-to-y", "unknown": "occupied",
+              "voxel_m": 0.02)"),
       "R.json");
   ASSERT_TRUE(said.value) << said.error;
   EXPECT_EQ(said.value->reading.scale, 0.0254);
   EXPECT_EQ(said.value->reading.up, scene::UpAxis::kZToY);
   EXPECT_EQ(said.value->reading.unknown, scene::UnknownSpace::kOccupied);
+  EXPECT_EQ(said.value->reading.voxel_m, 0.02);
+  const auto tiny = parse_as<RequestFile>(
+      edited(R"("scene": "office.obj")", R"("scene": "office.obj", "voxel_m": 1e-10)"), "R.json");
+  EXPECT_THAT(tiny.error, ::testing::HasSubstr("voxel_m: is 1e-10; it must be from 1e-9 to 1e9"));
   const auto silent = parse_as<RequestFile>(kGoodRequest, "R.json");
   EXPECT_FALSE(silent.value->reading.scale || silent.value->reading.up ||
-               silent.value->reading.unknown);
+               silent.value->reading.unknown || silent.value->reading.voxel_m);
 }
 
 TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {

@@ -7,6 +7,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/scene/import/record/import_words.h"
+#include "daemon/scene/voxels/voxel_grid.h"
 #include "tools/camway/common/commands.h"
 
 namespace camway::tools {
@@ -30,12 +31,21 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
       command, "--unknown", flags.reading.unknown, base::named_values<scene::UnknownSpace>(),
       "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [" + first + "free]")
       ->type_name("STATE");
+  command
+      .add_option("--voxel-m", flags.reading.voxel_m,
+                  "Edge of the voxels that the points of a cloud (.pcd, .xyz, .las) become, metres "
+                  "[" +
+                      first + "about twice the distance of neighbouring points]")
+      ->type_name("METRES")
+      ->check(cli_support::between(scene::VoxelGrid::kMinResolutionM,
+                                   scene::VoxelGrid::kMaxResolutionM));
   command.add_flag("--no-cache", flags.no_cache,
                    "Read and prepare the scene, even if the cache holds it, and do not keep it");
   return command
-      .add_option(
-          "--scene", flags.file,
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...)")
+      .add_option("--scene", flags.file,
+                  "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, "
+                  "PCD, LAS, "
+                  "...)")
       ->type_name("FILE");
 }
 
@@ -49,6 +59,7 @@ scene::ImportOptions SceneFlags::import_options(const SceneReading& of_request) 
   choose(reading.scale, of_request.scale, options.scale);
   choose(reading.up, of_request.up, options.up);
   choose(reading.unknown, of_request.unknown, options.unknown);
+  choose(reading.voxel_m, of_request.voxel_m, options.voxel_m);
   return options;
 }
 
@@ -66,18 +77,16 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
   add_flags(command, flags, "the request's, else ")
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...) "
-          "[the "
-          "request's, which is "
-          "relative "
-          "to the request's folder]");
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, PCD, "
+          "LAS, "
+          "...) [the request's, which is relative to the request's folder]");
 }
 
 void warn_of_reading(const std::string& request_file, const RequestFile& request) {
   const SceneReading& reading = request.reading;
-  if (!reading.scale && !reading.up && !reading.unknown) return;
+  if (!reading.scale && !reading.up && !reading.unknown && !reading.voxel_m) return;
   print_error("warning: " + request_file +
-              ": scale, up and unknown do not count here: the scene is as it was loaded");
+              ": scale, up, unknown and voxel_m do not count here: the scene is as it was loaded");
 }
 
 std::string_view to_string(scene::UpAxis up) { return base::name_of(up); }
@@ -94,7 +103,7 @@ std::optional<scene::SceneCache> user_cache(const SceneFlags& flags) {
 }
 
 const LoadedScene& LoadedScenes::load(const std::string& file, const scene::ImportOptions& import) {
-  const Key key{file, import.scale, import.up, import.unknown};
+  const Key key{file, import.scale, import.up, import.unknown, import.voxel_m};
   const auto found = scenes_.find(key);
   if (found != scenes_.end()) return found->second;
   scene::SnapshotOptions options;

@@ -30,16 +30,16 @@ struct SceneFlags {
                                      const planning::PlanRequest& request) const;
 };
 
-/// Adds --scene, --scale, --up, --unknown and --no-cache. Returns the option --scene, which the
-/// caller may make a required one.
+/// Adds --scene, --scale, --up, --unknown, --voxel-m and --no-cache. Returns the option --scene,
+/// which the caller may make a required one.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
 /// Adds these flags to a command that reads a request. A flag that is not given takes its value
 /// from the request.
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags);
 
-/// Prints a warning if the request has `scale`, `up` or `unknown`. Call it in a command that uses a
-/// scene which the daemon has loaded: these options then have no effect.
+/// Prints a warning if the request has `scale`, `up`, `unknown` or `voxel_m`. Call it in a command
+/// that uses a scene which the daemon has loaded: these options then have no effect.
 void warn_of_reading(const std::string& request_file, const RequestFile& request);
 
 /// Returns the name of an axis conversion on the command line: as-in-file, z-to-y or y-to-z.
@@ -64,7 +64,8 @@ class LoadedScenes {
   const LoadedScene& load(const std::string& file, const scene::ImportOptions& import);
 
  private:
-  using Key = std::tuple<std::string, double, scene::UpAxis, scene::UnknownSpace>;
+  using Key =
+      std::tuple<std::string, double, scene::UpAxis, scene::UnknownSpace, std::optional<double>>;
   std::optional<scene::SceneCache> cache_;
   std::map<Key, LoadedScene> scenes_;
 };

@@ -49,13 +49,14 @@ void add_object_name(CLI::App& command, const Flags& flags) {
 }
 
 void add_mesh_flags(CLI::App& command, const Flags& flags) {
-  CLI::Option* file =
-      command
-          .add_option("--file", flags->file,
-                      "Mesh or OctoMap file that the daemon reads, below one of its --scene-roots")
-          ->type_name("FILE");
+  CLI::Option* file = command
+                          .add_option("--file", flags->file,
+                                      "Mesh, OctoMap or cloud of points that the daemon reads, "
+                                      "below one of its --scene-roots")
+                          ->type_name("FILE");
   command
-      .add_option("--upload", flags->upload_file, "Mesh or OctoMap file here, sent to the daemon")
+      .add_option("--upload", flags->upload_file,
+                  "Mesh, OctoMap or cloud of points here, sent to the daemon")
       ->type_name("FILE")
       ->excludes(file);
   command.add_option("--scale", flags->scale, "Metres per unit of the file")
@@ -73,6 +74,13 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
   cli_support::add_choice(command, "--unknown", flags->unknown, kUnknown,
                           "What an OctoMap knows nothing of counts as free or occupied [free]")
       ->type_name("STATE");
+  command
+      .add_option("--voxel-m", flags->voxel_m,
+                  "Edge of the voxels that the points of a cloud (.pcd, .xyz, .las) become, metres "
+                  "[about twice the distance of neighbouring points]")
+      ->type_name("METRES")
+      ->check(cli_support::between(scene::VoxelGrid::kMinResolutionM,
+                                   scene::VoxelGrid::kMaxResolutionM));
 }
 
 /// Returns the lengths of shapes that a daemon takes.

@@ -60,6 +60,7 @@ std::optional<SceneMesh> mesh_of(const SceneCommandFlags& flags) {
   mesh.scale = flags.scale;
   mesh.up = flags.up;
   mesh.unknown = flags.unknown;
+  mesh.voxel_m = flags.voxel_m;
   if (!flags.upload_file.empty() && !read_upload(flags.upload_file, mesh)) return std::nullopt;
   return mesh;
 }

@@ -27,6 +27,7 @@ struct SceneCommandFlags {
   double scale = 1.0;
   SceneMesh::Up up = SceneMesh::Up::kAsInFile;
   SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
+  double voxel_m = 0.0;
   double occupancy_m = 0.0;
   std::string bounds;
   std::vector<double> box_m;

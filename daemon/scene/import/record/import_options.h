@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "daemon/scene/voxels/voxel_map.h"
 
@@ -19,8 +20,10 @@ struct ImportOptions {
   /// Metres per file unit, or a factor beside the unit that the file states. [Limit: 0 < value]
   double scale = 1.0;
   UpAxis up = UpAxis::kAsInFile;
-  UnknownSpace unknown = UnknownSpace::kFree;             ///< for an occupancy map
-  VoxelMapLimits map_limits = {};                         ///< for an occupancy map
+  UnknownSpace unknown = UnknownSpace::kFree;  ///< for an occupancy map
+  /// Edge of the voxels of a cloud of points, in metres; nothing: chosen from the cloud.
+  std::optional<double> voxel_m = {};
+  VoxelMapLimits map_limits = {};  ///< for an occupancy map and a cloud of points
   std::size_t memory_limit_bytes = std::size_t{4} << 30;  ///< address space of the import process
   double time_limit_s = 60.0;                             ///< wall clock of the import process
 };

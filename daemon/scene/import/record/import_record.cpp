@@ -2,14 +2,16 @@
 #include "daemon/scene/import/record/import_record.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "daemon/geometry/exact_triangles.h"
 #include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/record/axes.h"
 #include "daemon/scene/import/record/record_layout.h"
+#include "daemon/scene/import/record/record_map.h"
 
 namespace camway::scene {
 namespace {
@@ -94,16 +96,7 @@ std::vector<std::string> notes_of(const std::string& text) {
 
 /// File coordinates to metres in the asked orientation.
 Vec3 to_scene(const layout::Vertex& v, double scale, UpAxis up) {
-  const Vec3 p = scale * Vec3(v[0], v[1], v[2]);
-  switch (up) {
-    case UpAxis::kZToY:
-      return {p.x(), p.z(), -p.y()};
-    case UpAxis::kYToZ:
-      return {p.x(), -p.z(), p.y()};
-    case UpAxis::kAsInFile:
-      break;
-  }
-  return p;
+  return turned(scale * Vec3(v[0], v[1], v[2]), up);
 }
 
 bool usable(const Vec3& p) {
@@ -191,70 +184,19 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-bool is_sound(const layout::Cube& cube) {
-  const auto size = static_cast<std::uint32_t>(cube.size);
-  if (cube.size < 1 || cube.size > VoxelGrid::kRoot.size || !std::has_single_bit(size))
-    return false;
-  return std::ranges::all_of(cube.min, [&](std::int32_t low) {
-    return low >= VoxelGrid::kMinVoxel && low <= VoxelGrid::kMaxVoxel + 1 - cube.size &&
-           (low - VoxelGrid::kMinVoxel) % cube.size == 0;
-  });
-}
-
-/// As `to_scene` above, for voxels: on a reversed axis a cube ends at the voxel before the mirrored
-/// first one.
-VoxelCube to_scene(const layout::Cube& cube, UpAxis up) {
-  const auto turned = [&](std::int32_t low) { return -low - cube.size; };
-  switch (up) {
-    case UpAxis::kZToY:
-      return {{cube.min[0], cube.min[2], turned(cube.min[1])}, cube.size};
-    case UpAxis::kYToZ:
-      return {{cube.min[0], turned(cube.min[2]), cube.min[1]}, cube.size};
-    case UpAxis::kAsInFile:
-      break;
-  }
-  return {cube.min, cube.size};
-}
-
-/// The voxels of the cubes, or nothing if there are too many. Requires that all are sound.
-std::optional<VoxelSet> voxels_of(const std::vector<layout::Cube>& cubes, UpAxis up,
-                                  std::uint64_t most_voxels) {
-  std::uint64_t voxels = 0;
-  for (const layout::Cube& cube : cubes) {
-    const auto edge = static_cast<std::uint64_t>(cube.size);
-    voxels += edge * edge * edge;
-    if (voxels > most_voxels) return std::nullopt;
-  }
-  VoxelSet set;
-  for (const layout::Cube& cube : cubes) set.insert(to_scene(cube, up));
-  return set;
-}
-
-/// Makes the map and the mesh of a record with cubes. Returns why not, or an empty text.
-std::string read_map(const Record& record, const ImportOptions& options, double scale,
+/// Makes the map and the mesh of a record without triangles. Returns why not, or an empty text.
+std::string read_map(const Record& record, const ImportOptions& options, ImportReport& report,
                      ImportRecordResult& result) {
-  if (!std::ranges::all_of(record.occupied, is_sound) ||
-      !std::ranges::all_of(record.free, is_sound)) {
-    return "has voxels that OctoMap cannot have";
-  }
-  std::optional<VoxelSet> occupied =
-      voxels_of(record.occupied, options.up, options.map_limits.voxels);
-  std::optional<VoxelSet> free = voxels_of(record.free, options.up, options.map_limits.voxels);
-  if (!occupied || !free) {
-    result.limit = Limit::kMapVoxels;
-    return "has more than " + std::to_string(options.map_limits.voxels) +
-           " voxels that are occupied or free";
-  }
-  VoxelMapResult built = VoxelMap::build(scale * record.header.map_resolution, *std::move(occupied),
-                                         *std::move(free), options.unknown, options.map_limits);
-  result.limit = built.limit;
-  if (!built.map) return built.error;
-  if (!built.map->faces()) {
-    result.limit = Limit::kMapTriangles;
-    return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
-  }
-  result.mesh = joined(built.map->faces()->parts());
-  result.map = std::move(built.map);
+  const bool is_cloud = record.header.is_cloud != 0;
+  RecordMap read = is_cloud ? map_of_cloud(record, options, report.scale)
+                            : map_of_cubes(record, options, report.scale);
+  result.limit = read.limit;
+  std::ranges::move(read.notes, std::back_inserter(report.notes));
+  if (!read.map) return std::move(read.refusal);
+  if (!read.origin_m.isZero(0.0)) result.relative_rounding += geometry::kUnitRoundoff;
+  result.mesh = joined(read.map->faces()->parts());
+  result.map = std::move(read.map);
+  result.map_origin_m = read.origin_m;
   return {};
 }
 
@@ -266,7 +208,7 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   ImportRecordResult result;
   result.broken = !parse(bytes, record);
   if (result.broken) return result;
-  const bool is_map = record.header.map_resolution != 0.0;
+  const bool is_map = record.header.map_resolution != 0.0 || record.header.is_cloud != 0;
   if (record.header.objects == 0 && !is_map) {
     result.refusal = printable(record.text);
     return result;
@@ -283,7 +225,7 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   result.absolute_rounding = record.header.absolute_rounding;
   result.surface_error = record.header.surface_error;
   if (is_map) {
-    result.refusal = read_map(record, options, report.scale, result);
+    result.refusal = read_map(record, options, report, result);
   } else {
     result.mesh = MeshBuilder(record, options, report).build();
   }

@@ -19,6 +19,8 @@ namespace camway::scene {
 struct ImportRecordResult {
   std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
   std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null if there is none
+  /// Where the frame of the map, and of the mesh, begins in the frame of the scene.
+  geometry::Vec3 map_origin_m = geometry::Vec3::Zero();
   std::string refusal;             ///< the reason of the refusal, in printable ASCII; else empty
   Limit limit = Limit::kNone;      ///< limit that the refusal is about
   bool broken = false;             ///< whether the bytes are no record; then nothing else is set
@@ -40,7 +42,8 @@ CameraRecordResult read_camera_record(std::span<const std::byte> bytes);
 /// Parses the record of `record_layout.h`. Uses a count only after checking that the record has its
 /// bytes. Checks every index and coordinate, and applies scale and axes. Leaves out unusable
 /// triangles and counts them in `report`, whose format it sets, too. The mesh of an occupancy map
-/// consists of the faces of its voxels.
+/// consists of the faces of its voxels. A cloud of points becomes an occupancy map
+/// (`map_of_cloud`).
 ///
 /// Degenerate triangles are left out only if they have no area at all, in exact arithmetic on the
 /// scaled coordinates: any triangle with an area, however thin, is an obstacle.

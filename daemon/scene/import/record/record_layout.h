@@ -15,7 +15,7 @@
 /// A hostile file may have taken over its reader, so the receiver trusts no count.
 namespace camway::scene::import_record {
 
-inline constexpr std::uint64_t kMagic = 0x364D'5941'574D'4143;  // "CAMWAYM6"
+inline constexpr std::uint64_t kMagic = 0x374D'5941'574D'4143;  // "CAMWAYM7"
 inline constexpr int kOutputFd = 3;
 
 /// The last argument of `camway-import` if it is to read cameras: then `names` is the text of
@@ -54,6 +54,13 @@ struct Header {
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
   /// Edge of a voxel in file units for an occupancy map, which has nothing but cubes; else 0.
   double map_resolution = 0.0;
+  /// Where the voxels begin: the lowest corner of voxel (0, 0, 0), in file units.
+  std::array<double, 3> map_origin{};
+  /// 1 if the free cubes matter only where unknown space counts as occupied, for files that do not
+  /// tell it from free space.
+  std::uint64_t is_free_optional = 0;
+  /// 1 for a cloud of points, which are the vertices, and nothing else.
+  std::uint64_t is_cloud = 0;
   std::uint64_t occupied = 0;
   std::uint64_t free = 0;
 };
@@ -66,7 +73,7 @@ struct Object {
   std::uint32_t name_bytes = 0;
 };
 
-/// Voxels of an occupancy map, numbered as in `VoxelGrid`.
+/// Voxels of an occupancy map, numbered as in `VoxelGrid` from `Header::map_origin`.
 struct Cube {
   std::array<std::int32_t, 3> min{};
   std::int32_t size = 1;  ///< voxels per edge
