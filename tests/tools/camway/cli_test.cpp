@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 
 /// The commands, each with its exit codes beside 0, 1 and 2.
 const std::vector<std::pair<std::string, std::string>> kCommands{
-    {"plan", "3"},   {"check", "3"},  {"info", ""},    {"occupancy", "34"},
+    {"plan", "34"},  {"check", "3"},  {"info", ""},    {"occupancy", "34"},
     {"load", "34"},  {"draw", ""},    {"replay", "3"}, {"scene", "34"},
     {"status", "4"}, {"watch", "34"}, {"doctor", "3"}};
 
