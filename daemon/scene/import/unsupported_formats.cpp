@@ -22,7 +22,7 @@ constexpr std::string_view kPoints =
 constexpr std::string_view kSplat =
     "Gaussian splats are no surface: export their collision mesh (.collision.glb)";
 
-constexpr std::array<Unsupported, 21> kUnsupported = {{
+constexpr std::array<Unsupported, 20> kUnsupported = {{
     {".usd", kUsd},
     {".usda", kUsd},
     {".usdc", kUsd},
@@ -40,7 +40,6 @@ constexpr std::array<Unsupported, 21> kUnsupported = {{
     {".spz", kSplat},
     {".sog", kSplat},
     {".x3dv", "X3D in the classic encoding is not supported: write it as VRML 97 or .x3d"},
-    {".bpt", "Bezier patches (.bpt) are not supported: export a mesh"},
     {".max", "3ds Max scenes are read by 3ds Max alone: export FBX or glTF"},
     {".ma", "Maya scenes are read by Maya alone: export FBX or glTF"},
     {".mb", "Maya scenes are read by Maya alone: export FBX or glTF"},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
 /// camway-import FILE MEMORY_BYTES CPU_SECONDS [cameras]: reads FILE and writes the record of
-/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL and UniGrafix are read by our own
-/// readers, occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only
-/// program that sees assimp; a process of its own, because a file of a few bytes can make assimp
-/// crash or take all memory.
+/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL, UniGrafix and Bezier patches are
+/// read by our own readers, occupancy maps by OctoMap, all else by assimp. Started by `import_mesh`
+/// only. The only program that sees assimp; a process of its own, because a file of a few bytes can
+/// make assimp crash or take all memory.
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -37,6 +37,7 @@
 #include "daemon/scene/import/readers/mesh_reader.h"
 #include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/record/record_layout.h"
+#include "daemon/scene/import/surfaces/bezier_patches.h"
 #include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 
 namespace {
@@ -44,6 +45,7 @@ namespace {
 namespace layout = camway::scene::import_record;
 namespace import_process = camway::scene::import_process;
 namespace mesh_readers = camway::scene::mesh_readers;
+namespace surfaces = camway::scene::surfaces;
 namespace unigrafix = camway::scene::unigrafix;
 using import_process::refuse;
 using import_process::write_record;
@@ -238,16 +240,29 @@ int import_with_assimp(const std::string& file, const std::string& extension) {
   return write_record(record);
 }
 
+bool has_own_reader(const std::string& extension) {
+  return mesh_readers::is_known_extension(extension) ||
+         unigrafix::is_unigrafix_extension(extension) || surfaces::is_bezier_extension(extension);
+}
+
+/// Requires an extension that has a reader of our own.
+camway::base::Result<layout::Record> read_directly(const std::string& file,
+                                                   const std::string& extension,
+                                                   std::string_view bytes) {
+  if (unigrafix::is_unigrafix_extension(extension)) {
+    return unigrafix::read_unigrafix(bytes, camway::scene::files_below(file));
+  }
+  if (surfaces::is_bezier_extension(extension)) return surfaces::read_bezier_patches(bytes);
+  return mesh_readers::read_mesh(extension, bytes);
+}
+
 int import_directly(const std::string& file, const std::string& extension) {
   const import_process::MappedFile mapped(file);
   if (!mapped.is_open()) {
     // The file is there and not empty, so what is missing is address space.
     return errno == ENOMEM ? layout::kExitOutOfMemory : refuse("cannot be opened");
   }
-  camway::base::Result<layout::Record> read =
-      unigrafix::is_unigrafix_extension(extension)
-          ? unigrafix::read_unigrafix(mapped.bytes(), camway::scene::files_below(file))
-          : mesh_readers::read_mesh(extension, mapped.bytes());
+  camway::base::Result<layout::Record> read = read_directly(file, extension, mapped.bytes());
   if (!read) return refuse(std::move(read.error));
   return write_record(*read);
 }
@@ -261,9 +276,7 @@ int import_map(const std::string& file, const std::string& extension) {
 
 int import_file(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (mesh_readers::is_known_extension(extension) || unigrafix::is_unigrafix_extension(extension)) {
-    return import_directly(file, extension);
-  }
+  if (has_own_reader(extension)) return import_directly(file, extension);
   if (camway::scene::is_map_extension(extension)) return import_map(file, extension);
   return import_with_assimp(file, extension);
 }

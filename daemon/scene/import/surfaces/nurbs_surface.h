@@ -42,4 +42,22 @@ inline constexpr std::size_t kMostCells = 1'000'000;
 /// positive.
 base::Result<FacetedSurface> facets_of(const NurbsSurface& surface, double tolerance);
 
+/// Numbers of cells of a grid.
+struct GridSize {
+  std::size_t u = 1;
+  std::size_t v = 1;
+};
+
+/// Facets between points on a grid: row by row, `size.u` + 1 points in each of `size.v` + 1 rows.
+struct FacetedGrid {
+  FacetedSurface facets;
+  GridSize size;
+};
+
+/// The same with the size of its grid, and with spans that are divided into `least` parts, powers
+/// of two, before any is halved. Surfaces that share an edge share its points if they divide it
+/// alike.
+base::Result<FacetedGrid> grid_of(const NurbsSurface& surface, double tolerance,
+                                  const GridSize& least = {});
+
 }  // namespace camway::scene::surfaces
