@@ -5,21 +5,26 @@
 
 namespace camway::scene::surfaces {
 
-void bezier_of_span(std::span<const WeightedPoint> points, const std::vector<double>& knots,
-                    std::size_t degree, const SpanPart& part, std::span<WeightedPoint> result) {
+WeightedPoint blossom(std::span<const WeightedPoint> points, const std::vector<double>& knots,
+                      std::size_t degree, const SpanPart& part, std::size_t count) {
   std::array<WeightedPoint, kMostDegree + 1> work;
   const std::size_t first = part.knot - degree;
-  for (std::size_t j = 0; j <= degree; ++j) {
-    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(first), degree + 1, work.begin());
-    for (std::size_t r = 1; r <= degree; ++r) {
-      const double argument = r <= j ? part.high : part.low;
-      for (std::size_t i = degree; i >= r; --i) {
-        const double low = knots[first + i];
-        const double high = knots[part.knot + 1 + i - r];
-        work[i] = mixed(work[i - 1], work[i], (argument - low) / (high - low));
-      }
+  std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(first), degree + 1, work.begin());
+  for (std::size_t r = 1; r <= degree; ++r) {
+    const double argument = r <= count ? part.high : part.low;
+    for (std::size_t i = degree; i >= r; --i) {
+      const double low = knots[first + i];
+      const double high = knots[part.knot + 1 + i - r];
+      work[i] = mixed(work[i - 1], work[i], (argument - low) / (high - low));
     }
-    result[j] = work[degree];
+  }
+  return work[degree];
+}
+
+void bezier_of_span(std::span<const WeightedPoint> points, const std::vector<double>& knots,
+                    std::size_t degree, const SpanPart& part, std::span<WeightedPoint> result) {
+  for (std::size_t j = 0; j <= degree; ++j) {
+    result[j] = blossom(points, knots, degree, part, j);
   }
 }
 

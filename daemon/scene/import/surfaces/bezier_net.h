@@ -31,9 +31,14 @@ struct SpanPart {
   double high = 1.0;
 };
 
+/// The blossom of `count` times `high` and for the rest `low`, by de Boor's algorithm. If both are
+/// the same it is the point of the curve there. Requires as `bezier_of_span`, and count <= degree.
+WeightedPoint blossom(std::span<const WeightedPoint> points, const std::vector<double>& knots,
+                      std::size_t degree, const SpanPart& part, std::size_t count);
+
 /// Writes the degree + 1 control points of a part of a B-spline curve as a Bezier curve, by
-/// blossoming: control point j is the blossom of (low, ..., low, high, ..., high), by de Boor's
-/// algorithm. Requires degree <= part.knot < points.size(), and a span with a length.
+/// blossoming: control point j is the blossom of j times `high`. Requires degree <= part.knot <
+/// points.size(), and a span with a length.
 void bezier_of_span(std::span<const WeightedPoint> points, const std::vector<double>& knots,
                     std::size_t degree, const SpanPart& part, std::span<WeightedPoint> result);
 

@@ -264,6 +264,8 @@ std::string fault_of_knots(const std::vector<double>& knots, std::size_t points)
   return std::ranges::is_sorted(knots) ? "" : "has knots that decrease";
 }
 
+}  // namespace
+
 std::string fault_of(const NurbsSurface& surface) {
   if (surface.u_points == 0 || surface.v_points == 0 ||
       surface.points.size() / surface.u_points != surface.v_points ||
@@ -284,8 +286,6 @@ std::string fault_of(const NurbsSurface& surface) {
   }
   return {};
 }
-
-}  // namespace
 
 base::Result<FacetedGrid> grid_of(const NurbsSurface& surface, double tolerance,
                                   const GridSize& least) {
