@@ -14,23 +14,17 @@ struct Unsupported {
 };
 
 constexpr std::string_view kUsd = "USD is not supported: export glTF from the same program";
-constexpr std::string_view kSolids =
-    "solids of CAD programs (STEP, IGES) are not supported: export a mesh (OBJ, STL, glTF)";
 constexpr std::string_view kPoints =
     "a cloud of points is no surface: make it an occupancy map (camway scene add --map, scene "
     "scan)";
 constexpr std::string_view kSplat =
     "Gaussian splats are no surface: export their collision mesh (.collision.glb)";
 
-constexpr std::array<Unsupported, 20> kUnsupported = {{
+constexpr std::array<Unsupported, 16> kUnsupported = {{
     {".usd", kUsd},
     {".usda", kUsd},
     {".usdc", kUsd},
     {".usdz", kUsd},
-    {".step", kSolids},
-    {".stp", kSolids},
-    {".iges", kSolids},
-    {".igs", kSolids},
     {".pcd", kPoints},
     {".xyz", kPoints},
     {".las", kPoints},
