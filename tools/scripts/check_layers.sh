@@ -83,6 +83,8 @@ LC_ALL=C exec awk '
       fault("assimp is for daemon/scene/import/child")
     } else if (file ~ /^(Inventor\/|zlib\.h$)/ && here !~ /^(daemon\/scene\/import\/inventor|tests)$/) {
       fault("Coin and zlib are for daemon/scene/import/inventor")
+    } else if (file ~ /^[A-Za-z0-9]+(_[A-Za-z0-9]+)?\.hxx$/ && here !~ /^(daemon\/scene\/import\/cad|tests)$/) {
+      fault("Open CASCADE is for daemon/scene/import/cad")
     } else if (file ~ /^octo(map|math)\// &&
                here !~ /^(daemon\/scene\/(voxels|mirror|import\/child)|tests)$/) {
       fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")

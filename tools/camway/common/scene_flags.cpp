@@ -35,7 +35,7 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
   return command
       .add_option(
           "--scene", flags.file,
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...)")
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, STEP, IGES, Open Inventor, VRML, glTF, OctoMap, ...)")
       ->type_name("FILE");
 }
 
@@ -66,7 +66,7 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
   add_flags(command, flags, "the request's, else ")
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, ...) "
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, STEP, IGES, Open Inventor, VRML, glTF, OctoMap, ...) "
           "[the "
           "request's, which is "
           "relative "

@@ -229,7 +229,9 @@ base::Result<CadFile> read_iges(const std::string& name) {
     return base::Failure{"is no IGES file, or damaged"};
   }
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
-  if (model.IsNull() || model->NbEntities() == 0) return base::Failure{"has no entities"};
+  if (model.IsNull() || model->NbEntities() == 0) {
+    return base::Failure{"is no IGES file, or damaged"};
+  }
   CadFile file;
   file.format = "IGES";
   const double millimetres = model->GlobalSection().UnitValue();

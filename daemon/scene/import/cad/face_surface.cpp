@@ -149,17 +149,37 @@ class FaceReader {
   }
   static std::uint32_t node(int number) { return static_cast<std::uint32_t>(number - 1); }
 
+  /// The nodes along a trim curve. A seam has two such curves in one face, and the library may
+  /// exchange their nodes.
+  Handle(Poly_PolygonOnTriangulation)
+      polygon_of(const TopoDS_Edge& edge, const Handle(Geom2d_Curve) & trim) const {
+    Handle(Poly_PolygonOnTriangulation) nearest;
+    double least = 0.0;
+    for (const bool is_other : {false, true}) {
+      const Handle(Poly_PolygonOnTriangulation) polygon = BRep_Tool::PolygonOnTriangulation(
+          is_other ? TopoDS::Edge(edge.Reversed()) : edge, triangulation_, place_);
+      if (polygon.IsNull() || !polygon->HasParameters()) continue;
+      double off = 0.0;
+      for (const int i : {1, polygon->NbNodes()}) {
+        const gp_Pnt2d at = trim->Value(polygon->Parameter(i));
+        off += at.Distance(triangulation_->UVNode(polygon->Node(i)));
+      }
+      if (!nearest.IsNull() && off >= least) continue;
+      nearest = polygon;
+      least = off;
+    }
+    return nearest;
+  }
+
   /// Returns the fault, or nothing.
   std::string take_edge(const TopoDS_Edge& edge) {
-    const Handle(Poly_PolygonOnTriangulation) polygon =
-        BRep_Tool::PolygonOnTriangulation(edge, triangulation_, place_);
-    if (polygon.IsNull()) return "has an edge without nodes";
     double first = 0.0;
     double last = 0.0;
-    const base::Result<PlaneCurve> curve =
-        plane_curve_of(BRep_Tool::CurveOnSurface(edge, face_, first, last));
+    const Handle(Geom2d_Curve) trim = BRep_Tool::CurveOnSurface(edge, face_, first, last);
+    const base::Result<PlaneCurve> curve = plane_curve_of(trim);
     if (!curve) return curve.error;
-    if (!polygon->HasParameters()) return "has an edge without parameters";
+    const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(edge, trim);
+    if (polygon.IsNull()) return "has an edge without nodes";
     for (int i = 1; i < polygon->NbNodes(); ++i) {
       TrimPiece piece{{node(polygon->Node(i)), node(polygon->Node(i + 1))},
                       surfaces::hull_of(*curve, polygon->Parameter(i), polygon->Parameter(i + 1))};

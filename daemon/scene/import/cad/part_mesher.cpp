@@ -35,9 +35,12 @@ using surfaces::Point;
 /// two or three do.
 constexpr int kMostProposals = 6;
 
+/// Proposals that may fail to bound faces; more of them seldom help.
+constexpr int kMostFailures = 2;
+
 /// The part of the tolerance that is asked of the library first, and aimed at later: its own
 /// measure is less than the bound.
-constexpr double kAim = 0.7;
+constexpr double kAim = 0.6;
 
 /// A proposal is finer than the last by these factors at least and at most.
 constexpr double kLeastStep = 0.6;
@@ -186,16 +189,17 @@ class PartMesher {
     double deflection = kAim * surfaces::kRelativeTolerance * *size;
     std::optional<Proposal> best;
     double last_error = std::numeric_limits<double>::infinity();
+    int failures = 0;
     for (int i = 0; i < kMostProposals; ++i) {
       Proposal now = proposal(deflection);
       const double tolerance = surfaces::kRelativeTolerance * size_of(now.mesh.facets.points);
       const double error = now.mesh.facets.error;
       const std::size_t triangles = now.mesh.facets.triangles.size();
-      const bool is_good = now.without_bound == 0 && error <= tolerance;
-      const bool helps = now.without_bound > 0 || error < kLittle * last_error;
-      const double step = now.without_bound > 0
-                              ? kLeastStep
-                              : std::clamp(kAim * tolerance / error, kMostStep, kLeastStep);
+      if (now.without_bound > 0) ++failures;
+      const bool may_fail = now.without_bound > 0 && failures < kMostFailures;
+      const bool is_good = error <= tolerance && !may_fail;
+      const bool helps = may_fail || error < kLittle * last_error;
+      const double step = std::clamp(kAim * tolerance / error, kMostStep, kLeastStep);
       if (!best || is_better(now, *best)) best = std::move(now);
       const bool is_too_fine = static_cast<double>(triangles) / step > kMostPartTriangles;
       if (is_good || !helps || is_too_fine) break;

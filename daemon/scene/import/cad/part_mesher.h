@@ -13,8 +13,9 @@
 
 namespace camway::scene::cad {
 
-/// More triangles are not tried for one part.
-inline constexpr std::size_t kMostPartTriangles = 5'000'000;
+/// A part whose error would take more triangles than this is not made finer: the library takes ten
+/// seconds for so many, and its time grows faster than their number.
+inline constexpr std::size_t kMostPartTriangles = 300'000;
 
 /// A part as triangles, in millimetres.
 struct PartMesh {
@@ -27,7 +28,10 @@ struct PartMesh {
 /// far they are off is not its word, but derived of the exact surfaces (`surfaces::error_of`), to
 /// which come the distances of trim curves from their edges, as the library states them. The
 /// proposal becomes finer until the error is within `kRelativeTolerance` of half the diagonal of
-/// the part, or finer triangles do not lessen it, or there are `kMostPartTriangles`.
+/// the part, or finer triangles do not lessen it, or that would take more than
+/// `kMostPartTriangles`. The bound counts how far a triangle slides along its surface, too, so that
+/// it is larger than it had to be where parameters run unevenly: at the apex of a cone, or with
+/// weights that differ much.
 ///
 /// Surfaces become rational B-splines first, which is exact for all that `fault_of_form` accepts;
 /// faces of others are left out, as are faces whose triangles have no bound. Neighbouring faces
