@@ -78,15 +78,25 @@ struct Difference {
   double weight = 0.0;
 };
 
-/// The control points of a Bezier patch, as a table.
-class PatchDifferences {
+/// A rational Bezier patch S less the linear map L through three of its corners, w S - w L: the
+/// coefficients of products are those of raising the degree.
+class PatchLessLinear {
  public:
-  PatchDifferences(Net net, std::size_t p, std::size_t q, const Point& origin)
-      : net_(std::move(net)), p_(p), q_(q) {
-    for (WeightedPoint& point : net_) {
-      for (std::size_t k = 0; k < 3; ++k) point[k] -= point[3] * origin[k];
+  PatchLessLinear(const Net& net, std::size_t p, std::size_t q) : p_(p + 1), q_(q + 1) {
+    const Point origin = projected(net[0]);
+    const Point at_u = projected(net[p]);
+    const Point at_v = projected(net[q * (p + 1)]);
+    std::array<Point, 4> corners = {origin, at_u, at_v, {}};
+    for (std::size_t k = 0; k < 3; ++k) corners[3][k] = at_u[k] + at_v[k] - origin[k];
+    linear_u_ = distance(at_u, origin);
+    linear_v_ = distance(at_v, origin);
+    for (std::size_t j = 0; j <= q_; ++j) {
+      for (std::size_t i = 0; i <= p_; ++i) net_.push_back(coefficient(net, corners, i, j));
     }
   }
+
+  [[nodiscard]] double linear_u() const { return linear_u_; }
+  [[nodiscard]] double linear_v() const { return linear_v_; }
 
   /// The differences of order i in u and j in v, times the factors of a derivative.
   [[nodiscard]] Difference of_order(std::size_t i, std::size_t j) const {
@@ -107,7 +117,7 @@ class PatchDifferences {
   [[nodiscard]] double least_weight() const {
     return std::ranges::min_element(net_, {}, [](const WeightedPoint& p) { return p[3]; })->at(3);
   }
-  /// Largest distance of S from the origin. Requires weights that are positive.
+  /// Largest length of S - L. Requires weights that are positive.
   [[nodiscard]] double reach() const {
     double largest = 0.0;
     for (const WeightedPoint& point : net_) largest = std::max(largest, length(projected(point)));
@@ -115,6 +125,23 @@ class PatchDifferences {
   }
 
  private:
+  [[nodiscard]] WeightedPoint coefficient(const Net& net, const std::array<Point, 4>& corners,
+                                          std::size_t i, std::size_t j) const {
+    const double u = static_cast<double>(i) / static_cast<double>(p_);
+    const double v = static_cast<double>(j) / static_cast<double>(q_);
+    WeightedPoint sum{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::size_t a = c % 2;
+      const std::size_t b = c / 2;
+      if (i < a || j < b || i - a >= p_ || j - b >= q_) continue;
+      const double factor = (a == 0 ? 1.0 - u : u) * (b == 0 ? 1.0 - v : v);
+      const WeightedPoint& point = net[(j - b) * p_ + (i - a)];
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += factor * (point[k] - point[3] * corners[c][k]);
+      sum[3] += factor * point[3];
+    }
+    return sum;
+  }
+
   [[nodiscard]] WeightedPoint difference(std::size_t a, std::size_t b, std::size_t i,
                                          std::size_t j) const {
     if (i > 0) return less(difference(a + 1, b, i - 1, j), difference(a, b, i - 1, j));
@@ -129,10 +156,12 @@ class PatchDifferences {
   Net net_;
   std::size_t p_;
   std::size_t q_;
+  double linear_u_ = 0.0;
+  double linear_v_ = 0.0;
 };
 
 /// The bounds in the header.
-DerivativeBounds bounds_of(const PatchDifferences& patch) {
+DerivativeBounds bounds_of(const PatchLessLinear& patch) {
   const double weight = patch.least_weight();
   if (!(weight > 0.0)) return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
   const double reach = patch.reach();
@@ -147,6 +176,8 @@ DerivativeBounds bounds_of(const PatchDifferences& patch) {
   result.uu = (uu.point + 2.0 * u.weight * result.u + uu.weight * reach) / weight;
   result.vv = (vv.point + 2.0 * v.weight * result.v + vv.weight * reach) / weight;
   result.uv = (uv.point + u.weight * result.v + v.weight * result.u + uv.weight * reach) / weight;
+  result.u += patch.linear_u();
+  result.v += patch.linear_v();
   return result;
 }
 
@@ -173,12 +204,12 @@ class Directions {
     return projected(blossom(column, surface_.v_knots, q, v, 0));
   }
 
-  /// Bounds over a rectangle in which no knot is. Requires an origin that is near.
-  [[nodiscard]] DerivativeBounds bounds(const Rectangle& of, const Point& origin) const {
+  /// Bounds over a rectangle in which no knot is.
+  [[nodiscard]] DerivativeBounds bounds(const Rectangle& of) const {
     const SpanPart u = axes_[0].part(of.low[0], of.high[0]);
     const SpanPart v = axes_[1].part(of.low[1], of.high[1]);
     return bounds_of(
-        PatchDifferences(bezier_net(surface_, u, v), axes_[0].degree(), axes_[1].degree(), origin));
+        PatchLessLinear(bezier_net(surface_, u, v), axes_[0].degree(), axes_[1].degree()));
   }
 
   /// How far a computed point may be off.
@@ -275,7 +306,7 @@ class TriangleErrors {
       box.include(corner.at);
       off = std::max(off, corner.off);
     }
-    const DerivativeBounds second = surface_.bounds(box, corners[0].flat);
+    const DerivativeBounds second = surface_.bounds(box);
     const double curved = 0.125 * (second.uu + 2.0 * second.uv + second.vv);
     const double bound = off + curved;
     if (bound <= largest_) return;
@@ -297,7 +328,7 @@ class TriangleErrors {
 };
 
 /// First derivatives by u and v over a rectangle, which knots may cross.
-Parameters slopes(const Directions& surface, const Rectangle& box, const Point& origin) {
+Parameters slopes(const Directions& surface, const Rectangle& box) {
   Parameters result{};
   std::array<std::vector<double>, 2> cuts;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -306,7 +337,7 @@ Parameters slopes(const Directions& surface, const Rectangle& box, const Point& 
   for (std::size_t i = 0; i + 1 < cuts[0].size(); ++i) {
     for (std::size_t j = 0; j + 1 < cuts[1].size(); ++j) {
       const Rectangle part{{cuts[0][i], cuts[1][j]}, {cuts[0][i + 1], cuts[1][j + 1]}};
-      const DerivativeBounds bounds = surface.bounds(part, origin);
+      const DerivativeBounds bounds = surface.bounds(part);
       const Parameters of_part = {bounds.u, bounds.v};
       for (std::size_t k = 0; k < 2; ++k) {
         if (part.extent(k) > 0.0) result[k] = std::max(result[k], of_part[k] / part.extent(k));
@@ -324,7 +355,7 @@ double sag_of(const Directions& surface, const ParametricMesh& mesh, const TrimP
   box.include(a);
   box.include(b);
   for (const Parameters& p : piece.hull) box.include(p);
-  const Parameters slope = slopes(surface, box, mesh.points[piece.nodes[0]]);
+  const Parameters slope = slopes(surface, box);
   const Parameters along = {slope[0] * (b[0] - a[0]), slope[1] * (b[1] - a[1])};
   const double square = along[0] * along[0] + along[1] * along[1];
   double largest = 0.0;

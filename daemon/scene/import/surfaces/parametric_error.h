@@ -51,13 +51,15 @@ struct ParametricMesh {
 /// then into four while that lessens the bound: S - x is known at the corners of the parts. Thin
 /// triangles do no harm, unlike in a bound of S less the linear map (u, v) -> x over a rectangle.
 ///
-/// *Derivatives.* S = N / w with Bezier polynomials N and w over the rectangle, whose derivatives
-/// are in the convex hulls of differences of control points (Farin 2002, "Curves and surfaces for
-/// CAGD", sections 4.2 and 14.6). With the origin moved to a corner of the triangle, S w = N gives
+/// *Derivatives.* A linear map L has no second derivatives, so those of S are those of R = S - L,
+/// with L through three corners of the rectangle, which makes R and its first derivatives small. R
+/// = N / w with Bezier polynomials N and w over the rectangle, whose derivatives are in the convex
+/// hulls of differences of control points (Farin 2002, "Curves and surfaces for CAGD", sections 4.2
+/// and 14.6). R w = N gives
 ///
-///     |S_u| <= (|N_u| + |w_u| |S|) / min w
-///     |S_uu| <= (|N_uu| + 2 |w_u| |S_u| + |w_uu| |S|) / min w
-///     |S_uv| <= (|N_uv| + |w_u| |S_v| + |w_v| |S_u| + |w_uv| |S|) / min w
+///     |R_u| <= (|N_u| + |w_u| |R|) / min w
+///     |R_uu| <= (|N_uu| + 2 |w_u| |R_u| + |w_uu| |R|) / min w
+///     |R_uv| <= (|N_uv| + |w_u| |R_v| + |w_v| |R_u| + |w_uv| |R|) / min w
 ///
 /// (Piegl and Tiller 1997, "The NURBS Book", section 4.5, with |.| for each term).
 ///
