@@ -203,14 +203,17 @@ TEST(BezierPatches, NeighboursAreDividedAlike) {
     patches[1][k] = Vec3(3.0 + x, y, x == 1.0 && y == 1.0 ? 9.0 : 0.0);
   }
   const Record record = sound_patches(file_of(patches));
-  int of_edge = 0;
-  for (const auto& v : record.vertices) of_edge += v[0] == 3.0 ? 1 : 0;
-  std::map<double, int> heights;
-  for (const auto& v : record.vertices) {
-    if (v[0] == 3.0) ++heights[v[1]];
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const auto& t : record.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto side = std::minmax(t[k], t[(k + 1) % 3]);
+      if (record.vertices[side.first][0] == 3.0 && record.vertices[side.second][0] == 3.0) {
+        ++uses[side];
+      }
+    }
   }
-  EXPECT_GT(of_edge, 4);
-  for (const auto& [y, count] : heights) EXPECT_EQ(count, 1) << y;
+  EXPECT_GT(uses.size(), 4U);
+  for (const auto& [side, count] : uses) EXPECT_EQ(count, 2);
 }
 
 TEST(BezierPatches, SeparatorsMayDiffer) {
