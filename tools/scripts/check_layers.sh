@@ -85,6 +85,8 @@ LC_ALL=C exec awk '
       fault("Coin and zlib are for daemon/scene/import/inventor")
     } else if (file ~ /^liblzf\// && here !~ /^(daemon\/scene\/import\/points|tests)$/) {
       fault("LZF is for daemon/scene/import/points")
+    } else if (file ~ /^[A-Za-z0-9]+(_[A-Za-z0-9]+)?\.hxx$/ && here !~ /^(daemon\/scene\/import\/cad|tests)$/) {
+      fault("Open CASCADE is for daemon/scene/import/cad")
     } else if (file ~ /^octo(map|math)\// &&
                here !~ /^(daemon\/scene\/(voxels|mirror|import\/child)|tests)$/) {
       fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")

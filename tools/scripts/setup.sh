@@ -22,6 +22,8 @@ kPackages=(
   liblzf-dev
   # scenes of Open Inventor and VRML; the build works without
   libcoin-dev zlib1g-dev
+  # scenes of STEP and IGES; the build works without
+  libocct-data-exchange-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
   # signed messages, digests of what is kept

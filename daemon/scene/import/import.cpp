@@ -10,6 +10,7 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import/camera_import.h"
 #include "daemon/scene/import/import_process.h"
+#include "daemon/scene/import/record/cad_names.h"
 #include "daemon/scene/import/record/import_record.h"
 #include "daemon/scene/import/unsupported_formats.h"
 
@@ -59,7 +60,10 @@ std::string describe(const fs::path& file, const ImportProcessResult& process,
       return "reading it was cancelled";
     case End::kCrashed:
       return "crashed its reader (" + process.detail + ")" +
-             (is_ifc ? ": assimp does not know all of IFC4; export IFC2x3 or glTF" : "");
+             (is_ifc ? ": assimp does not know all of IFC4; export IFC2x3 or glTF" : "") +
+             (is_cad_name(file.filename().string())
+                  ? ": it is damaged, or has what Open CASCADE does not know"
+                  : "");
     case End::kNotStarted:
       return "cannot be imported: " + process.detail;
     case End::kFinished:

@@ -28,10 +28,11 @@ struct ImportResult {
 };
 
 /// Reads a scene file in a child process with limits of memory and time, since a hostile file of a
-/// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY, STL and UniGrafix with our own
-/// readers (`readers/mesh_reader.h`, `unigrafix/unigrafix_reader.h`), clouds of points and voxels
-/// of Gaussian splats, too, as occupancy maps (`points/point_reader.h`, `child/splat_voxels.h`),
-/// occupancy maps (.bt and .ot) with OctoMap, Open Inventor and VRML with Coin, other formats with
+/// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY, STL, UniGrafix and Bezier
+/// patches with our own readers (`readers/mesh_reader.h`, `unigrafix/unigrafix_reader.h`,
+/// `surfaces/bezier_patches.h`), clouds of points and voxels of Gaussian splats, too, as occupancy
+/// maps (`points/point_reader.h`, `child/splat_voxels.h`), occupancy maps (.bt and .ot) with
+/// OctoMap, Open Inventor and VRML with Coin, STEP and IGES with Open CASCADE, other formats with
 /// assimp. Checks the result again (indices, finiteness, counts). Never throws for a bad file.
 /// Fails within milliseconds after a stop is requested. Thread-safe.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,

@@ -22,6 +22,8 @@
 #include <thread>
 
 #include "daemon/base/file_descriptor.h"
+#include "daemon/base/result.h"
+#include "daemon/scene/import/record/cad_names.h"
 #include "daemon/scene/import/record/inventor_names.h"
 #include "daemon/scene/import/record/record_layout.h"
 
@@ -34,6 +36,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kProgram = "camway-import";
 constexpr const char* kInventorProgram = "camway-import-inventor";
+constexpr const char* kCadProgram = "camway-import-cad";
 
 /// Whether the build has `kInventorProgram`, which needs a library that may be missing.
 #ifdef CAMWAY_WITH_INVENTOR
@@ -41,6 +44,30 @@ constexpr bool kReadsInventor = true;
 #else
 constexpr bool kReadsInventor = false;
 #endif
+/// The same of `kCadProgram`.
+#ifdef CAMWAY_WITH_CAD
+constexpr bool kReadsCad = true;
+#else
+constexpr bool kReadsCad = false;
+#endif
+
+/// The program that reads files of a name, or why there is none.
+base::Result<const char*> program_for(const std::string& name, ImportTask task) {
+  const bool is_inventor = is_inventor_name(name);
+  const bool is_cad = is_cad_name(name);
+  if (is_inventor && !kReadsInventor) {
+    return base::Failure{"this build has no reader for Open Inventor (libcoin)"};
+  }
+  if (is_cad && !kReadsCad) {
+    return base::Failure{
+        "this build has no reader for STEP and IGES (libocct-data-exchange): export a mesh (OBJ, "
+        "STL, glTF)"};
+  }
+  if (task == ImportTask::kCameras && is_cad) {
+    return base::Failure{"STEP and IGES have no cameras"};
+  }
+  return is_inventor ? kInventorProgram : is_cad ? kCadProgram : kProgram;
+}
 
 std::string text_of_errno(int error) { return std::generic_category().message(error); }
 
@@ -186,15 +213,12 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
 ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_limit_bytes,
                                        double time_limit_s, const std::stop_token& stop,
                                        ImportTask task) {
-  const bool is_inventor = is_inventor_name(file.filename().string());
-  if (is_inventor && !kReadsInventor) {
-    return {End::kNotStarted, {}, "this build has no reader for Open Inventor (libcoin)"};
-  }
-  const char* const name = is_inventor ? kInventorProgram : kProgram;
-  const std::optional<fs::path> program = find_program(name);
+  const base::Result<const char*> name = program_for(file.filename().string(), task);
+  if (!name) return {End::kNotStarted, {}, name.error};
+  const std::optional<fs::path> program = find_program(*name);
   if (!program) {
     return {
-        End::kNotStarted, {}, std::string(name) + " is neither beside this program nor on PATH"};
+        End::kNotStarted, {}, std::string(*name) + " is neither beside this program nor on PATH"};
   }
   const base::FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};

@@ -14,21 +14,15 @@ struct Unsupported {
 };
 
 constexpr std::string_view kUsd = "USD is not supported: export glTF from the same program";
-constexpr std::string_view kSolids =
-    "solids of CAD programs (STEP, IGES) are not supported: export a mesh (OBJ, STL, glTF)";
 constexpr std::string_view kSplat =
     "Gaussian splats are no surface: export their voxels (.voxel.json) or their collision mesh "
     "(.collision.glb)";
 
-constexpr std::array<Unsupported, 18> kUnsupported = {{
+constexpr std::array<Unsupported, 13> kUnsupported = {{
     {".usd", kUsd},
     {".usda", kUsd},
     {".usdc", kUsd},
     {".usdz", kUsd},
-    {".step", kSolids},
-    {".stp", kSolids},
-    {".iges", kSolids},
-    {".igs", kSolids},
     {".laz",
      "compressed LAS is not supported: make .las of it, with laszip, las2las or CloudCompare"},
     {".e57", "E57 is not supported: save the points as .las, .pcd or .xyz, as CloudCompare does"},
@@ -36,7 +30,6 @@ constexpr std::array<Unsupported, 18> kUnsupported = {{
     {".spz", kSplat},
     {".sog", kSplat},
     {".x3dv", "X3D in the classic encoding is not supported: write it as VRML 97 or .x3d"},
-    {".bpt", "Bezier patches (.bpt) are not supported: export a mesh"},
     {".max", "3ds Max scenes are read by 3ds Max alone: export FBX or glTF"},
     {".ma", "Maya scenes are read by Maya alone: export FBX or glTF"},
     {".mb", "Maya scenes are read by Maya alone: export FBX or glTF"},

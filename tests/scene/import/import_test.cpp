@@ -449,7 +449,7 @@ TEST_F(Import, LeavesNoChildAndNoDescriptorBehind) {
 TEST_F(Import, SaysWhatToDoWithFormatsThatAreNotRead) {
   EXPECT_THAT(error_of(write("a.usda", "#usda 1.0\n")),
               HasSubstr("USD is not supported: export glTF"));
-  EXPECT_THAT(error_of(write("a.STEP", "ISO-10303-21;\n")), HasSubstr("export a mesh"));
+  EXPECT_THAT(error_of(write("a.USDZ", "PK\n")), HasSubstr("export glTF"));
   EXPECT_THAT(error_of(write("a.laz", "LASF")), HasSubstr("las2las"));
   const std::string gltf =
       R"({"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_meshopt_compression"],
@@ -517,6 +517,24 @@ TEST_F(Import, OpenInventorIsReadOrSaidToBeMissing) {
     EXPECT_THAT(result.error,
                 ::testing::EndsWith("this build has no reader for Open Inventor (libcoin)"));
   }
+}
+
+TEST_F(Import, StepIsReadOrSaidToBeMissing) {
+  EXPECT_THAT(error_of(write("a.step", "ISO-10303-21;\n")),
+              ::testing::AnyOf(HasSubstr("is no STEP file, or damaged"),
+                               HasSubstr("this build has no reader for STEP and IGES")));
+}
+
+TEST_F(Import, BezierPatchesAreReadInTheImportProcess) {
+  std::string text = "1\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n16\n";
+  for (int i = 0; i < 16; ++i) {
+    text += std::to_string(i % 4) + " " + std::to_string(i / 4) + " 0\n";
+  }
+  const ImportResult result = import_mesh(write("flat.BPT", text), {});
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.report.format, "Bezier patches");
+  EXPECT_EQ(result.report.triangles, 2U);
+  EXPECT_THAT(error_of(write("bad.bpt", "1\n")), HasSubstr("line 1: says it has 1 patches"));
 }
 
 }  // namespace

@@ -43,9 +43,8 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
                    "Read and prepare the scene, even if the cache holds it, and do not keep it");
   return command
       .add_option("--scene", flags.file,
-                  "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, "
-                  "PCD, LAS, "
-                  "...)")
+                  "Scene file (OBJ, OFF, PLY, STL, UniGrafix, STEP, IGES, Open Inventor, VRML, "
+                  "glTF, OctoMap, PCD, LAS, ...)")
       ->type_name("FILE");
 }
 
@@ -77,9 +76,8 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
   add_flags(command, flags, "the request's, else ")
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, Open Inventor, VRML, glTF, OctoMap, PCD, "
-          "LAS, "
-          "...) [the request's, which is relative to the request's folder]");
+          "Scene file (OBJ, OFF, PLY, STL, UniGrafix, STEP, IGES, Open Inventor, VRML, glTF, "
+          "OctoMap, PCD, LAS, ...) [the request's, which is relative to the request's folder]");
 }
 
 void warn_of_reading(const std::string& request_file, const RequestFile& request) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
 /// camway-import FILE MEMORY_BYTES CPU_SECONDS [cameras]: reads FILE and writes the record of
-/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL, UniGrafix, clouds of points and
-/// voxels of splats are read by our own readers, occupancy maps by OctoMap, all else by assimp.
-/// Started by `import_mesh` only. The only program that sees assimp; a process of its own, because
-/// a file of a few bytes can make assimp crash or take all memory.
+/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY, STL, UniGrafix, Bezier patches, clouds of
+/// points and voxels of splats are read by our own readers, occupancy maps by OctoMap, all else by
+/// assimp. Started by `import_mesh` only. The only program that sees assimp; a process of its own,
+/// because a file of a few bytes can make assimp crash or take all memory.
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -39,6 +39,7 @@
 #include "daemon/scene/import/readers/mesh_reader.h"
 #include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/record/record_layout.h"
+#include "daemon/scene/import/surfaces/bezier_patches.h"
 #include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 
 namespace {
@@ -47,6 +48,7 @@ namespace layout = camway::scene::import_record;
 namespace import_process = camway::scene::import_process;
 namespace mesh_readers = camway::scene::mesh_readers;
 namespace point_readers = camway::scene::point_readers;
+namespace surfaces = camway::scene::surfaces;
 namespace unigrafix = camway::scene::unigrafix;
 using import_process::refuse;
 using import_process::write_record;
@@ -244,7 +246,7 @@ int import_with_assimp(const std::string& file, const std::string& extension) {
 /// Whether a reader of our own reads the file from its bytes.
 bool is_read_directly(const std::string& file, const std::string& extension) {
   return mesh_readers::is_known_extension(extension) ||
-         unigrafix::is_unigrafix_extension(extension) ||
+         unigrafix::is_unigrafix_extension(extension) || surfaces::is_bezier_extension(extension) ||
          point_readers::is_point_extension(extension) || camway::scene::is_splat_voxel_name(file);
 }
 
@@ -255,6 +257,7 @@ camway::base::Result<layout::Record> read_directly(const std::string& file,
   if (unigrafix::is_unigrafix_extension(extension)) {
     return unigrafix::read_unigrafix(bytes, camway::scene::files_below(file));
   }
+  if (surfaces::is_bezier_extension(extension)) return surfaces::read_bezier_patches(bytes);
   if (point_readers::is_point_extension(extension)) {
     return point_readers::read_points(extension, bytes);
   }

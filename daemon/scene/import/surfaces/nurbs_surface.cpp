@@ -4,27 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 
+#include "daemon/scene/import/surfaces/bezier_net.h"
+
 namespace camway::scene::surfaces {
 namespace {
-
-using Net = std::vector<WeightedPoint>;  ///< (u degree + 1) * (v degree + 1), u fastest
 
 /// Divisions of one span of knots; more are finer than a float.
 constexpr std::size_t kMostDivisions = 4096;
 
 constexpr double kUnknown = -1.0;  ///< an error that is not computed
-
-WeightedPoint mixed(const WeightedPoint& a, const WeightedPoint& b, double part) {
-  WeightedPoint result;
-  for (std::size_t k = 0; k < 4; ++k) result[k] = (1.0 - part) * a[k] + part * b[k];
-  return result;
-}
-
-Point projected(const WeightedPoint& p) { return {p[0] / p[3], p[1] / p[3], p[2] / p[3]}; }
 
 /// A span of knots with a length, between knots number `knot` and the next.
 struct Span {
@@ -38,28 +29,6 @@ std::vector<Span> spans_of(const std::vector<double>& knots, std::size_t degree)
     if (knots[i] < knots[i + 1]) spans.push_back({i, 1});
   }
   return spans;
-}
-
-/// The control points of a span as a Bezier curve, by blossoming: the blossom of the arguments
-/// (a, ..., a, b, ..., b), by de Boor's algorithm.
-void bezier_of_span(std::span<const WeightedPoint> points, const std::vector<double>& knots,
-                    std::size_t knot, std::size_t degree, std::span<WeightedPoint> result) {
-  const double a = knots[knot];
-  const double b = knots[knot + 1];
-  Net work(degree + 1);
-  for (std::size_t j = 0; j <= degree; ++j) {
-    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(knot - degree), degree + 1,
-                work.begin());
-    for (std::size_t r = 1; r <= degree; ++r) {
-      const double argument = r <= j ? b : a;
-      for (std::size_t i = degree; i >= r; --i) {
-        const double low = knots[knot - degree + i];
-        const double high = knots[knot + 1 + i - r];
-        work[i] = mixed(work[i - 1], work[i], (argument - low) / (high - low));
-      }
-    }
-    result[j] = work[degree];
-  }
 }
 
 /// The control points of the part [low, high] of a Bezier curve whose points are `stride` apart.
@@ -81,25 +50,31 @@ void cut_bezier(WeightedPoint* points, std::size_t stride, std::size_t degree, d
 /// Cuts a surface into Bezier patches, and these into cells.
 class Facets {
  public:
-  Facets(const NurbsSurface& surface, std::size_t u_degree, std::size_t v_degree)
+  Facets(const NurbsSurface& surface, std::size_t u_degree, std::size_t v_degree,
+         const GridSize& least)
       : surface_(surface),
         p_(u_degree),
         q_(v_degree),
         u_spans_(spans_of(surface.u_knots, u_degree)),
         v_spans_(spans_of(surface.v_knots, v_degree)) {
+    for (Span& u : u_spans_) u.divisions = least.u;
+    for (Span& v : v_spans_) v.divisions = least.v;
     for (const Span& v : v_spans_) {
-      for (const Span& u : u_spans_) patches_.push_back(patch(u, v));
+      for (const Span& u : u_spans_) {
+        patches_.push_back(
+            bezier_net(surface, whole(surface.u_knots, u), whole(surface.v_knots, v)));
+      }
     }
   }
   [[nodiscard]] bool is_empty() const { return patches_.empty(); }
 
-  FacetedSurface made(double tolerance) {
+  FacetedGrid made(double tolerance) {
     std::vector<double> errors(patches_.size(), kUnknown);
     while (refine(tolerance, errors)) {
     }
     for_each_patch([&](std::size_t i, Span& u, Span& v) { find_error(i, u, v, errors); });
-    FacetedSurface result = grid();
-    result.error = *std::max_element(errors.begin(), errors.end());
+    FacetedGrid result{grid(), {total(u_spans_), total(v_spans_)}};
+    result.facets.error = *std::max_element(errors.begin(), errors.end());
     return result;
   }
 
@@ -149,23 +124,8 @@ class Facets {
     return sum;
   }
 
-  [[nodiscard]] Net patch(const Span& u, const Span& v) const {
-    Net rows((p_ + 1) * (q_ + 1));  // of the q + 1 rows that count
-    for (std::size_t j = 0; j <= q_; ++j) {
-      const std::size_t row = (v.knot - q_ + j) * surface_.u_points;
-      bezier_of_span(std::span(surface_.points).subspan(row, surface_.u_points), surface_.u_knots,
-                     u.knot, p_, std::span(rows).subspan(j * (p_ + 1), p_ + 1));
-    }
-    Net net(rows.size());
-    // The rows stand for the points from v.knot - q on, so a column is padded in front.
-    Net column(v.knot + 1);
-    Net bezier(q_ + 1);
-    for (std::size_t i = 0; i <= p_; ++i) {
-      for (std::size_t j = 0; j <= q_; ++j) column[v.knot - q_ + j] = rows[j * (p_ + 1) + i];
-      bezier_of_span(column, surface_.v_knots, v.knot, q_, bezier);
-      for (std::size_t j = 0; j <= q_; ++j) net[j * (p_ + 1) + i] = bezier[j];
-    }
-    return net;
+  static SpanPart whole(const std::vector<double>& knots, const Span& span) {
+    return {span.knot, knots[span.knot], knots[span.knot + 1]};
   }
 
   /// Halves the spans of a patch in the direction that lessens its error most. Returns false if
@@ -304,6 +264,8 @@ std::string fault_of_knots(const std::vector<double>& knots, std::size_t points)
   return std::ranges::is_sorted(knots) ? "" : "has knots that decrease";
 }
 
+}  // namespace
+
 std::string fault_of(const NurbsSurface& surface) {
   if (surface.u_points == 0 || surface.v_points == 0 ||
       surface.points.size() / surface.u_points != surface.v_points ||
@@ -325,14 +287,19 @@ std::string fault_of(const NurbsSurface& surface) {
   return {};
 }
 
-}  // namespace
-
-base::Result<FacetedSurface> facets_of(const NurbsSurface& surface, double tolerance) {
+base::Result<FacetedGrid> grid_of(const NurbsSurface& surface, double tolerance,
+                                  const GridSize& least) {
   if (std::string fault = fault_of(surface); !fault.empty()) return base::Failure{std::move(fault)};
   Facets facets(surface, surface.u_knots.size() - surface.u_points - 1,
-                surface.v_knots.size() - surface.v_points - 1);
+                surface.v_knots.size() - surface.v_points - 1, least);
   if (facets.is_empty()) return base::Failure{"has knots without a span"};
   return facets.made(tolerance);
+}
+
+base::Result<FacetedSurface> facets_of(const NurbsSurface& surface, double tolerance) {
+  base::Result<FacetedGrid> grid = grid_of(surface, tolerance);
+  if (!grid) return base::Failure{std::move(grid.error)};
+  return std::move(grid->facets);
 }
 
 }  // namespace camway::scene::surfaces

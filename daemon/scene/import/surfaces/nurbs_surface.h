@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "daemon/base/result.h"
@@ -27,6 +28,10 @@ struct NurbsSurface {
 inline constexpr std::size_t kMostDegree = 24;
 inline constexpr std::size_t kMostCells = 1'000'000;
 
+/// Returns what makes the numbers of a surface useless: they do not fit each other, are not finite,
+/// knots decrease, or a weight is not positive. Empty if nothing does.
+std::string fault_of(const NurbsSurface& surface);
+
 /// Returns the surface as triangles on a grid of parameters, without gaps. Each span of knots is
 /// halved in u or v, whichever lessens the error more, until the error is within `tolerance`, or
 /// the grid has `kMostCells` cells; `error` is what was reached.
@@ -38,8 +43,25 @@ inline constexpr std::size_t kMostCells = 1'000'000;
 /// This bounds rational surfaces too, where the bounds by second derivatives of Filip, Magedson and
 /// Markot 1986, "Surface algorithms using bounds on derivatives", hold for polynomials.
 ///
-/// Fails if the numbers do not fit each other, are not finite, knots decrease, or a weight is not
-/// positive.
+/// Fails if the surface has a fault (`fault_of`).
 base::Result<FacetedSurface> facets_of(const NurbsSurface& surface, double tolerance);
+
+/// Numbers of cells of a grid.
+struct GridSize {
+  std::size_t u = 1;
+  std::size_t v = 1;
+};
+
+/// Facets between points on a grid: row by row, `size.u` + 1 points in each of `size.v` + 1 rows.
+struct FacetedGrid {
+  FacetedSurface facets;
+  GridSize size;
+};
+
+/// The same with the size of its grid, and with spans that are divided into `least` parts, powers
+/// of two, before any is halved. Surfaces that share an edge share its points if they divide it
+/// alike.
+base::Result<FacetedGrid> grid_of(const NurbsSurface& surface, double tolerance,
+                                  const GridSize& least = {});
 
 }  // namespace camway::scene::surfaces

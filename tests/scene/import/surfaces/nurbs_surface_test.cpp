@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/scene/import/surfaces/triangle_distance.h"
 #include "tests/support/random.h"
 
 namespace camway::scene::surfaces {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t kNurbsSeed = 9021;
 
+using camway::testing::distance_to_triangle;
 using geometry::Vec3;
 
 /// The basis function of Cox and de Boor, by its recursion: an oracle that shares no code.
@@ -44,22 +46,6 @@ Vec3 point_of(const NurbsSurface& surface, double u, double v) {
     }
   }
   return sum / weight;
-}
-
-double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a);
-  const auto inside = [&](const Vec3& x, const Vec3& y) {
-    return (y - x).cross(p - x).dot(n) >= 0.0;
-  };
-  if (n.squaredNorm() > 0.0 && inside(a, b) && inside(b, c) && inside(c, a)) {
-    return std::abs((p - a).dot(n)) / n.norm();
-  }
-  const auto to_edge = [&](const Vec3& x, const Vec3& y) {
-    const double square = (y - x).squaredNorm();
-    const double t = square > 0.0 ? std::clamp((p - x).dot(y - x) / square, 0.0, 1.0) : 0.0;
-    return (p - x - t * (y - x)).norm();
-  };
-  return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
 }
 
 /// Longest edge of the triangles, which is their reach from a corner.
