@@ -1,11 +1,18 @@
 # Installs BUILD_DIR into a prefix that its configuration does not know, and looks at what is there.
-# cmake -DBUILD_DIR= -DWORK_DIR= -DPYTHON= -P installed_files.cmake
+# cmake -DBUILD_DIR= -DWORK_DIR= -DPYTHON= -DWITH_INVENTOR= -DWITH_CAD= -P installed_files.cmake
 file(REMOVE_RECURSE ${WORK_DIR})
 set(prefix ${WORK_DIR}/prefix)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix}
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
-foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
+set(importers bin/camway-import)
+if(WITH_INVENTOR)
+  list(APPEND importers bin/camway-import-inventor)
+endif()
+if(WITH_CAD)
+  list(APPEND importers bin/camway-import-cad)
+endif()
+foreach(file bin/camwayd bin/camway ${importers} lib/systemd/system/camwayd.service
              lib/systemd/system/camwayd-planner@.service
              share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/blender/camway_blender.zip share/camway/lcmtypes/camway_plan_request_t.lcm
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg

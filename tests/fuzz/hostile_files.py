@@ -3,7 +3,7 @@
 """Reads damaged files of every format with the programs as they are installed.
 
   tests/fuzz/hostile_files.py --programs FOLDER [--mutants 40] [--seed 1] [--workers 2]
-                              [--samples FOLDER] [--only TEXT] [--without TEXT] [--keep FOLDER]
+                              [--samples FOLDER] [--only TEXT] [--without TEXT ...] [--keep FOLDER]
 
 Each sample file is damaged in many ways: cut off, bits flipped, bytes replaced, spans removed,
 repeated and exchanged, numbers replaced by huge, negative and meaningless ones. `camway info` reads
@@ -36,7 +36,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import sample_files  # noqa: E402
 
 # Formats that Camway reads with readers of its own: these may not fall.
-OWN_ENDINGS = (".obj", ".off", ".ply", ".stl", ".ug", ".pcd", ".xyz", ".las", ".voxel.json")
+OWN_ENDINGS = (".obj", ".off", ".ply", ".stl", ".ug", ".pcd", ".xyz", ".las", ".voxel.json",
+               ".bpt")
 # What `camway info` and `camway import` end with (docs/commands.md): read, or refused.
 GOOD_CODES = (0, 2)
 # The import process has a minute of wall clock; then a busy machine needs some time to say so.
@@ -230,7 +231,8 @@ def parse_options():
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--samples", type=Path, help="a folder with more samples")
     parser.add_argument("--only", default="", help="samples with this text in their name")
-    parser.add_argument("--without", default=None, help="no samples with this text in their name")
+    parser.add_argument("--without", action="append", default=[],
+                        help="no samples with this text in their name; may be given again")
     parser.add_argument("--keep", type=Path, help="folder for files that broke something")
     options = parser.parse_args()
     options.programs = options.programs.resolve()
@@ -243,9 +245,8 @@ def samples_in(folder, options):
         root = options.samples.resolve()
         made += [(path, root) for path in sorted(root.rglob("*")) if path.is_file()]
     wanted = [Sample(path, root) for path, root in made]
-    if options.without is not None:
-        wanted = [sample for sample in wanted if options.without not in sample.name]
-    return [sample for sample in wanted if options.only in sample.name]
+    return [sample for sample in wanted if options.only in sample.name
+            and not any(text in sample.name for text in options.without)]
 
 
 def main():
