@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "daemon/scene/import/surfaces/bezier_patches.h"
 #include "daemon/scene/import/unigrafix/unigrafix_reader.h"
 #include "tests/fuzz/exercise_mesh.h"
 #include "tests/fuzz/targets.h"
@@ -53,6 +54,34 @@ bool exercise_unigrafix(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
+bool exercise_bezier(std::span<const std::uint8_t> bytes) {
+  // A patch may be made as fine as its numbers ask for; a mutant must not take a second.
+  constexpr std::uint64_t kMostTriangles = 20'000;
+  const auto read = scene::surfaces::read_bezier_patches(as_text(bytes), kMostTriangles);
+  promise(static_cast<bool>(read) == read.error.empty(), "a record or a reason");
+  if (!read) return false;
+  promise(read->header.surface_error >= 0.0, "the error is a bound");
+  promise(read->triangles.size() <= kMostTriangles, "no more triangles than are allowed");
+  return true;
+}
+
+std::vector<FuzzBytes> bezier_seeds() {
+  std::string points = "\n16\n";
+  std::string knob = "1";
+  std::string patch = "1";
+  for (int i = 0; i < 16; ++i) {
+    points +=
+        std::to_string(i % 4) + "," + std::to_string(i / 4) + ",0." + std::to_string(i) + "\n";
+    if (i > 0) patch += "," + std::to_string(i + 1);
+    if (i > 0) knob += i < 4 ? ",1" : " " + std::to_string(i + 1);
+  }
+  return {fuzz_bytes("1\n" + patch + points),
+          fuzz_bytes("2\n" + patch + "\n" + knob + points),
+          fuzz_bytes("1\n" + patch + "\n16\n0,0,nan\n"),
+          fuzz_bytes("99999999999\n"),
+          {}};
+}
+
 std::vector<FuzzBytes> unigrafix_seeds() {
   const std::string square = "v a 0 0 0;v b 9 0 0;v c 9 9 0;v d 0 9 0;";
   return {
@@ -74,6 +103,7 @@ std::vector<FuzzBytes> unigrafix_seeds() {
 
 constinit const FuzzTarget kUnigrafixTarget{"unigrafix", exercise_unigrafix, unigrafix_seeds,
                                             40'000};
+constinit const FuzzTarget kBezierTarget{"bezier", exercise_bezier, bezier_seeds, 2'000};
 constinit const FuzzTarget kMeshTarget{"mesh", exercise_mesh_file, mesh_seeds, 40'000};
 
 }  // namespace camway::testing

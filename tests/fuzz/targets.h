@@ -57,6 +57,7 @@ extern const FuzzTarget kFleetTarget;
 extern const FuzzTarget kFleetPartsTarget;
 extern const FuzzTarget kMeshTarget;
 extern const FuzzTarget kPointsTarget;
+extern const FuzzTarget kBezierTarget;
 extern const FuzzTarget kUnigrafixTarget;
 extern const FuzzTarget kCameraFileTarget;
 extern const FuzzTarget kRequestJsonTarget;

@@ -9,8 +9,9 @@
 #   --seconds   how long for each target (600)
 #   --jobs      compilers at a time (one for each core)
 #   TARGET      of these; all if none is named:
-#               wire envelope mesh import_record map_file request_json response_json path_json
-#               session config key_file inventor_file points
+#               wire envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
+#               import_record map_file inventor_file cache_file change_record log_message
+#               stream_answer source_record request_json response_json path_json session config
 #
 # Needs clang 16 or later, as older ones cannot read the ranges of Debian's C++ library (apt-get install
 # --no-install-recommends clang-16 libclang-rt-16-dev). Builds in build/fuzz. What was found to be of interest stays
@@ -23,8 +24,9 @@ build=$root/build/fuzz
 seconds=600
 jobs=$(nproc)
 targets=()
-readonly kTargets=(wire envelope mesh import_record map_file request_json response_json path_json
-  session config key_file inventor_file points)
+readonly kTargets=(wire envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
+  import_record map_file inventor_file cache_file change_record log_message stream_answer source_record
+  request_json response_json path_json session config)
 
 usage() { sed -n '/^# Fuzzes/,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; }
 
