@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -114,13 +115,14 @@ base::Result<PlaneCurve> plane_curve_of(Handle(Geom2d_Curve) curve) {
 class FaceReader {
  public:
   FaceReader(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangulation,
-             const TopLoc_Location& place)
+             const TopLoc_Location& place, const EdgeCurves& edges)
       : face_(TopoDS::Face(face.Oriented(TopAbs_FORWARD))),
         triangulation_(triangulation),
-        place_(place) {}
+        place_(place),
+        edges_(edges) {}
 
   base::Result<FaceMesh> read(const Handle(Geom_BSplineSurface) & surface) {
-    result_.surface = surface_of(surface);
+    result_.face.surface = surface_of(surface);
     take_nodes();
     for (TopExp_Explorer edge(face_, TopAbs_EDGE); edge.More(); edge.Next()) {
       const TopAbs_Orientation side = edge.Current().Orientation();
@@ -138,13 +140,13 @@ class FaceReader {
     for (int i = 1; i <= triangulation_->NbNodes(); ++i) {
       const gp_Pnt point = triangulation_->Node(i).Transformed(move);
       const gp_Pnt2d at = triangulation_->UVNode(i);
-      result_.mesh.points.push_back({point.X(), point.Y(), point.Z()});
-      result_.mesh.parameters.push_back({at.X(), at.Y()});
+      result_.face.mesh.points.push_back({point.X(), point.Y(), point.Z()});
+      result_.face.mesh.parameters.push_back({at.X(), at.Y()});
     }
     for (int i = 1; i <= triangulation_->NbTriangles(); ++i) {
       std::array<int, 3> nodes;
       triangulation_->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-      result_.mesh.triangles.push_back({node(nodes[0]), node(nodes[1]), node(nodes[2])});
+      result_.face.mesh.triangles.push_back({node(nodes[0]), node(nodes[1]), node(nodes[2])});
     }
   }
   static std::uint32_t node(int number) { return static_cast<std::uint32_t>(number - 1); }
@@ -180,19 +182,36 @@ class FaceReader {
     if (!curve) return curve.error;
     const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(edge, trim);
     if (polygon.IsNull()) return "has an edge without nodes";
-    for (int i = 1; i < polygon->NbNodes(); ++i) {
-      TrimPiece piece{{node(polygon->Node(i)), node(polygon->Node(i + 1))},
-                      surfaces::hull_of(*curve, polygon->Parameter(i), polygon->Parameter(i + 1))};
-      if (edge.Orientation() == TopAbs_REVERSED) std::swap(piece.nodes[0], piece.nodes[1]);
-      result_.mesh.boundary.push_back(std::move(piece));
-    }
+    for (int i = 1; i < polygon->NbNodes(); ++i) add_piece(edge, *curve, *polygon, i);
+    result_.face.curves.push_back(*curve);
     result_.edge_tolerance = std::max(result_.edge_tolerance, BRep_Tool::Tolerance(edge));
     return {};
+  }
+
+  /// Adds the piece from node i to the next, of an edge whose trim curve is added after.
+  void add_piece(const TopoDS_Edge& edge, const PlaneCurve& curve,
+                 const Poly_PolygonOnTriangulation& polygon, int i) {
+    surfaces::BoundarySource source;
+    if (const std::optional<std::uint32_t> number = edges_.number_of(edge)) {
+      source.piece = surfaces::EdgePiece{*number, static_cast<std::uint32_t>(i)};
+    }
+    source.curve = result_.face.curves.size();
+    source.from = polygon.Parameter(i);
+    source.to = polygon.Parameter(i + 1);
+    TrimPiece piece{{node(polygon.Node(i)), node(polygon.Node(i + 1))},
+                    surfaces::hull_of(curve, source.from, source.to)};
+    if (edge.Orientation() == TopAbs_REVERSED) {
+      std::swap(piece.nodes[0], piece.nodes[1]);
+      std::swap(source.from, source.to);
+    }
+    result_.face.mesh.boundary.push_back(std::move(piece));
+    result_.face.sources.push_back(source);
   }
 
   const TopoDS_Face face_;
   const Handle(Poly_Triangulation) triangulation_;
   const TopLoc_Location place_;
+  const EdgeCurves& edges_;
   FaceMesh result_;
 };
 
@@ -213,7 +232,7 @@ std::string fault_of_form(const Handle(Geom_Surface) & surface) {
   return is_known ? "" : "is of a kind that is not known";
 }
 
-base::Result<FaceMesh> mesh_of_face(const TopoDS_Face& face) {
+base::Result<FaceMesh> mesh_of_face(const TopoDS_Face& face, const EdgeCurves& edges) {
   const auto surface = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
   if (surface.IsNull()) return base::Failure{"could not be made a B-spline surface"};
   TopLoc_Location place;
@@ -222,7 +241,7 @@ base::Result<FaceMesh> mesh_of_face(const TopoDS_Face& face) {
     return base::Failure{"could not be made triangles"};
   }
   if (!triangulation->HasUVNodes()) return base::Failure{"has triangles without parameters"};
-  base::Result<FaceMesh> result = FaceReader(face, triangulation, place).read(surface);
+  base::Result<FaceMesh> result = FaceReader(face, triangulation, place, edges).read(surface);
   if (result) result->is_reversed = face.Orientation() == TopAbs_REVERSED;
   return result;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -23,7 +24,10 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 
+#include "daemon/scene/import/cad/edge_curves.h"
 #include "daemon/scene/import/cad/face_surface.h"
+#include "daemon/scene/import/surfaces/edge_refinement.h"
+#include "daemon/scene/import/surfaces/parametric_error.h"
 
 namespace camway::scene::cad {
 namespace {
@@ -38,9 +42,14 @@ constexpr int kMostProposals = 6;
 /// Proposals that may fail to bound faces; more of them seldom help.
 constexpr int kMostFailures = 2;
 
-/// The part of the tolerance that is asked of the library first, and aimed at later: its own
-/// measure is less than the bound.
+/// The part of the tolerance by which sides of the first proposal may slide, and at which later
+/// proposals aim: the bound of a triangle can be more than the slide of its sides.
 constexpr double kAim = 0.6;
+
+/// Sides may slide by this much more than the deflection that the library is asked for. The bound
+/// of the sag of a trim curve is up to sqrt(2) times what the library measures (`error_of`), so
+/// that most of the library's chords need no split.
+constexpr double kSlidePerDeflection = std::numbers::sqrt2;
 
 /// A proposal is finer than the last by these factors at least and at most.
 constexpr double kLeastStep = 0.6;
@@ -153,8 +162,8 @@ class FacetCollector {
 
   void add(const FaceMesh& face) {
     std::vector<std::uint32_t> numbers;
-    for (const Point& point : face.mesh.points) numbers.push_back(number(point));
-    for (const auto& triangle : face.mesh.triangles) {
+    for (const Point& point : face.face.mesh.points) numbers.push_back(number(point));
+    for (const auto& triangle : face.face.mesh.triangles) {
       std::array<std::uint32_t, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = numbers[triangle[k]];
       if (face.is_reversed) std::swap(corners[1], corners[2]);
@@ -181,12 +190,12 @@ class FacetCollector {
 /// Makes triangles of a part, finer until they are good.
 class PartMesher {
  public:
-  explicit PartMesher(const TopoDS_Shape& part) : part_(spline_part(part)) {}
+  explicit PartMesher(const TopoDS_Shape& part) : part_(spline_part(part)), edges_(part_.shape) {}
 
   PartMesh made() {
     const std::optional<double> size = size_of(part_.shape);
     if (!size) return without_any("has no bounds");
-    double deflection = kAim * surfaces::kRelativeTolerance * *size;
+    double deflection = kAim / kSlidePerDeflection * surfaces::kRelativeTolerance * *size;
     std::optional<Proposal> best;
     double last_error = std::numeric_limits<double>::infinity();
     int failures = 0;
@@ -233,32 +242,50 @@ class PartMesher {
     parameters.Angle = kLargestTurn;
     parameters.InParallel = Standard_False;  // an import process may start no thread
     const BRepMesh_IncrementalMesh mesher(part_.shape, parameters);
+    return refined(deflection);
+  }
+
+  /// Takes the faces that the library has made triangles of, and refines these.
+  [[nodiscard]] Proposal refined(double deflection) const {
     Proposal result;
+    std::vector<FaceMesh> meshes;
+    for (const Face& face : part_.faces) {
+      if (!face.fault.empty()) {
+        ++result.mesh.left_out[face.fault];
+      } else if (base::Result<FaceMesh> mesh = mesh_of_face(face.spline, edges_)) {
+        meshes.push_back(*std::move(mesh));
+      } else {
+        leave_out(mesh.error, result);
+      }
+    }
+    std::vector<surfaces::RefinableFace*> faces;
+    for (FaceMesh& mesh : meshes) faces.push_back(&mesh.face);
+    const auto point = [&](std::uint32_t edge, double t) { return edges_.point(edge, t); };
+    surfaces::refine_sides(faces, point, kSlidePerDeflection * deflection, kMostPartTriangles);
     FacetCollector collector(result.mesh.facets);
-    for (const Face& face : part_.faces) add(face, collector, result);
+    for (const FaceMesh& mesh : meshes) add(mesh, collector, result);
     return result;
   }
 
-  static void add(const Face& face, FacetCollector& collector, Proposal& result) {
-    if (!face.fault.empty()) {
-      ++result.mesh.left_out[face.fault];
-      return;
-    }
-    const base::Result<FaceMesh> mesh = mesh_of_face(face.spline);
-    const base::Result<double> error =
-        mesh ? surfaces::error_of(mesh->surface, mesh->mesh) : base::Failure{mesh.error};
+  static void leave_out(const std::string& fault, Proposal& result) {
+    ++result.mesh.left_out[fault];
+    ++result.without_bound;
+  }
+
+  static void add(const FaceMesh& mesh, FacetCollector& collector, Proposal& result) {
+    const base::Result<double> error = surfaces::error_of(mesh.face.surface, mesh.face.mesh);
     if (!error) {
-      ++result.mesh.left_out[error.error];
-      ++result.without_bound;
+      leave_out(error.error, result);
       return;
     }
-    collector.add(*mesh);
+    collector.add(mesh);
     double& largest = result.mesh.facets.error;
-    largest = std::max(largest, *error + mesh->edge_tolerance);
+    largest = std::max(largest, *error + mesh.edge_tolerance);
     ++result.mesh.faces;
   }
 
   SplinePart part_;
+  EdgeCurves edges_;
 };
 
 }  // namespace

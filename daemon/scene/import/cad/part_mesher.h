@@ -24,14 +24,16 @@ struct PartMesh {
   std::map<std::string, std::uint64_t> left_out;  ///< faces that did not, by the reason
 };
 
-/// Makes triangles of a part's faces. The library proposes them (`BRepMesh_IncrementalMesh`); how
-/// far they are off is not its word, but derived of the exact surfaces (`surfaces::error_of`), to
-/// which come the distances of trim curves from their edges, as the library states them. The
-/// proposal becomes finer until the error is within `kRelativeTolerance` of half the diagonal of
-/// the part, or finer triangles do not lessen it, or that would take more than
-/// `kMostPartTriangles`. The bound counts how far a triangle slides along its surface, too, so that
-/// it is larger than it had to be where parameters run unevenly: at the apex of a cone, or with
-/// weights that differ much.
+/// Makes triangles of a part's faces. The library proposes them (`BRepMesh_IncrementalMesh`), and
+/// sides that slide are split (`surfaces::refine_sides`). The error is not the library's word, but
+/// derived of the exact surfaces (`surfaces::error_of`), to which come the distances of trim curves
+/// from their edges, as the library states them. The proposal becomes finer until the error is
+/// within `kRelativeTolerance` of half the diagonal of the part, or finer triangles do not lessen
+/// it, or that would take more than `kMostPartTriangles`.
+///
+/// The bound counts how far a triangle slides along its surface, too. The library does not, and
+/// puts only two nodes on an edge that is straight in space. So sides are split where parameters
+/// run unevenly, as with weights that differ much and at the apex of a cone.
 ///
 /// Surfaces become rational B-splines first, which is exact for all that `fault_of_form` accepts;
 /// faces of others are left out, as are faces whose triangles have no bound. Neighbouring faces

@@ -7,13 +7,13 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import/surfaces/bezier_net.h"
 #include "daemon/scene/import/surfaces/knot_axis.h"
+#include "daemon/scene/import/surfaces/surface_points.h"
 
 namespace camway::scene::surfaces {
 namespace {
@@ -185,31 +185,17 @@ DerivativeBounds bounds_of(const PatchLessLinear& patch) {
 class Directions {
  public:
   explicit Directions(const ParametricSurface& surface)
-      : surface_(surface.surface),
-        axes_{KnotAxis(surface_.u_knots, surface_.u_points, surface.periods[0]),
-              KnotAxis(surface_.v_knots, surface_.v_points, surface.periods[1])} {}
+      : surface_(surface.surface), points_(surface) {}
 
-  [[nodiscard]] const KnotAxis& axis(std::size_t k) const { return axes_[k]; }
-
-  [[nodiscard]] Point point(const Parameters& at) const {
-    const SpanPart u = axes_[0].part(at[0], at[0]);
-    const SpanPart v = axes_[1].part(at[1], at[1]);
-    const std::size_t q = axes_[1].degree();
-    std::vector<WeightedPoint> column(v.knot + 1);
-    for (std::size_t j = v.knot - q; j <= v.knot; ++j) {
-      column[j] =
-          blossom(std::span(surface_.points).subspan(j * surface_.u_points, surface_.u_points),
-                  surface_.u_knots, axes_[0].degree(), u, 0);
-    }
-    return projected(blossom(column, surface_.v_knots, q, v, 0));
-  }
+  [[nodiscard]] const KnotAxis& axis(std::size_t k) const { return points_.axis(k); }
+  [[nodiscard]] Point point(const Parameters& at) const { return points_.point(at); }
 
   /// Bounds over a rectangle in which no knot is.
   [[nodiscard]] DerivativeBounds bounds(const Rectangle& of) const {
-    const SpanPart u = axes_[0].part(of.low[0], of.high[0]);
-    const SpanPart v = axes_[1].part(of.low[1], of.high[1]);
+    const SpanPart u = axis(0).part(of.low[0], of.high[0]);
+    const SpanPart v = axis(1).part(of.low[1], of.high[1]);
     return bounds_of(
-        PatchLessLinear(bezier_net(surface_, u, v), axes_[0].degree(), axes_[1].degree()));
+        PatchLessLinear(bezier_net(surface_, u, v), axis(0).degree(), axis(1).degree()));
   }
 
   /// How far a computed point may be off.
@@ -220,13 +206,13 @@ class Directions {
       largest = std::max(largest, length({p[0], p[1], p[2]}));
       weight = std::min(weight, p[3]);
     }
-    const auto degrees = static_cast<double>(axes_[0].degree() + axes_[1].degree() + 1);
+    const auto degrees = static_cast<double>(axis(0).degree() + axis(1).degree() + 1);
     return kRoundoffsPerDegree * degrees * geometry::kUnitRoundoff * largest / weight;
   }
 
  private:
   const NurbsSurface& surface_;
-  std::array<KnotAxis, 2> axes_;
+  SurfacePoints points_;
 };
 
 /// The largest bound of the triangles.
@@ -348,7 +334,7 @@ Parameters slopes(const Directions& surface, const Rectangle& box) {
 }
 
 /// s of the header.
-double sag_of(const Directions& surface, const ParametricMesh& mesh, const TrimPiece& piece) {
+double sag_in(const Directions& surface, const ParametricMesh& mesh, const TrimPiece& piece) {
   const Parameters& a = mesh.parameters[piece.nodes[0]];
   const Parameters& b = mesh.parameters[piece.nodes[1]];
   Rectangle box;
@@ -383,20 +369,11 @@ class Chain {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides_;
 };
 
-bool has_turned(const ParametricMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  Rectangle box;
-  for (const std::uint32_t node : triangle) box.include(mesh.parameters[node]);
-  const Parameters& a = mesh.parameters[triangle[0]];
-  const Parameters& b = mesh.parameters[triangle[1]];
-  const Parameters& c = mesh.parameters[triangle[2]];
-  const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-  return !(area >= -kTurned * box.extent(0) * box.extent(1));
-}
-
 /// The check of the header: whether the triangles are the region within the chords.
 std::string fault_of_cover(const ParametricMesh& mesh) {
-  for (const auto& triangle : mesh.triangles) {
-    if (has_turned(mesh, triangle)) return "has triangles that turn over";
+  const auto at = [&](std::uint32_t node) { return mesh.parameters[node]; };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (has_turned({at(a), at(b), at(c)})) return "has triangles that turn over";
   }
   Chain outline;
   for (const auto& triangle : mesh.triangles) {
@@ -407,6 +384,19 @@ std::string fault_of_cover(const ParametricMesh& mesh) {
 }
 
 }  // namespace
+
+bool has_turned(const std::array<Parameters, 3>& triangle) {
+  Rectangle box;
+  for (const Parameters& corner : triangle) box.include(corner);
+  const auto& [a, b, c] = triangle;
+  const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  return !(area >= -kTurned * box.extent(0) * box.extent(1));
+}
+
+double sag_of(const ParametricSurface& surface, const ParametricMesh& mesh,
+              const TrimPiece& piece) {
+  return sag_in(Directions(surface), mesh, piece);
+}
 
 base::Result<double> error_of(const ParametricSurface& surface, const ParametricMesh& mesh) {
   if (std::string fault = fault_of(surface.surface); !fault.empty()) {
@@ -420,7 +410,7 @@ base::Result<double> error_of(const ParametricSurface& surface, const Parametric
   for (const auto& triangle : mesh.triangles) triangles.add(mesh, triangle);
   double sag = 0.0;
   for (const TrimPiece& piece : mesh.boundary) {
-    sag = std::max(sag, sag_of(directions, mesh, piece));
+    sag = std::max(sag, sag_in(directions, mesh, piece));
   }
   const double error = triangles.largest() + sag + directions.rounding();
   if (!std::isfinite(error)) return base::Failure{"has a weight or a number that is of no use"};

@@ -35,6 +35,13 @@ struct ParametricMesh {
   std::vector<TrimPiece> boundary;
 };
 
+/// Returns whether a triangle turns over in (u, v), by more than its area may be rounded.
+bool has_turned(const std::array<Parameters, 3>& triangle);
+
+/// Returns a bound of the distance in space between a trim curve and its chord: s of `error_of`.
+/// Requires a surface without a fault (`fault_of`).
+double sag_of(const ParametricSurface& surface, const ParametricMesh& mesh, const TrimPiece& piece);
+
 /// Returns a bound of the distance of any point of the face from the triangles, and of any point of
 /// the triangles from the face. Nothing is assumed of how the triangles were made.
 ///
