@@ -68,6 +68,7 @@ class Connection final : public Place, public std::enable_shared_from_this<Conne
   void abort() override;
 
  private:
+  void on_head(beast::error_code error);
   void on_read(beast::error_code error);
   void refuse(beast::error_code error);
   /// Turns the connection into a WebSocket, if the handlers take it. Returns whether they do.
