@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "tools/view/backend.h"
+#include "tools/view/change_rate.h"
+#include "tools/view/door.h"
+
+namespace camway::view {
+
+/// What HTTP and sockets have in common: the rules that orders have to keep, and the backend that
+/// answers them. Thread-safe.
+class Desk {
+ public:
+  Desk(const DoorOptions& options, Backend& backend)
+      : options_(options),
+        backend_(backend),
+        rate_(options.limits.changes_per_s, options.limits.change_burst) {}
+
+  [[nodiscard]] const DoorLimits& limits() const { return options_.limits; }
+  [[nodiscard]] Backend& backend() const { return backend_; }
+
+  /// Names the scene of an order that names none.
+  template <class Order>
+  [[nodiscard]] Order in_scene(Order order) const {
+    if (order.scene.empty()) order.scene = backend_.scene();
+    return order;
+  }
+
+  /// Looks at a scene or changes it, if the rules allow it.
+  void ask_scene(SceneOrder order, Done done);
+  /// Answers with the state of the door and of the backend.
+  void status(Done done) const;
+  /// Returns the versions of the program and of the door.
+  [[nodiscard]] static Answer version();
+
+ private:
+  const DoorOptions options_;
+  Backend& backend_;
+  ChangeRate rate_;
+};
+
+}  // namespace camway::view
