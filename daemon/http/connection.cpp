@@ -150,16 +150,28 @@ void Connection::answer(std::optional<Response> response) {
   beast::http::async_write(
       stream_, *message,
       [self = shared_from_this(), message](beast::error_code error, std::size_t) {
-        if (error || !self->keeps_alive_) return self->abort();
-        self->read();
+        if (error) return self->abort();
+        self->keeps_alive_ ? self->read() : self->end();
       });
 }
 
-void Connection::abort() {
+void Connection::end() {
   beast::error_code ignored;
-  // What was written arrives, unless unread bytes make the kernel reset the connection.
   stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-  stream_.close();
+  buffer_.clear();
+  stream_.expires_after(shared_.limits.patience);
+  drain();
 }
+
+void Connection::drain() {
+  constexpr std::size_t kPart = 65'536;
+  buffer_.clear();
+  stream_.async_read_some(buffer_.prepare(kPart),
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            error ? self->abort() : self->drain();
+                          });
+}
+
+void Connection::abort() { stream_.close(); }
 
 }  // namespace camway::http

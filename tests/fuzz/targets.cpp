@@ -13,6 +13,7 @@ std::span<const FuzzTarget> fuzz_targets() {
       kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
       kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
       kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kCameraFileTarget,
+      kDoorMessageTarget,
 #ifdef CAMWAY_WITH_INVENTOR
       kInventorFileTarget,
 #endif

@@ -10,7 +10,7 @@
 #   --jobs      compilers at a time (one for each core)
 #   TARGET      of these; all if none is named:
 #               wire envelope mesh import_record map_file request_json response_json path_json
-#               session config key_file inventor_file
+#               session config key_file inventor_file door_message
 #
 # Needs clang 16 or later, as older ones cannot read the ranges of Debian's C++ library (apt-get install
 # --no-install-recommends clang-16 libclang-rt-16-dev). Builds in build/fuzz. What was found to be of interest stays
@@ -24,7 +24,7 @@ seconds=600
 jobs=$(nproc)
 targets=()
 readonly kTargets=(wire envelope mesh import_record map_file request_json response_json path_json
-  session config key_file inventor_file)
+  session config key_file inventor_file door_message)
 
 usage() { sed -n '/^# Fuzzes/,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; }
 

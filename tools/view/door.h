@@ -26,9 +26,9 @@ struct DoorLimits {
 
 struct DoorOptions {
   int port = 0;  ///< 0: any free port
-  std::string token;
+  std::string token = {};
   bool is_read_only = false;  ///< whether changes of scenes are refused
-  DoorLimits limits;
+  DoorLimits limits = {};
 };
 
 /// The door: HTTP and WebSocket on 127.0.0.1, in JSON (docs/http.md). Requests are answered by a
