@@ -9,6 +9,14 @@
 
 namespace camway::view {
 
+Desk::Place Desk::take_place() {
+  if (plans_->fetch_add(1) >= options_.limits.all_plans) {
+    plans_->fetch_sub(1);
+    return nullptr;
+  }
+  return {plans_.get(), [plans = plans_](void*) { plans->fetch_sub(1); }};
+}
+
 void Desk::ask_scene(SceneOrder order, Done done) {
   if (order.is_change()) {
     if (options_.is_read_only) {

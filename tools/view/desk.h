@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <memory>
 #include <string>
 
 #include "tools/view/backend.h"
@@ -28,6 +30,11 @@ class Desk {
     return order;
   }
 
+  /// Takes a place for a plan of a socket, which the result keeps as long as it lives. Null if all
+  /// places are taken.
+  using Place = std::shared_ptr<void>;
+  [[nodiscard]] Place take_place();
+
   /// Looks at a scene or changes it, if the rules allow it.
   void ask_scene(SceneOrder order, Done done);
   /// Answers with the state of the door and of the backend.
@@ -39,6 +46,8 @@ class Desk {
   const DoorOptions options_;
   Backend& backend_;
   ChangeRate rate_;
+  /// Plans of all sockets under way. Places keep it, which may outlive the desk.
+  const std::shared_ptr<std::atomic<int>> plans_ = std::make_shared<std::atomic<int>>(0);
 };
 
 }  // namespace camway::view

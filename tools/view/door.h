@@ -17,7 +17,8 @@ struct DoorLimits {
   std::size_t message_bytes = std::size_t{4} << 20;  ///< of a message of a socket
   /// Messages that wait for a slow receiver. Beyond that its connection is closed.
   std::size_t queued_bytes = std::size_t{32} << 20;
-  int plans = 8;                ///< under way for one socket
+  int plans = 8;                ///< under way for one socket, checks included
+  int all_plans = 64;           ///< under way for all sockets together
   int requests = 32;            ///< under way over HTTP, all connections together
   int open = 64;                ///< messages of one socket without an answer, watches included
   double changes_per_s = 50.0;  ///< changes of scenes, of all clients together

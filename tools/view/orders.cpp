@@ -193,34 +193,48 @@ class MessageReader {
   }
 
  private:
+  /// What a message may ask for, in the order of `kVerbs`.
+  enum class Verb : std::uint8_t {
+    kPlan,
+    kCheck,
+    kCancel,
+    kStatus,
+    kVersion,
+    kWatch,
+    kUnwatch,
+    kSceneList,  // from here in the order of `SceneOrder::Kind`
+    kSceneDescribe,
+    kSceneAdd,
+    kSceneMove,
+    kSceneRemove,
+  };
   static constexpr std::array<std::string_view, 12> kVerbs{
-      "plan",           "check",     "cancel",     "status",       "version", "scene.list",
-      "scene.describe", "scene.add", "scene.move", "scene.remove", "watch",   "unwatch"};
+      "plan",    "check",      "cancel",         "status",    "version",    "watch",
+      "unwatch", "scene.list", "scene.describe", "scene.add", "scene.move", "scene.remove"};
 
   void read_what(Message& message) {
-    using Kind = SceneOrder::Kind;
-    const std::size_t verb = tools::named(root_.member("do"), kVerbs);
+    const auto verb = static_cast<Verb>(tools::named(root_.member("do"), kVerbs));
     if (root_.failed()) return;
     switch (verb) {
-      case 0:
+      case Verb::kPlan:
         return read_plan_message(message);
-      case 1:
+      case Verb::kCheck:
         return read_check_message(message);
-      case 2:
+      case Verb::kCancel:
         return read_bare<Message::Cancel>(message);
-      case 3:
+      case Verb::kStatus:
         return read_bare<Message::Status>(message);
-      case 4:
+      case Verb::kVersion:
         return read_bare<Message::Version>(message);
-      case 10:
+      case Verb::kWatch:
         return read_watch(message);
-      case 11:
+      case Verb::kUnwatch:
         return read_bare<Message::Unwatch>(message);
       default:
         break;
     }
-    constexpr std::size_t kFirstOfScenes = 5;
-    read_scene_message(static_cast<Kind>(verb - kFirstOfScenes), message);
+    const int kind = static_cast<int>(verb) - static_cast<int>(Verb::kSceneList);
+    read_scene_message(static_cast<SceneOrder::Kind>(kind), message);
   }
 
   template <class What>
@@ -247,12 +261,16 @@ class MessageReader {
   }
 
   void read_plan_message(Message& message) {
-    root_.allow_only({"id", "do", "request", "progress", "drag"});
+    root_.allow_only({"id", "do", "request", "progress", "drag", "finish"});
     Message::Plan plan;
     if (const auto progress = root_.optional_member("progress"))
       plan.wants_progress = progress->boolean();
     if (const auto drag = root_.optional_member("drag"))
       plan.drag = read_name(*drag, kLongestDragName);
+    if (const auto finish = root_.optional_member("finish")) {
+      plan.may_finish = finish->boolean();
+      if (plan.drag.empty()) finish->fail("does not count without a drag");
+    }
     const Json* const request = part("request");
     if (request == nullptr || !take(read_plan(*request), plan.order)) return;
     message.what = std::move(plan);
@@ -282,7 +300,7 @@ class MessageReader {
     SceneOrder order;
     std::vector<std::string_view> known{"id", "do"};
     if (kind != SceneOrder::Kind::kList) known.emplace_back("scene");
-    if (order.is_change() || kind >= SceneOrder::Kind::kAdd) known.emplace_back("object");
+    if (kind >= SceneOrder::Kind::kAdd) known.emplace_back("object");
     if (kind == SceneOrder::Kind::kAdd) known.emplace_back("form");
     if (kind == SceneOrder::Kind::kAdd || kind == SceneOrder::Kind::kMove) {
       known.insert(known.end(), {"position", "orientation"});

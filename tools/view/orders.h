@@ -96,6 +96,8 @@ struct Message {
     PlanOrder order;
     bool wants_progress = false;
     std::string drag;  ///< name of the drag that this is the latest request of; empty: none
+    /// Whether newer requests of its drag wait for its answer, once it is under way.
+    bool may_finish = false;
   };
 
   std::int64_t id = 0;

@@ -29,17 +29,23 @@ class Session : public std::enable_shared_from_this<Session> {
  private:
   /// Something under way. It has no job yet while the backend is being asked.
   struct Open {
-    bool is_plan = false;
+    Desk::Place place = nullptr;  ///< set for a plan or a check
     std::string drag = {};
     std::shared_ptr<Job> job = nullptr;
     std::unique_ptr<Watch> watch = nullptr;
+    bool may_finish = false;
     bool is_cancelled = false;
     bool is_superseded = false;
   };
   /// The requests of a drag: one is under way, and the latest one may wait.
+  struct Waiting {
+    Id id = 0;
+    Message::Plan plan;
+    Desk::Place place;
+  };
   struct Drag {
     Id current = 0;
-    std::optional<std::pair<Id, Message::Plan>> next = std::nullopt;
+    std::optional<Waiting> next = std::nullopt;
   };
 
   void take(Id id, Message::Plan plan);
@@ -54,7 +60,7 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Has the backend plan. Requires that the id was entered.
   void ask(Id id, Message::Plan plan);
   /// Enters the id of a message without a drag, or sends why that is not possible.
-  bool open(Id id, bool is_plan);
+  bool open(Id id, bool is_plan = false);
   void set_job(Id id, std::shared_ptr<Job> job);
   /// Sends the answer of a plan, and begins the next one of its drag.
   void end_plan(Id id, const Answer& answer);
@@ -68,8 +74,10 @@ class Session : public std::enable_shared_from_this<Session> {
   [[nodiscard]] bool is_taken(Id id) const;
   /// Returns why no message with this id can be answered; nothing if one can.
   [[nodiscard]] std::optional<Answer> why_not(Id id) const;
+  /// Takes a place for a plan or a check, or returns why there is none.
+  [[nodiscard]] base::Result<Desk::Place> take_place();
   /// Enters an id that is free, as the one under way of its drag if it has one.
-  void enter(Id id, bool is_plan, const std::string& drag);
+  void enter(Id id, Desk::Place place, const Message::Plan& plan);
   void send(std::string text);
   void send_field(Id id, std::string_view name, std::string_view json);
   void send_answer(Id id, const Answer& answer);
@@ -112,13 +120,13 @@ void Session::end() {
 
 bool Session::is_taken(Id id) const {
   return open_.contains(id) || std::ranges::any_of(drags_, [id](const auto& drag) {
-           return drag.second.next && drag.second.next->first == id;
+           return drag.second.next && drag.second.next->id == id;
          });
 }
 
 int Session::plans() const {
   const auto running =
-      std::ranges::count_if(open_, [](const auto& each) { return each.second.is_plan; });
+      std::ranges::count_if(open_, [](const auto& each) { return each.second.place != nullptr; });
   const auto waiting =
       std::ranges::count_if(drags_, [](const auto& each) { return each.second.next.has_value(); });
   return static_cast<int>(running + waiting);
@@ -141,13 +149,33 @@ bool Session::open(Id id, bool is_plan) {
     send_error(id, fault->code, fault->error);
     return false;
   }
-  enter(id, is_plan, {});
+  Desk::Place place;
+  if (is_plan) {
+    base::Result<Desk::Place> taken = take_place();
+    if (!taken) {
+      send_error(id, code::kTooMany, taken.error);
+      return false;
+    }
+    place = *std::move(taken);
+  }
+  enter(id, std::move(place), {});
   return true;
 }
 
-void Session::enter(Id id, bool is_plan, const std::string& drag) {
-  open_[id] = Open{.is_plan = is_plan, .drag = drag};
-  if (!drag.empty()) drags_[drag].current = id;
+base::Result<Desk::Place> Session::take_place() {
+  if (plans() >= desk_->limits().plans) {
+    return base::Failure{
+        fmt::format("too many at a time: at most {} plans", desk_->limits().plans)};
+  }
+  Desk::Place place = desk_->take_place();
+  if (place) return place;
+  return base::Failure{fmt::format("too many at a time: at most {} plans of all clients together",
+                                   desk_->limits().all_plans)};
+}
+
+void Session::enter(Id id, Desk::Place place, const Message::Plan& plan) {
+  open_[id] = Open{.place = std::move(place), .drag = plan.drag, .may_finish = plan.may_finish};
+  if (!plan.drag.empty()) drags_[plan.drag].current = id;
 }
 
 void Session::take(Id id, Message::Plan plan) {
@@ -158,16 +186,15 @@ void Session::take(Id id, Message::Plan plan) {
     const auto drag = drags_.find(plan.drag);
     const bool waits = !plan.drag.empty() && drag != drags_.end();
     const bool replaces = waits && drag->second.next;
-    if (!replaces && plans() >= desk_->limits().plans) {
-      return send_error(id, code::kTooMany,
-                        fmt::format("too many at a time: at most {} plans", desk_->limits().plans));
-    }
+    base::Result<Desk::Place> place = replaces ? std::move(drag->second.next->place) : take_place();
+    if (!place) return send_error(id, code::kTooMany, place.error);
     if (!waits) {
-      enter(id, /*is_plan=*/true, plan.drag);
+      enter(id, *std::move(place), plan);
     } else {
-      if (replaces) send_field(drag->second.next->first, "superseded", "true");
-      drag->second.next.emplace(id, std::move(plan));
+      if (replaces) send_field(drag->second.next->id, "superseded", "true");
+      drag->second.next = Waiting{id, std::move(plan), *std::move(place)};
       Open& current = open_.at(drag->second.current);
+      if (current.may_finish) return;
       current.is_superseded = true;
       current.is_cancelled = true;
       older = current.job;
@@ -206,7 +233,7 @@ void Session::set_job(Id id, std::shared_ptr<Job> job) {
 }
 
 void Session::end_plan(Id id, const Answer& answer) {
-  std::optional<std::pair<Id, Message::Plan>> next;
+  std::optional<Waiting> next;
   {
     const std::lock_guard lock(mutex_);
     const auto found = open_.find(id);
@@ -223,10 +250,10 @@ void Session::end_plan(Id id, const Answer& answer) {
       next = std::move(drag->second.next);
       drags_.erase(drag);
       // Entered at once, so that no other one of the drag can begin beside it.
-      if (next) enter(next->first, /*is_plan=*/true, ended.drag);
+      if (next) enter(next->id, std::move(next->place), next->plan);
     }
   }
-  if (next) ask(next->first, std::move(next->second));
+  if (next) ask(next->id, std::move(next->plan));
 }
 
 Done Session::answer_to(Id id) {
@@ -242,11 +269,11 @@ void Session::take(Id id, CheckOrder order) {
 }
 
 void Session::take(Id id, SceneOrder order) {
-  if (open(id, /*is_plan=*/false)) desk_->ask_scene(std::move(order), answer_to(id));
+  if (open(id)) desk_->ask_scene(std::move(order), answer_to(id));
 }
 
 void Session::take(Id id, Message::Status) {
-  if (open(id, /*is_plan=*/false)) desk_->status(answer_to(id));
+  if (open(id)) desk_->status(answer_to(id));
 }
 
 void Session::take(Id id, Message::Version) {
@@ -255,7 +282,7 @@ void Session::take(Id id, Message::Version) {
 }
 
 void Session::take(Id id, Message::Watch watch) {
-  if (!open(id, /*is_plan=*/false)) return;
+  if (!open(id)) return;
   const auto tell = [self = shared_from_this(), id](const std::string& json) {
     const std::lock_guard lock(self->mutex_);
     if (self->open_.contains(id)) self->send_field(id, "event", json);
@@ -288,7 +315,7 @@ void Session::take(Id id, Message::Unwatch) {
 
 bool Session::drop_waiting(Id id) {
   for (auto& [name, drag] : drags_) {
-    if (!drag.next || drag.next->first != id) continue;
+    if (!drag.next || drag.next->id != id) continue;
     drag.next.reset();
     send_answer(id, failure(code::kCancelled, "cancelled"));
     return true;
@@ -303,7 +330,7 @@ void Session::take(Id id, Message::Cancel) {
     if (drop_waiting(id)) return;
     const auto found = open_.find(id);
     // Its answer may be on the way: then nobody waits for another one.
-    if (found == open_.end() || !found->second.is_plan) return;
+    if (found == open_.end() || !found->second.place) return;
     found->second.is_cancelled = true;
     job = found->second.job;
   }

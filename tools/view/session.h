@@ -14,7 +14,9 @@ namespace camway::view {
 ///
 /// Of plans with the same `drag`, the latest wins. One is under way and at most one waits; when a
 /// newer one comes, the one under way is cancelled, and the one that waits is dropped. Both are
-/// answered with `superseded`, even where the plan has ended meanwhile.
+/// answered with `superseded`, even where the plan has ended meanwhile. One that may finish
+/// (`Message::Plan::may_finish`) is not cancelled: where plans take longer than the time between
+/// requests, there would be no answer before the end of the drag.
 std::unique_ptr<http::SocketEvents> open_session(std::shared_ptr<Desk> desk,
                                                  std::shared_ptr<http::Socket> socket);
 

@@ -98,6 +98,23 @@ TEST_F(ViewSocket, AnOlderOneOfADragIsSupersededEvenIfItEnded) {
   EXPECT_EQ(socket.next(), json::parse(R"({"id": 2, "answer": {}})"));
 }
 
+TEST_F(ViewSocket, OneThatMayFinishIsAnsweredBeforeTheLatest) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  const std::string drag = R"(, "drag": "a", "finish": true)";
+  socket.send(plan_message(1, drag));
+  FakeBackend::Asked first = backend_.take();
+  socket.send(plan_message(2, drag));
+  socket.send(plan_message(3, drag));
+  EXPECT_EQ(socket.next(), json({{"id", 2}, {"superseded", true}}));
+  EXPECT_FALSE(*first.is_cancelled);
+  EXPECT_EQ(backend_.plans(), 1);
+  first.done(ok_answer("{}"));
+  EXPECT_EQ(socket.next(), json::parse(R"({"id": 1, "answer": {}})"));
+  backend_.take().done(ok_answer("{}"));
+  EXPECT_EQ(socket.next(), json::parse(R"({"id": 3, "answer": {}})"));
+}
+
 TEST_F(ViewSocket, DragsOfOtherNamesAndOtherSocketsGoOn) {
   open();
   SocketClient one(door_->port(), kSecret);
@@ -193,6 +210,27 @@ TEST_F(ViewSocket, LimitsPlansOfASocket) {
   socket.send(plan_message(4));
   backend_.take().done(ok_answer("{}"));
   EXPECT_EQ(socket.next().at("id"), 4) << "a place is free again";
+}
+
+TEST_F(ViewSocket, LimitsPlansOfAllSockets) {
+  open({.plans = 2, .all_plans = 3});
+  SocketClient one(door_->port(), kSecret);
+  SocketClient other(door_->port(), kSecret);
+  // One is under way and one waits; a newer one takes the place of the one that waits.
+  for (int id = 1; id <= 3; ++id) one.send(plan_message(id, R"(, "drag": "a")"));
+  EXPECT_EQ(one.next(), json({{"id", 2}, {"superseded", true}}));
+  other.send(plan_message(1));
+  other.send(plan_message(2));
+  const json refused = other.next();
+  EXPECT_EQ(refused.at("id"), 2);
+  EXPECT_EQ(refused.at("code"), 429);
+  EXPECT_THAT(refused.at("error"), HasSubstr("at most 3 plans of all clients"));
+  for (int i = 0; i < 3; ++i) backend_.take().done(ok_answer("{}"));
+  EXPECT_EQ(one.next(3).count("answer"), 1U);
+  EXPECT_EQ(other.next(1).count("answer"), 1U);
+  other.send(plan_message(2));
+  backend_.take().done(ok_answer("{}"));
+  EXPECT_EQ(other.next(2).count("answer"), 1U) << "a place is free again";
 }
 
 TEST_F(ViewSocket, AnIdIsTakenUntilItIsAnswered) {
