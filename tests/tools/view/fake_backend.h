@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -55,7 +57,7 @@ class FakeBackend final : public Backend {
   /// Waits for the next plan and takes it.
   Asked take() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !asked_.empty(); });
+    expect(lock, [this] { return !asked_.empty(); });
     Asked asked = std::move(asked_.front());
     asked_.pop_front();
     return asked;
@@ -63,7 +65,7 @@ class FakeBackend final : public Backend {
   /// Waits until a plan that was taken is cancelled.
   void wait_until_cancelled(const Asked& asked) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return *asked.is_cancelled; });
+    expect(lock, [&] { return *asked.is_cancelled; });
   }
   /// Returns how many plans were asked for.
   int plans() {
@@ -92,6 +94,13 @@ class FakeBackend final : public Backend {
     FakeBackend& backend_;
     std::shared_ptr<bool> is_cancelled_;
   };
+
+  /// Waits for what must come soon.
+  template <class Condition>
+  void expect(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+    constexpr std::chrono::seconds kPatience{30};
+    if (!changed_.wait_for(lock, kPatience, condition)) throw std::runtime_error("nothing came");
+  }
 
   std::mutex mutex_;
   std::condition_variable changed_;
