@@ -79,6 +79,23 @@ void Connection::read() {
   parser_->header_limit(static_cast<std::uint32_t>(shared_.limits.header_bytes));
   parser_->body_limit(shared_.limits.body_bytes);
   stream_.expires_after(shared_.limits.patience);
+  beast::http::async_read_header(
+      stream_, buffer_, *parser_,
+      [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_head(error); });
+}
+
+void Connection::on_head(beast::error_code fault) {
+  if (fault) return refuse(fault);
+  if (shared_.handlers.on_head) {
+    std::optional<Response> refusal =
+        shared_.handlers.on_head(to_request(BeastRequest(parser_->get())));
+    if (refusal) {
+      version_ = parser_->get().version();
+      is_head_ = parser_->get().method() == beast::http::verb::head;
+      keeps_alive_ = false;
+      return answer(std::move(refusal));
+    }
+  }
   beast::http::async_read(
       stream_, buffer_, *parser_,
       [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_read(error); });
@@ -123,6 +140,7 @@ void Connection::answer(std::optional<Response> response) {
   message->version(version_);
   message->result(static_cast<unsigned>(response->status));
   message->set(beast::http::field::content_type, response->type);
+  for (const auto& [name, value] : shared_.handlers.headers) message->set(name, value);
   for (const auto& [name, value] : response->headers) message->set(name, value);
   message->body() = std::move(response->body);
   message->keep_alive(keeps_alive_);
@@ -132,16 +150,28 @@ void Connection::answer(std::optional<Response> response) {
   beast::http::async_write(
       stream_, *message,
       [self = shared_from_this(), message](beast::error_code error, std::size_t) {
-        if (error || !self->keeps_alive_) return self->abort();
-        self->read();
+        if (error) return self->abort();
+        self->keeps_alive_ ? self->read() : self->end();
       });
 }
 
-void Connection::abort() {
+void Connection::end() {
   beast::error_code ignored;
-  // What was written arrives, unless unread bytes make the kernel reset the connection.
   stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-  stream_.close();
+  buffer_.clear();
+  stream_.expires_after(shared_.limits.patience);
+  drain();
 }
+
+void Connection::drain() {
+  constexpr std::size_t kPart = 65'536;
+  buffer_.clear();
+  stream_.async_read_some(buffer_.prepare(kPart),
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            error ? self->abort() : self->drain();
+                          });
+}
+
+void Connection::abort() { stream_.close(); }
 
 }  // namespace camway::http

@@ -68,8 +68,14 @@ class Connection final : public Place, public std::enable_shared_from_this<Conne
   void abort() override;
 
  private:
+  void on_head(beast::error_code error);
   void on_read(beast::error_code error);
   void refuse(beast::error_code error);
+  /// Closes the connection once the other side has, or the time for that is over: unread bytes
+  /// would make the kernel reset it, and the response would be lost.
+  void end();
+  /// Reads and drops bytes until the other side closes.
+  void drain();
   /// Turns the connection into a WebSocket, if the handlers take it. Returns whether they do.
   bool upgrade(const BeastRequest& parsed, const Request& request);
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -48,13 +49,15 @@ class BeastServer final : public Server {
   BeastServer& operator=(const BeastServer&) = delete;
 
   /// Takes over `socket`, which has to be listening. Returns why it cannot be served.
-  std::string start(base::FileDescriptor socket, bool is_v6) {
+  std::string start(base::FileDescriptor socket, bool is_v6,
+                    const std::function<void(int)>& before_start) {
     is_v6_ = is_v6;
     beast::error_code error;
     acceptor_.assign(is_v6 ? tcp::v6() : tcp::v4(), socket.release(), error);
     if (!error) acceptor_.non_blocking(true, error);
     if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) return error.message();
+    if (before_start) before_start(port_);
     core_->left = [this] { wait(); };
     wait();
     thread_ = std::thread([core = core_] { core->context.run(); });
@@ -119,7 +122,8 @@ class BeastServer final : public Server {
 }  // namespace
 
 base::Result<std::unique_ptr<Server>> Server::open(const Address& address, Handlers handlers,
-                                                   const Limits& limits) {
+                                                   const Limits& limits,
+                                                   const std::function<void(int)>& before_start) {
   const std::optional<SocketAddress> parsed = socket_address(address);
   if (!parsed) {
     return base::Failure{fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
@@ -130,7 +134,8 @@ base::Result<std::unique_ptr<Server>> Server::open(const Address& address, Handl
     return base::Failure{fmt::format("{}: {}", where, std::strerror(errno))};
   }
   auto server = std::make_unique<BeastServer>(std::move(handlers), limits);
-  const std::string fault = server->start(std::move(socket), parsed->storage.ss_family == AF_INET6);
+  const std::string fault =
+      server->start(std::move(socket), parsed->storage.ss_family == AF_INET6, before_start);
   if (!fault.empty()) return base::Failure{where + ": " + fault};
   return std::unique_ptr<Server>(std::move(server));
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -65,6 +66,11 @@ struct Handlers {
   /// `on_request` would be told, so that one place decides who may connect.
   std::function<std::unique_ptr<SocketEvents>(const Request&, std::shared_ptr<Socket>)> on_socket =
       nullptr;
+  /// Looks at a request before its body is read: a response refuses it, and the connection is
+  /// closed after it. So nobody who may not ask can make the server keep large bodies. May be null.
+  std::function<std::optional<Response>(const Request&)> on_head = nullptr;
+  /// Headers of every response, of those to requests that cannot be read and to upgrades, too.
+  std::vector<std::pair<std::string, std::string>> headers = {};
   /// A connection took the last place; further ones wait until another one ends. May be null.
   std::function<void()> on_full = nullptr;
 };
@@ -84,9 +90,11 @@ struct Limits {
 class Server {
  public:
   /// Returns the server, not null, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address
-  /// already in use".
-  static base::Result<std::unique_ptr<Server>> open(const Address& address, Handlers handlers,
-                                                    const Limits& limits);
+  /// already in use". `before_start`, which may be null, is told the port before the first
+  /// connection is accepted.
+  static base::Result<std::unique_ptr<Server>> open(
+      const Address& address, Handlers handlers, const Limits& limits,
+      const std::function<void(int)>& before_start = nullptr);
   virtual ~Server() = default;
   /// Returns the port on which it listens.
   [[nodiscard]] virtual int port() const = 0;

@@ -79,6 +79,12 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
     beast::get_lowest_layer(stream_).expires_never();
     stream_.set_option(
         websocket::stream_base::timeout{core_.limits.patience, kSilence, /*pings=*/true});
+    stream_.set_option(
+        websocket::stream_base::decorator([this](websocket::response_type& response) {
+          for (const auto& [name, value] : core_.handlers.headers) response.set(name, value);
+        }));
+    // One frame for a message, which simple clients and the kernel take better than many.
+    stream_.auto_fragment(false);
     stream_.read_message_max(core_.limits.message_bytes);
     stream_.async_accept(upgrade, [self = shared_from_this()](beast::error_code error) {
       if (error) return;

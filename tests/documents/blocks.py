@@ -13,7 +13,8 @@ import re
 
 MARKS = ("not run", "run first", "interrupted after", "python before")
 _MARK = re.compile(r"<!-- ([a-z ]+): (.*) -->$")
-_LANGUAGES = {"py": "python", "c++": "cpp", "console": "shell", "sh": "shell", "bash": "shell"}
+_LANGUAGES = {"py": "python", "c++": "cpp", "console": "shell", "sh": "shell", "bash": "shell",
+              "js": "javascript"}
 
 
 @dataclasses.dataclass
@@ -28,7 +29,7 @@ class Block:
         return f"{self.file}:{self.line}"
 
     def kind(self):
-        """"shell", "json", "python", "cpp", "toml", or whatever else the fence says; "" if unknown."""
+        """"shell", "json", "python", "javascript", "cpp", "toml", or whatever else the fence says; "" if unknown."""
         if self.language:
             return _LANGUAGES.get(self.language, self.language)
         if self.text.startswith("$ "):

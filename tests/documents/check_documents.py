@@ -5,8 +5,8 @@
     tools/scripts/netns.sh tests/documents/check_documents.py --programs BIN [--source DIR] [FILE.md...]
 
 Commands ("$ ...") have to succeed and to print what is shown below them, where "..." stands for
-anything; a `camwayd` stays until the next one or the document's end. Requests are planned, other
-JSON is parsed; Python is run behind the document's earlier Python; C++ is compiled against the
+anything; a `camwayd` and a `camway view` stay until the next one or the document's end. Requests are planned, other
+JSON is parsed; JavaScript is run by node, if it is there; Python is run behind the document's earlier Python; C++ is compiled against the
 client; TOML is read by `camwayd --check-config`. What is not run bears a mark that says why
 (blocks.py); a block of any other kind without one is a failure. Exit codes: 0, or 1 for failures.
 """
@@ -14,6 +14,7 @@ import argparse
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -49,7 +50,7 @@ class Documents:
             return
         self.count += 1
         checks = {"shell": self.check_shell, "json": self.check_json, "cpp": self.check_cpp,
-                  "toml": self.check_toml}
+                  "toml": self.check_toml, "javascript": self.check_javascript}
         if "run first" in block.marks:
             self.expect_success(session, block, block.marks["run first"])
         if block.kind() == "python":
@@ -82,6 +83,14 @@ class Documents:
         file = session.write("block.cpp", block.text)
         self.expect_success(session, block,
                             f"c++ -std=c++17 -fsyntax-only -I'{self.source}/client/include' '{file}'")
+
+    def check_javascript(self, session, block):
+        if shutil.which("node") is None:
+            self.not_run.append(f"{block.place()}: there is no node")
+            return
+        session.write("block.mjs", block.text)
+        # Versions before 22 have a WebSocket only if asked to; later ones take the flag, too.
+        self.expect_success(session, block, "node --experimental-websocket block.mjs")
 
     def check_toml(self, session, block):
         session.write("block.toml", block.text)

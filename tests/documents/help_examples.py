@@ -12,6 +12,7 @@ _MARKS = {
     "camway replay": {"run first": _RECORDING},
     "camway status": {"interrupted after": "sleep 2"},
     "camway watch": {"interrupted after": "sleep 2"},
+    "camway view": {"interrupted after": "sleep 2"},
 }
 
 

@@ -27,18 +27,23 @@ class Session:
                                  CAMWAY_CACHE_DIR=str(self.folder / "cache"),
                                  PYTHONPATH=str(pathlib.Path(__file__).parent))
         self._daemon = None
+        self._door = None
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
+        self._stop_door()
         self._stop_daemon()
         shutil.rmtree(self.folder)
 
     def run(self, command):
-        """Exit code and output, standard error included. A daemon goes on in the background."""
+        """Exit code and output, standard error included. A daemon goes on in the background, and so
+        does `camway view`."""
         if command.startswith("camwayd ") and not any(flag in command for flag in _ENDING_FLAGS):
             return self._start_daemon(command)
+        if command.startswith("camway view "):
+            return self._start_door(command)
         process = self._start(command)
         try:
             exit_code = process.wait(PATIENCE_S)
@@ -91,6 +96,25 @@ class Session:
                 return 0, ""
             time.sleep(0.05)
         return self._daemon.returncode or -1, self._output_of(self._daemon)
+
+    def _start_door(self, command):
+        self._stop_door()
+        self._door = self._start(command)
+        give_up_at_s = time.monotonic() + PATIENCE_S
+        while self._door.poll() is None and time.monotonic() < give_up_at_s:
+            if "token=" in self._output_of(self._door):
+                return 0, self._output_of(self._door)
+            time.sleep(0.05)
+        return self._door.returncode or -1, self._output_of(self._door)
+
+    def _stop_door(self):
+        if self._door is None:
+            return
+        if self._door.poll() is None:
+            os.killpg(self._door.pid, signal.SIGTERM)
+        self._door.wait(PATIENCE_S)
+        self._door.output.close()
+        self._door = None
 
     def _stop_daemon(self):
         if self._daemon is None:

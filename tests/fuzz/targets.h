@@ -73,6 +73,7 @@ extern const FuzzTarget kStreamAnswerTarget;
 extern const FuzzTarget kSourceRecordTarget;
 extern const FuzzTarget kConfigTarget;
 extern const FuzzTarget kKeyFileTarget;
+extern const FuzzTarget kDoorMessageTarget;
 extern const FuzzTarget kInventorFileTarget;  ///< in builds with `CAMWAY_WITH_INVENTOR` alone
 
 }  // namespace camway::testing

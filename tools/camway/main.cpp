@@ -20,7 +20,7 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 16> kCommands{{
+constexpr std::array<Command, 17> kCommands{{
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
@@ -37,6 +37,7 @@ constexpr std::array<Command, 16> kCommands{{
     {"status", camway::tools::add_status_command},
     {"doctor", camway::tools::add_doctor_command},
     {"watch", camway::tools::add_watch_command},
+    {"view", camway::tools::add_view_command},
 }};
 
 /// Adds the command of that name; all commands if there is none, for the help and for errors. The

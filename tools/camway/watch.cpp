@@ -29,6 +29,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
+#include "tools/support/watch_event_name.h"
 
 namespace camway::tools {
 namespace {
@@ -46,30 +47,6 @@ struct WatchFlags {
   bool take_better = false;
   bool json = false;
 };
-
-const char* name_of(WatchEvent::Kind kind) {
-  switch (kind) {
-    case WatchEvent::Kind::kAnswer:
-      return "answer";
-    case WatchEvent::Kind::kBroken:
-      return "broken";
-    case WatchEvent::Kind::kFree:
-      return "free";
-    case WatchEvent::Kind::kLost:
-      return "lost";
-    case WatchEvent::Kind::kWatched:
-      return "watched";
-    case WatchEvent::Kind::kBetter:
-      return "better";
-    case WatchEvent::Kind::kWithdrawn:
-      return "withdrawn";
-    case WatchEvent::Kind::kRestarted:
-      return "restarted";
-    case WatchEvent::Kind::kEnded:
-      return "ended";
-  }
-  return "unknown";
-}
 
 /// Returns how far a path is from the one that was asked for.
 std::string deviation_text(const PathMeasures& measures) {

@@ -242,13 +242,28 @@ double cut_height_m(const scene::Mesh& mesh, SceneUp up,
   return best;
 }
 
+namespace {
+
+/// Returns the storey that the plan shows.
+FloorSection section_of(const FloorPlan& plan) {
+  return cut_floor(plan.mesh, plan.up,
+                   plan.cut_height_m.value_or(cut_height_m(plan.mesh, plan.up, plan.keyframes)));
+}
+
+}  // namespace
+
 std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files) {
-  const FloorSection section =
-      cut_floor(plan.mesh, plan.up,
-                plan.cut_height_m.value_or(cut_height_m(plan.mesh, plan.up, plan.keyframes)));
+  const FloorSection section = section_of(plan);
   const Layout layout = lay_out(plan);
   return write_pictures(files, {layout.width_px, layout.height_px},
                         [&](cairo_t* cr) { draw_all(cr, layout, plan, section); });
+}
+
+std::string floor_plan_svg(const FloorPlan& plan) {
+  const FloorSection section = section_of(plan);
+  const Layout layout = lay_out(plan);
+  return svg_picture({layout.width_px, layout.height_px},
+                     [&](cairo_t* cr) { draw_all(cr, layout, plan, section); });
 }
 
 }  // namespace camway::draw

@@ -57,4 +57,7 @@ struct PictureFiles {
 /// colour-blind people can distinguish. Returns an error that names the file; empty on success.
 std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files);
 
+/// Returns the same picture as the text of an SVG file; empty if it cannot be drawn.
+std::string floor_plan_svg(const FloorPlan& plan);
+
 }  // namespace camway::draw

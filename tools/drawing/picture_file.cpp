@@ -38,9 +38,8 @@ std::string write_picture(const std::filesystem::path& file, const std::string& 
   return tools::write_file(file, picture);
 }
 
-std::string draw_svg(const std::filesystem::path& file, const PictureSize& size,
-                     const Drawing& draw) {
-  std::string picture;
+/// Draws into `picture`. Returns why that is not possible; empty on success.
+std::string draw_svg(const PictureSize& size, const Drawing& draw, std::string& picture) {
   const Surface surface(
       cairo_svg_surface_create_for_stream(&append, &picture, size.width_px, size.height_px),
       &cairo_surface_destroy);
@@ -48,6 +47,13 @@ std::string draw_svg(const std::filesystem::path& file, const PictureSize& size,
   cairo_surface_finish(surface.get());
   const cairo_status_t status = cairo_surface_status(surface.get());
   if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
+  return reason;
+}
+
+std::string write_svg(const std::filesystem::path& file, const PictureSize& size,
+                      const Drawing& draw) {
+  std::string picture;
+  const std::string reason = draw_svg(size, draw, picture);
   return write_picture(file, reason, picture);
 }
 
@@ -69,9 +75,14 @@ std::string draw_png(const std::filesystem::path& file, const PictureSize& size,
 std::string write_pictures(const PictureFiles& files, const PictureSize& size,
                            const Drawing& draw) {
   std::string error;
-  if (!files.svg.empty()) error = draw_svg(files.svg, size, draw);
+  if (!files.svg.empty()) error = write_svg(files.svg, size, draw);
   if (error.empty() && !files.png.empty()) error = draw_png(files.png, size, draw);
   return error;
+}
+
+std::string svg_picture(const PictureSize& size, const Drawing& draw) {
+  std::string picture;
+  return draw_svg(size, draw, picture).empty() ? picture : std::string();
 }
 
 }  // namespace camway::draw

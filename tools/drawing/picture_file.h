@@ -21,4 +21,7 @@ struct PictureSize {
 std::string write_pictures(const PictureFiles& files, const PictureSize& size,
                            const std::function<void(cairo_t*)>& draw);
 
+/// Returns a drawing as the text of an SVG file; empty if it cannot be drawn.
+std::string svg_picture(const PictureSize& size, const std::function<void(cairo_t*)>& draw);
+
 }  // namespace camway::draw

@@ -106,18 +106,25 @@ class Field {
 /// that lists all names and returns 0.
 std::size_t named(const Field& field, std::span<const std::string_view> names);
 
-/// Parses `text` and reads a `T` from the document by `read_value(field, value)`. Returns the
-/// value, or the first error of either step. `source` begins the error, such as
+/// Reads a `T` from a parsed document by `read_value(field, value)`. Returns the value, or the
+/// first error, which begins with `source`.
+template <typename T>
+base::Result<T> read_document(const nlohmann::json& document, std::string_view source) {
+  DocumentNotes notes;
+  T value;
+  read_value(Field(document, notes), value);
+  if (!notes.error.empty()) return base::Failure{std::string(source) + ": " + notes.error};
+  return value;
+}
+
+/// Parses `text` and reads a `T` from the document, as `read_document` does. Returns the value, or
+/// the first error of either step. `source` begins the error, such as
 /// `R.json: keyframes[3].orientation: has length zero`.
 template <typename T>
 base::Result<T> parse_as(std::string_view text, std::string_view source) {
   const base::Result<nlohmann::json> document = parse_document(text, source);
   if (!document) return base::Failure{document.error};
-  DocumentNotes notes;
-  T value;
-  read_value(Field(*document, notes), value);
-  if (!notes.error.empty()) return base::Failure{std::string(source) + ": " + notes.error};
-  return value;
+  return read_document<T>(*document, source);
 }
 
 /// Reads a file ("-": standard input) as `parse_as` does.

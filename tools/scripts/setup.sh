@@ -38,6 +38,8 @@ kPackages=(
   nats-server openssl
   # the private network namespace, and one that loses packets
   iproute2 util-linux iptables
+  # examples of docs/http.md
+  curl
 )
 
 # Readers of other projects, with which tests compare written files. Node.js of another source is kept.

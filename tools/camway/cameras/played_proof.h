@@ -10,7 +10,7 @@
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/cameras/camera_track.h"
-#include "tools/camway/check/path_search.h"
+#include "tools/answers/path_search.h"
 
 namespace camway::tools {
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
-#include "daemon/planning/result/path_faults.h"
-#include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/sentences.h"
-#include "tools/camway/check/check_report.h"
+#include "tools/answers/check_input.h"
+#include "tools/answers/check_report.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
@@ -28,56 +25,19 @@ struct CheckFlags {
 
 base::Failure failed(std::string error) { return {std::move(error)}; }
 
-/// Returns the request's keyframes with their times: those of the request, or those of the response
-/// if the request has none or the path was slowed. Returns nothing if the times of the response do
-/// not increase. Wrong times cannot hide a missed keyframe, only cause one.
-std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& request,
-                                              const PathFile& response) {
-  std::vector<motion::Keyframe> keyframes = request.keyframes;
-  if (request.has_times && response.time_scale == 1.0) return keyframes;
-  std::size_t count = 0;
-  double before_s = -std::numeric_limits<double>::infinity();
-  for (const motion::Keyframe& passed : response.keyframes) {
-    if (passed.origin == motion::KeyframeOrigin::kInserted) continue;
-    if (count == keyframes.size() || !(before_s < passed.time_s)) return {};
-    before_s = passed.time_s;
-    keyframes[count++].time_s = before_s;
-  }
-  if (count < keyframes.size()) keyframes.clear();
-  return keyframes;
-}
-
 /// Reads request and response and checks each on its own.
 base::Result<CheckInput> read_files(const CheckFlags& flags,
                                     const base::Result<RequestFile>& request) {
   if (!request) return failed(request.error);
-  if (const auto fault = planning::validate(*request)) {
-    return failed(source_of(flags.request) + ": " + fault->message);
-  }
   const base::Result<PathFile> response = read_as<PathFile>(flags.response);
   if (!response) return failed(response.error);
-  auto body = motion::Body::make(planning::body_shape(*request, response->near_scale));
-  if (!body) return failed(source_of(flags.request) + ": body: " + body.error);
-  // Only the response has the bounds of the scene that it was planned in.
-  const geometry::Bounds bounds = request->options.bounds.within(response->bounds);
-  return CheckInput{*request,
-                    response->path,
-                    source_of(flags.response),
-                    timed_keyframes(*request, *response),
-                    *std::move(body),
-                    nullptr,
-                    response->scene_digest,
-                    response->near_scale,
-                    bounds};
+  return check_input(*request, *response, {source_of(flags.request), source_of(flags.response)});
 }
 
 base::Result<CheckInput> read_input(const CheckFlags& flags) {
   const base::Result<RequestFile> request = read_request(flags.request);
   base::Result<CheckInput> input = read_files(flags, request);
   if (!input) return input;
-  std::optional<std::string> fault = planning::find_fault(input->path.segments());
-  if (!fault) fault = planning::find_jump(input->path, input->body->radius_m());
-  if (fault) return failed(source_of(flags.response) + ": " + *fault);
   const std::string scene_file = flags.scene.file_for(flags.request, *request);
   if (scene_file.empty()) {
     return failed(source_of(flags.request) + ": scene: is missing, and there is no --scene");
@@ -91,12 +51,6 @@ base::Result<CheckInput> read_input(const CheckFlags& flags) {
   return input;
 }
 
-PathSearch search(const CheckInput& input) {
-  return search_path({collision::Obstacles(*input.snapshot).within(input.bounds), *input.body,
-                      planning::detect_options(input.request.options)},
-                     input.path, base::Deadline::after_s(input.request.options.deadline_s));
-}
-
 ExitCode run_check(const CheckFlags& flags) {
   const base::Result<CheckInput> read = read_input(flags);
   if (!read) {
@@ -104,7 +58,8 @@ ExitCode run_check(const CheckFlags& flags) {
     return ExitCode::kInvalidInput;
   }
   const CheckInput& input = *read;
-  const PathSearch found = search(input);
+  const PathSearch found =
+      search_path(input, base::Deadline::after_s(input.request.options.deadline_s));
   for (const std::string& warning : check_warnings(input, found)) {
     print_error("warning: " + warning);
   }

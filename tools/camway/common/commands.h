@@ -39,6 +39,7 @@ void add_state_command(CLI::App& app, ExitCode& exit_code);
 void add_status_command(CLI::App& app, ExitCode& exit_code);
 void add_doctor_command(CLI::App& app, ExitCode& exit_code);
 void add_watch_command(CLI::App& app, ExitCode& exit_code);
+void add_view_command(CLI::App& app, ExitCode& exit_code);
 
 /// Prints `camway: message` on standard error.
 void print_error(std::string_view message);

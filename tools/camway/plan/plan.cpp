@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/plan.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/planning/request/quaternion_order.h"
-#include "daemon/planning/result/witness_names.h"
-#include "daemon/scene/import/import_warnings.h"
+#include "tools/answers/plan_answer.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
@@ -24,7 +20,6 @@
 #include "tools/camway/plan/option_flags.h"
 #include "tools/camway/plan/plan_summary.h"
 #include "tools/json/json_request.h"
-#include "tools/json/json_response.h"
 #include "tools/support/client_response.h"
 #include "tools/support/output_file.h"
 
@@ -44,14 +39,9 @@ struct PlanFlags {
   bool no_timing = false;
 };
 
-/// Returns the answer to a request file; for a failure, an answer with its status.
-struct Answer {
-  PlanResult result;
-  std::string scene_file;
-  std::string scene_digest;
-  std::vector<std::string> scene_warnings;    ///< warnings of the scene's import
-  std::vector<std::string> request_warnings;  ///< a sentence each
-  std::shared_ptr<const scene::Mesh> mesh;    ///< mesh of the scene; null if it was not loaded
+/// The answer to a request file; for a failure, an answer with its status.
+struct Answer : PlanAnswer {
+  std::shared_ptr<const scene::Mesh> mesh;  ///< mesh of the scene; null if it was not loaded
   /// Exit code where a daemon was asked and gave no result, which was said; else nothing.
   std::optional<ExitCode> no_result;
 };
@@ -86,52 +76,31 @@ ExitCode exit_code_of(Status status) {
   return ExitCode::kOurFault;
 }
 
-/// Returns warnings about the request, a sentence each.
-std::vector<std::string> warnings_of(const RequestFile& request) {
-  using planning::QuaternionOrder;
-  const auto order = planning::quaternion_order_warning(
-      request, request.says_xyzw ? QuaternionOrder::kXyzw : QuaternionOrder::kWxyz);
-  if (!order) return {};
-  return {fmt::format("{}; {} takes the other order", *order,
-                      request.says_xyzw ? "orientation" : "orientation_xyzw")};
-}
-
-/// Plans a request that is valid, and sets what the answer says of it and of its scene.
-void answer_in_scene(const scene::Snapshot& snapshot, const RequestFile& request, Answer& answer) {
-  answer.scene_digest = snapshot.digest;
-  answer.mesh = snapshot.mesh.share();
-  const planning::PlanOptions& options = request.options;
-  answer.scene_warnings = scene::import_warnings(
-      snapshot.report, scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
-  answer.request_warnings = warnings_of(request);
-  answer.result = planning::plan(snapshot, request);
-  planning::name_witnesses(snapshot.mesh, request, answer.result);
-}
-
 /// Plans a request that is valid in a scene that this process loads.
 void answer_here(const PlanFlags& flags, const std::string& file, const RequestFile& request,
                  LoadedScenes& scenes, Answer& answer) {
-  answer.scene_file = flags.scene.file_for(file, request);
-  if (answer.scene_file.empty()) {
+  answer.scene = flags.scene.file_for(file, request);
+  if (answer.scene.empty()) {
     answer.result =
         invalid(source_of(file) + ": scene: is missing, and there is no --scene or --daemon");
     return;
   }
-  const LoadedScene& scene =
-      scenes.load(answer.scene_file, flags.scene.import_options(request.reading));
+  const LoadedScene& scene = scenes.load(answer.scene, flags.scene.import_options(request.reading));
   if (!scene.result.snapshot) {
     answer.result = invalid(scene.result.error);
     return;
   }
-  answer_in_scene(*scene.result.snapshot, request, answer);
+  answer.mesh = scene.result.snapshot->mesh.share();
+  plan_in_scene(*scene.result.snapshot, request,
+                base::Deadline::after_s(request.options.deadline_s), answer);
   answer.result.timing.load_scene_ms = scene.load_ms;
 }
 
 /// Has a daemon plan a request that is valid.
 void answer_by_daemon(const PlanFlags& flags, const std::string& file, const RequestFile& request,
                       DaemonPlanner& daemon, Answer& answer) {
-  answer.scene_file = flags.daemon.scene;
-  answer.request_warnings = warnings_of(request);
+  answer.scene = flags.daemon.scene;
+  answer.request_warnings = request_warnings(request);
   warn_of_reading(source_of(file), request);
   const PlanResponse response = daemon.plan(request);
   if (!has_result(response.status)) {
@@ -175,14 +144,7 @@ void print_warnings(const std::string& file, const std::vector<std::string>& war
 
 /// Writes the response to `file`, or to standard output if it is empty.
 ExitCode write_response(const Answer& answer, const std::string& file, bool no_timing) {
-  ResponseFormat format;
-  format.has_timing = !no_timing;
-  format.scene = answer.scene_file;
-  format.scene_digest = answer.scene_digest;
-  format.warnings = answer.scene_warnings;
-  format.warnings.insert(format.warnings.end(), answer.request_warnings.begin(),
-                         answer.request_warnings.end());
-  const base::Result<std::string> text = write_plan_response(answer.result, format);
+  const base::Result<std::string> text = answer_text(answer, !no_timing);
   if (!text) {
     print_error("the response cannot be written: " + text.error);
     return ExitCode::kOurFault;
@@ -222,7 +184,7 @@ ExitCode plan_one(const PlanFlags& flags, Planners& planners) {
   }
   const Answer answer = answer_request(flags, file, planners);
   if (answer.no_result) return *answer.no_result;
-  print_warnings(answer.scene_file, answer.scene_warnings);
+  print_warnings(answer.scene, answer.scene_warnings);
   print_warnings(source_of(file), answer.request_warnings);
   print_summary(source_of(file), answer);
   const ExitCode outcome = exit_code_of(answer.result.status);
@@ -289,8 +251,8 @@ ExitCode plan_set(const PlanFlags& flags, Planners& planners) {
       outcome = worse(outcome, *answer.no_result);
       continue;
     }
-    if (warned_of.insert(answer.scene_file).second) {
-      print_warnings(answer.scene_file, answer.scene_warnings);
+    if (warned_of.insert(answer.scene).second) {
+      print_warnings(answer.scene, answer.scene_warnings);
     }
     print_warnings(source, answer.request_warnings);
     ok_count += answer.result.status == Status::kOk ? 1 : 0;

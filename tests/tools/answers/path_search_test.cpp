@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/check/path_search.h"
+#include "tools/answers/path_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/check/check_report.h"
+#include "tools/answers/check_report.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include "daemon/motion/body/body.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/snapshot.h"
-#include "tools/camway/check/path_search.h"
+#include "tools/answers/path_search.h"
 
 namespace camway::tools {
 

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <memory>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/fixture.h"
+#include "tests/tools/view/door_client.h"
+#include "tools/view/daemon/planner_daemon.h"
+#include "tools/view/door.h"
+
+namespace camway::integration {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using view::HttpClient;
+using view::kSecret;
+using view::Reached;
+using view::SocketClient;
+
+/// A door whose backend is a real daemon.
+class ViewDaemonTest : public IntegrationTest {
+ protected:
+  void open_door() {
+    auto backend = view::plan_by_daemon("office", {});
+    ASSERT_TRUE(backend) << backend.error;
+    backend_ = *std::move(backend);
+    auto door = view::Door::open({.token = kSecret}, *backend_);
+    ASSERT_TRUE(door) << door.error;
+    door_ = *std::move(door);
+  }
+  void TearDown() override {
+    door_.reset();
+    backend_.reset();
+    IntegrationTest::TearDown();
+  }
+  HttpClient http() { return {door_->port(), kSecret}; }
+  static std::string request_text(const std::string& name) { return read_file(request_file(name)); }
+
+  std::unique_ptr<view::Backend> backend_;
+  std::unique_ptr<view::Door> door_;
+};
+
+TEST_F(ViewDaemonTest, EveryPlaceIsAnsweredByTheDaemon) {
+  start_daemon();
+  open_door();
+  HttpClient client = http();
+  const Reached status = client.get("/v1/status");
+  EXPECT_EQ(status.code, 200) << status.body;
+  EXPECT_EQ(status.json().at("backend").at("planner"), "daemon");
+  const Reached scenes = client.get("/v1/scenes");
+  EXPECT_GE(scenes.json().at("scenes").size(), 1U) << scenes.body;
+  const Reached office = client.get("/v1/scenes/office");
+  EXPECT_EQ(office.json().at("objects").size(), 1U) << office.body;
+  EXPECT_EQ(client.get("/v1/scenes/nowhere").code, 404);
+  const std::string objects = "/v1/scenes/office/objects";
+  const Reached added = client.post(
+      objects,
+      R"({"name": "crate", "position": [5, 6, 7], "form": {"type": "box", "size": [1, 1, 1]}})");
+  EXPECT_EQ(added.code, 200) << added.body;
+  const Reached moved =
+      client.send("PATCH", objects + "/crate", R"({"orientation": [0, 0, 0, 1]})");
+  EXPECT_EQ(moved.json().at("objects").at(0).at("position"), json({5.0, 6.0, 7.0})) << moved.body;
+  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 200);
+  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 404);
+  const std::string plan = client.post("/v1/plan", request_text("office-graze-door")).body;
+  EXPECT_EQ(json::parse(plan).at("status"), "ok") << plan;
+  EXPECT_THAT(client.get("/plan.svg").body, HasSubstr("<svg"));
+  const Reached checked =
+      client.post("/v1/check", "{\"request\": " + request_text("office-graze-door") +
+                                   ", \"path\": " + plan + "}");
+  EXPECT_EQ(checked.code, 501);
+  EXPECT_THAT(checked.json().at("error").get<std::string>(), HasSubstr("camway check"));
+}
+
+TEST_F(ViewDaemonTest, AnswersAreThoseOfCamwayPlanByTheDaemon) {
+  start_daemon();
+  open_door();
+  const auto without_times = [](const std::string& answer) {
+    return std::regex_replace(answer, std::regex(",\n  \"timing_ms\": [^\n]*"), "");
+  };
+  for (const std::string name : {"office-graze-slalom", "office-impossible-safe"}) {
+    const std::string written = file(name + ".json");
+    Process process({CAMWAY_BINARY, "plan", "--daemon", "office", "--request", request_file(name),
+                     "--response", written},
+                    file("plan.log"));
+    ASSERT_TRUE(process.wait());
+    const Reached got = http().post("/v1/plan", request_text(name));
+    EXPECT_EQ(got.code, 200);
+    EXPECT_EQ(without_times(got.body), without_times(read_file(written))) << name;
+  }
+}
+
+TEST_F(ViewDaemonTest, TellsWhatOtherProcessesChange) {
+  start_daemon();
+  open_door();
+  SocketClient one(door_->port(), kSecret);
+  SocketClient other(door_->port(), kSecret);
+  one.send(R"({"id": 1, "do": "watch"})");
+  const auto scenes_of = [](const json& message, std::int64_t revision) {
+    if (!message.contains("event") || message["event"]["kind"] != "scenes") return false;
+    for (const json& scene : message["event"]["state"]["scenes"]) {
+      if (scene["name"] == "office" && scene["revision"] == revision) return true;
+    }
+    return false;
+  };
+  const auto next_revision = [&](std::int64_t revision) {
+    return one.next([&](const json& message) { return scenes_of(message, revision); });
+  };
+  EXPECT_FALSE(next_revision(1).contains("closed"));
+  other.send(R"({"id": 1, "do": "scene.add", "object": "crate", "position": [5, 6, 7],
+                 "form": {"type": "box", "size": [1, 1, 1]}})");
+  EXPECT_EQ(other.next(1).count("answer"), 1U);
+  EXPECT_FALSE(next_revision(2).contains("closed"));
+  Process moving({CAMWAY_BINARY, "scene", "move", "office", "crate", "--position", "5,6,8"},
+                 file("move.log"));
+  EXPECT_EQ(moving.wait(), 0) << moving.output();
+  EXPECT_FALSE(next_revision(3).contains("closed"));
+}
+
+TEST_F(ViewDaemonTest, AWatchedPathBreaksAndHeals) {
+  start_daemon();
+  open_door();
+  const std::string request = request_text("office-free-straight");
+  const json keyframes = json::parse(request).at("keyframes");
+  json middle = json::array();
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle.push_back(0.5 * (keyframes.at(0).at("position").at(i).get<double>() +
+                            keyframes.at(1).at("position").at(i).get<double>()));
+  }
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 1, "do": "watch", "request": )" + request + "}");
+  const auto next_kind = [&](const std::string& kind) {
+    return socket.next([&](const json& message) {
+      return message.value("id", -1) == 1 && message.contains("event") &&
+             message["event"]["kind"] == kind;
+    });
+  };
+  EXPECT_EQ(next_kind("answer").at("event").at("answer").at("status"), "ok");
+  socket.send(R"({"id": 2, "do": "scene.add", "object": "crate", "form": {"type": "box",
+                  "size": [0.3, 0.3, 0.3]}, "position": )" +
+              middle.dump() + "}");
+  EXPECT_GE(next_kind("broken").at("event").at("broken").size(), 1U);
+  EXPECT_EQ(next_kind("answer").at("event").at("scene_revision"), 2);
+  socket.send(R"({"id": 1, "do": "unwatch"})");
+  const json ended = socket.next([](const json& message) { return message.contains("ended"); });
+  EXPECT_EQ(ended.at("id"), 1);
+}
+
+TEST_F(ViewDaemonTest, PlansAreCancelledAtTheDaemon) {
+  start_daemon();
+  open_door();
+  json request = json::parse(request_text("office-wall-tour"));
+  const json keyframes = request.at("keyframes");
+  json many = json::array();
+  for (int round = 0; round < 200; ++round) {
+    for (const json& keyframe : keyframes) {
+      many.push_back(
+          {{"position", keyframe.at("position")}, {"orientation", keyframe.at("orientation")}});
+    }
+  }
+  request["keyframes"] = many;
+  request["options"]["deadline_s"] = 60;
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 1, "do": "plan", "progress": true, "request": )" + request.dump() + "}");
+  EXPECT_EQ(socket.next().count("progress"), 1U);
+  socket.send(R"({"id": 1, "do": "cancel"})");
+  const json end = socket.next([](const json& message) { return !message.contains("progress"); });
+  EXPECT_EQ(end, json({{"id", 1}, {"cancelled", true}}));
+}
+
+TEST_F(ViewDaemonTest, SaysThatTheDaemonIsGoneAndBack) {
+  start_daemon();
+  open_door();
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 1, "do": "watch"})");
+  const auto next_heard = [&](bool is_heard) {
+    return socket.next([&](const json& message) {
+      return message.contains("event") && message["event"]["kind"] == "daemon" &&
+             message["event"]["heard"] == is_heard;
+    });
+  };
+  EXPECT_FALSE(next_heard(true).contains("closed"));
+  daemon().signal(SIGKILL);
+  ASSERT_EQ(daemon().wait(), 128 + SIGKILL);
+  EXPECT_FALSE(next_heard(false).contains("closed"));
+  const Reached status = http().get("/v1/status");
+  EXPECT_EQ(status.code, 503);
+  EXPECT_THAT(status.json().at("error").get<std::string>(), HasSubstr("no daemon is heard"));
+  const Reached plan = http().post("/v1/plan", request_text("office-graze-door"));
+  EXPECT_EQ(plan.code, 503) << plan.body;
+  start_daemon();
+  EXPECT_FALSE(next_heard(true).contains("closed"));
+  EXPECT_EQ(http().post("/v1/plan", request_text("office-graze-door")).code, 200);
+}
+
+/// `camway view` as a user runs it.
+class ViewCommandTest : public ViewDaemonTest {
+ protected:
+  std::unique_ptr<Process> start_view(std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {CAMWAY_BINARY, "view"});
+    auto process = std::make_unique<Process>(flags, file("view.log"));
+    EXPECT_TRUE(eventually([&] {
+      return process->output().find("token=") != std::string::npos || !process->running();
+    }));
+    return process;
+  }
+  /// Returns the port and the token that it printed.
+  static std::pair<int, std::string> address_of(const std::string& output) {
+    std::smatch found;
+    const std::regex line("http://127\\.0\\.0\\.1:([0-9]+)/\\?token=([0-9a-f]{32})\n");
+    if (!std::regex_search(output, found, line)) return {0, output};
+    return {std::stoi(found[1]), found[2]};
+  }
+};
+
+TEST_F(ViewCommandTest, PrintsItsAddressAndEndsBySignals) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto view = start_view({"--scene", scene_file("office"), "--request",
+                                  request_file("office-graze-door"), "--read-only"});
+    const auto [port, token] = address_of(view->output());
+    ASSERT_GT(port, 0) << token;
+    HttpClient client(port, token);
+    EXPECT_EQ(client.get("/v1/status").json().at("read_only"), true);
+    EXPECT_EQ(HttpClient(port, "x").get("/v1/status").code, 403);
+    view->signal(signal);
+    EXPECT_EQ(view->wait(), 0);
+  }
+}
+
+TEST_F(ViewCommandTest, ServesADaemonThatIsNotThereYet) {
+  const auto view = start_view({"office", "--timeout-s", "0.5"});
+  const auto [port, token] = address_of(view->output());
+  ASSERT_GT(port, 0) << token;
+  HttpClient client(port, token);
+  EXPECT_EQ(client.post("/v1/plan", request_text("office-graze-door")).code, 503);
+  start_daemon();
+  EXPECT_TRUE(eventually(
+      [&] { return client.post("/v1/plan", request_text("office-graze-door")).code == 200; }));
+  view->signal(SIGINT);
+  EXPECT_EQ(view->wait(), 0);
+}
+
+TEST_F(ViewCommandTest, SaysWhyItCannotBegin) {
+  const auto fault = [&](const std::vector<std::string>& flags) {
+    const auto view = start_view(flags);
+    EXPECT_EQ(view->wait(), 2);
+    return view->output();
+  };
+  EXPECT_THAT(fault({}), HasSubstr("SCENE names a scene of a daemon"));
+  EXPECT_THAT(fault({"--scene", file("no.obj")}), HasSubstr("no.obj"));
+  EXPECT_THAT(fault({"office", "--scene", scene_file("office")}), HasSubstr("--scene"));
+  EXPECT_THAT(fault({"--scene", scene_file("office"), "--port", "70000"}), HasSubstr("--port"));
+  EXPECT_THAT(fault({"--scene", scene_file("office"), "--request", file("no.json")}),
+              HasSubstr("no.json"));
+}
+
+}  // namespace
+}  // namespace camway::integration

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "tools/view/door.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/tools/view/door_client.h"
+#include "tests/tools/view/fake_backend.h"
+#include "tools/view/page.h"
+#include "tools/view/routes.h"
+
+namespace camway::view {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
+  struct RouteCase {
+    const char* method;
+    const char* target;
+    int code;
+  };
+  for (const RouteCase& each : std::vector<RouteCase>{
+           {"GET", "/", 200},
+           {"HEAD", "/", 200},
+           {"POST", "/", 405},
+           {"GET", "/?token=x", 200},
+           {"GET", "//", 404},
+           {"GET", "", 404},
+           {"GET", "/v1", 404},
+           {"GET", "/v1/", 404},
+           {"POST", "/v1/plan", 200},
+           {"GET", "/v1/plan", 405},
+           {"PLAN", "/v1/plan", 405},
+           {"", "/v1/plan", 405},
+           {"GET", "/v1/scenes", 200},
+           {"GET", "/v1/scenes/", 404},
+           {"GET", "/v1/scenes/a", 200},
+           {"DELETE", "/v1/scenes/a", 405},
+           {"POST", "/v1/scenes/a/objects", 200},
+           {"GET", "/v1/scenes/a/objects", 405},
+           {"GET", "/v1/scenes/a/things", 404},
+           {"POST", "/v1/scenes//objects", 404},
+           {"PATCH", "/v1/scenes/a/objects/b", 200},
+           {"DELETE", "/v1/scenes/a/objects/b", 200},
+           {"GET", "/v1/scenes/a/objects/b", 405},
+           {"DELETE", "/v1/scenes/a/objects/", 404},
+           {"DELETE", "/v1/scenes/a/objects/b/c", 404},
+           {"GET", "/v2/plan", 404},
+       }) {
+    EXPECT_EQ(route_of(each.method, each.target).code, each.code)
+        << each.method << " " << each.target;
+  }
+  const Route route = route_of("DELETE", "/v1/scenes/hall/objects/crate?x=y");
+  EXPECT_EQ(route.scene, "hall");
+  EXPECT_EQ(route.object, "crate");
+}
+
+class ViewDoor : public ::testing::Test {
+ protected:
+  void open(const DoorLimits& limits = {}, bool is_read_only = false) {
+    auto opened =
+        Door::open({.token = kSecret, .is_read_only = is_read_only, .limits = limits}, backend_);
+    if (!opened) throw std::runtime_error(opened.error);
+    door_ = *std::move(opened);
+    client_ = std::make_unique<HttpClient>(door_->port(), kSecret);
+  }
+  std::string error_of(const Reached& answer) { return answer.json().at("error"); }
+
+  FakeBackend backend_;
+  std::unique_ptr<Door> door_;
+  std::unique_ptr<HttpClient> client_;
+};
+
+TEST_F(ViewDoor, PlansAndAnswersWithWhatTheBackendSays) {
+  open();
+  auto answer =
+      std::async(std::launch::async, [&] { return client_->post("/v1/plan", kSmallRequest); });
+  FakeBackend::Asked asked = backend_.take();
+  EXPECT_EQ(asked.order.scene, "office");
+  asked.done({code::kOk, "{\n  \"status\": \"infeasible\"\n}\n", {}});
+  const Reached got = answer.get();
+  EXPECT_EQ(got.code, 200);
+  EXPECT_EQ(got.type, "application/json");
+  EXPECT_EQ(got.body, "{\n  \"status\": \"infeasible\"\n}\n");
+}
+
+TEST_F(ViewDoor, TakesTheSceneThatARequestFileNames) {
+  open();
+  std::string request = kSmallRequest;
+  request.insert(1, R"("scene": "../maze.obj", )");
+  auto answer = std::async(std::launch::async, [&] { return client_->post("/v1/plan", request); });
+  FakeBackend::Asked asked = backend_.take();
+  EXPECT_EQ(asked.order.scene, "maze");
+  asked.done(failure(code::kNotFound, "no maze"));
+  const Reached got = answer.get();
+  EXPECT_EQ(got.code, 404);
+  EXPECT_EQ(error_of(got), "no maze");
+}
+
+TEST_F(ViewDoor, NamesTheMemberThatIsWrong) {
+  open();
+  const auto error = [&](const std::string& target, const std::string& body) {
+    const Reached got = client_->post(target, body);
+    EXPECT_EQ(got.code, 400) << body;
+    return error_of(got);
+  };
+  EXPECT_THAT(error("/v1/plan", ""), HasSubstr("request: is empty"));
+  EXPECT_THAT(error("/v1/plan", "{\"a\": 1, \"a\": 2}"), HasSubstr("stands twice"));
+  EXPECT_THAT(error("/v1/plan", R"({"keyframes": []})"), HasSubstr("request: camera: is missing"));
+  std::string one = kSmallRequest;
+  one.replace(one.find("\"near\": 0.1"), 11, "\"near\": -1");
+  EXPECT_THAT(error("/v1/plan", one), HasSubstr("request: camera.near"));
+  std::string file = kSmallRequest;
+  file.insert(1, R"("body": {"type": "mesh", "file": "/etc/passwd"}, )");
+  EXPECT_THAT(error("/v1/plan", file), HasSubstr("body.file: is a file"));
+  EXPECT_EQ(error("/v1/check", "{}"), "request: is missing");
+  EXPECT_THAT(error("/v1/check", std::string(R"({"path": {}, "request": )") + kSmallRequest + "}"),
+              HasSubstr("path: segments: is missing"));
+  const std::string objects = "/v1/scenes/office/objects";
+  EXPECT_EQ(error(objects, "{}"), "name: is missing");
+  EXPECT_THAT(error(objects, R"({"name": "../x"})"), HasSubstr("name: must be of"));
+  EXPECT_EQ(error(objects, R"({"name": "x"})"), "form: is missing");
+  const auto form_error = [&](const std::string& form) {
+    return error(objects, R"({"name": "x", "form": )" + form + "}");
+  };
+  EXPECT_THAT(form_error(R"({"type": "cone"})"), HasSubstr("form.type: "));
+  EXPECT_THAT(form_error(R"({"type": "box", "size": [1, 0, 1]})"), HasSubstr("form.size: "));
+  EXPECT_THAT(form_error(R"({"type": "box", "size": [1, 1]})"), HasSubstr("form.size: "));
+  EXPECT_THAT(form_error(R"({"type": "sphere", "radius_m": -1})"), HasSubstr("form.radius_m: "));
+  EXPECT_THAT(form_error(R"({"type": "sphere", "radius_m": 1, "height_m": 1})"),
+              HasSubstr("form.height_m: "));
+  EXPECT_THAT(form_error(R"({"type": "mesh"})"), HasSubstr("none of file, text and base64"));
+  EXPECT_THAT(form_error(R"({"type": "mesh", "text": "v", "format": "../x"})"),
+              HasSubstr("form.format: "));
+  EXPECT_THAT(form_error(R"({"type": "mesh", "base64": "!!!!", "format": "stl"})"),
+              HasSubstr("form.base64: is no base64"));
+  EXPECT_EQ(backend_.plans(), 0);
+  EXPECT_TRUE(backend_.orders().empty());
+}
+
+TEST_F(ViewDoor, AnswersEveryPlace) {
+  open();
+  EXPECT_EQ(client_->get("/v1/version").json().at("door"), 1);
+  EXPECT_EQ(client_->get("/v1/status").json(),
+            json::parse(R"({"read_only": false, "backend": {"planner": "fake"}})"));
+  EXPECT_EQ(client_->get("/v1/scenes").code, 200);
+  EXPECT_EQ(client_->get("/v1/scenes/hall").json().at("scene"), "hall");
+  const std::string box = R"({"name": "crate", "form": {"type": "box", "size": [1, 2, 3]}})";
+  EXPECT_EQ(client_->post("/v1/scenes/hall/objects", box).code, 200);
+  EXPECT_EQ(
+      client_->send("PATCH", "/v1/scenes/hall/objects/crate", R"({"position": [1, 2, 3]})").code,
+      200);
+  EXPECT_EQ(client_->send("PATCH", "/v1/scenes/hall/objects/crate", "{}").code, 400);
+  EXPECT_EQ(client_->send("DELETE", "/v1/scenes/hall/objects/crate").code, 200);
+  const std::string check =
+      std::string(R"({"path": {"segments": []}, "request": )") + kSmallRequest + "}";
+  EXPECT_EQ(client_->post("/v1/check", check).json().at("verdict"), "free");
+  EXPECT_EQ(client_->get("/v1/socket").code, 400);
+  const auto orders = backend_.orders();
+  ASSERT_EQ(orders.size(), 5U);
+  for (std::size_t i = 2; i < orders.size(); ++i) {
+    EXPECT_EQ(orders[i].scene, "hall");
+    EXPECT_EQ(orders[i].object, "crate");
+    EXPECT_TRUE(orders[i].is_change());
+  }
+}
+
+TEST_F(ViewDoor, SaysWhichMethodAPlaceTakes) {
+  open();
+  const Reached got = client_->get("/v1/scenes/hall/objects/crate");
+  EXPECT_EQ(got.code, 405);
+  EXPECT_EQ(got.header("Allow"), "PATCH, DELETE");
+}
+
+TEST_F(ViewDoor, AReadOnlyDoorRefusesChanges) {
+  open({}, /*is_read_only=*/true);
+  const Reached got = client_->send("DELETE", "/v1/scenes/hall/objects/crate");
+  EXPECT_EQ(got.code, 403);
+  EXPECT_THAT(error_of(got), HasSubstr("--read-only"));
+  EXPECT_TRUE(backend_.orders().empty());
+  EXPECT_EQ(client_->get("/v1/status").json().at("read_only"), true);
+}
+
+TEST_F(ViewDoor, RefusesRequestsBeyondItsLimits) {
+  open({.body_bytes = 1000, .requests = 1});
+  EXPECT_EQ(client_->post("/v1/plan", std::string(1001, ' ')).code, 413);
+  auto first =
+      std::async(std::launch::async, [&] { return client_->post("/v1/plan", kSmallRequest); });
+  FakeBackend::Asked asked = backend_.take();
+  const Reached second = client_->post("/v1/plan", kSmallRequest);
+  EXPECT_EQ(second.code, 429);
+  EXPECT_THAT(error_of(second), HasSubstr("at most 1 requests"));
+  asked.done({code::kOk, "{}", {}});
+  EXPECT_EQ(first.get().code, 200);
+  EXPECT_EQ(client_->get("/v1/status").code, 200) << "the place is free again";
+}
+
+TEST_F(ViewDoor, ClosesWhilePlansAreUnderWay) {
+  open();
+  auto answer = std::async(std::launch::async, [&] {
+    try {
+      return client_->post("/v1/plan", kSmallRequest).code;
+    } catch (const beast::system_error&) {
+      return 0;
+    }
+  });
+  FakeBackend::Asked asked = backend_.take();
+  door_.reset();
+  backend_.wait_until_cancelled(asked);
+  EXPECT_EQ(answer.get(), 0);
+  asked.done({code::kOk, "{}", {}});
+}
+
+TEST_F(ViewDoor, APortThatIsTakenIsSaid) {
+  open();
+  const auto second = Door::open({.port = door_->port(), .token = kSecret}, backend_);
+  EXPECT_FALSE(second);
+  EXPECT_THAT(second.error, HasSubstr("cannot listen on 127.0.0.1 port"));
+}
+
+TEST_F(ViewDoor, NamesOnThePageAreText) {
+  LastPlan last;
+  last.result.status = planning::Status::kInfeasible;
+  last.result.message = "shut in by <script>alert('\"&')</script>";
+  backend_.last_plan = std::make_shared<const LastPlan>(last);
+  open();
+  const Reached page = client_->get("/");
+  EXPECT_EQ(page.type, "text/html; charset=utf-8");
+  EXPECT_THAT(page.body, Not(HasSubstr("<script")));
+  EXPECT_THAT(page.body, HasSubstr("&lt;script&gt;alert(&#39;&quot;&amp;&#39;)"));
+  EXPECT_EQ(client_->get("/plan.svg").code, 404) << "there is no path to draw";
+}
+
+}  // namespace
+}  // namespace camway::view

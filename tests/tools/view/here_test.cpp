@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/tools/view/door_client.h"
+#include "tools/json/json_document.h"
+#include "tools/view/door.h"
+#include "tools/view/here/planner_here.h"
+
+namespace camway::view {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const fs::path kScenes = CAMWAY_SCENES_FOLDER;
+
+std::string request_text(const std::string& name) {
+  return *tools::read_text((kScenes / "requests" / (name + ".json")).string());
+}
+
+/// A door that plans here, in the office or another scene.
+class ViewHere : public ::testing::Test {
+ protected:
+  void open(const std::string& scene = "office", const DoorLimits& limits = {}) {
+    const scene::SnapshotResult loaded = scene::load_snapshot(scene, kScenes / (scene + ".obj"));
+    if (!loaded.snapshot) throw std::runtime_error(loaded.error);
+    backend_ = plan_here(loaded.snapshot);
+    auto opened = Door::open({.token = kSecret, .limits = limits}, *backend_);
+    if (!opened) throw std::runtime_error(opened.error);
+    door_ = *std::move(opened);
+  }
+  HttpClient http() { return {door_->port(), kSecret}; }
+
+  std::unique_ptr<Backend> backend_;
+  std::unique_ptr<Door> door_;
+};
+
+/// Returns an answer without the lines of its timing and of its scene's name.
+std::string bytes_that_count(const std::string& answer) {
+  const std::string without_scene =
+      std::regex_replace(answer, std::regex("\n  \"scene\": [^\n]*"), "");
+  return std::regex_replace(without_scene, std::regex(",\n  \"timing_ms\": [^\n]*"), "");
+}
+
+/// Runs `camway plan` as a user does.
+std::string answer_of_camway_plan(const std::string& name) {
+  const testing::TemporaryFolder folder;
+  const std::string response = (folder.path() / "response.json").string();
+  const std::string command = std::string("'") + CAMWAY_BINARY + "' plan --scene '" +
+                              (kScenes / "office.obj").string() + "' --request '" +
+                              (kScenes / "requests" / (name + ".json")).string() +
+                              "' --response '" + response + "' 2>/dev/null";
+  // Its exit code tells of the answer, which is compared anyway.
+  static_cast<void>(std::system(command.c_str()));
+  return *tools::read_text(response);
+}
+
+TEST_F(ViewHere, AnswersAreThoseOfCamwayPlanByteForByte) {
+  const std::vector<std::string> names{"office-graze-door",  "office-graze-slalom",
+                                       "office-wall-rooms",  "office-impossible-safe",
+                                       "office-free-stairs", "office-wall-floor"};
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  for (const std::string& name : names) {
+    const std::string written = answer_of_camway_plan(name);
+    const Reached got = http().post("/v1/plan", request_text(name));
+    ASSERT_EQ(got.code, 200) << got.body;
+    EXPECT_THAT(written, HasSubstr("\"segments\""));
+    EXPECT_EQ(bytes_that_count(got.body), bytes_that_count(written)) << name;
+    socket.send(R"({"id": 1, "do": "plan", "request": )" + request_text(name) + "}");
+    json answer = socket.next().at("answer");
+    json same = json::parse(got.body);
+    answer.erase("timing_ms");
+    same.erase("timing_ms");
+    EXPECT_EQ(answer, same) << name;
+  }
+}
+
+TEST_F(ViewHere, AnswersThatAreNoPathAreAnswers) {
+  open();
+  const Reached got = http().post("/v1/plan", request_text("office-impossible-safe"));
+  EXPECT_EQ(got.code, 200);
+  EXPECT_EQ(got.json().at("status"), "infeasible");
+  const Reached unknown = http().post("/v1/plan", request_text("maze-free-cells"));
+  EXPECT_EQ(unknown.code, 404);
+  EXPECT_THAT(unknown.json().at("error"), HasSubstr("unknown scene 'maze'"));
+}
+
+TEST_F(ViewHere, ChecksPathsAsCamwayCheckDoes) {
+  open();
+  const std::string request = request_text("office-graze-door");
+  const std::string path = http().post("/v1/plan", request).body;
+  const Reached checked =
+      http().post("/v1/check", "{\"request\": " + request + ", \"path\": " + path + "}");
+  ASSERT_EQ(checked.code, 200) << checked.body;
+  EXPECT_EQ(checked.json().at("verdict"), "free");
+  EXPECT_EQ(checked.json().at("same_scene"), true);
+  json broken = json::parse(path);
+  broken["segments"][0]["t1"] = 1e6;
+  const Reached refused =
+      http().post("/v1/check", "{\"request\": " + request + ", \"path\": " + broken.dump() + "}");
+  EXPECT_EQ(refused.code, 400);
+  EXPECT_THAT(refused.json().at("error"), HasSubstr("path: segments"));
+}
+
+TEST_F(ViewHere, ObjectsComeMoveAndGo) {
+  open();
+  HttpClient client = http();
+  const std::string objects = "/v1/scenes/office/objects";
+  const json before = client.get("/v1/scenes").json().at("scenes").at(0);
+  for (
+      const char* const form :
+      {R"({"type": "box", "size": [1, 2, 3]})", R"({"type": "sphere", "radius_m": 0.5})",
+       R"({"type": "cylinder", "radius_m": 0.5, "height_m": 2})",
+       R"({"type": "mesh", "format": "obj", "text": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"})",
+       R"({"type": "mesh", "format": "obj", "base64": "diAwIDAgMAp2IDEgMCAwCnYgMCAxIDAKZiAxIDIgMwo="})"}) {
+    const Reached added = client.post(
+        objects, std::string(R"({"name": "crate", "position": [5, 6, 7], "form": )") + form + "}");
+    ASSERT_EQ(added.code, 200) << added.body;
+    EXPECT_EQ(added.json().at("objects").at(0).at("position"), json({5.0, 6.0, 7.0}));
+  }
+  const Reached moved =
+      client.send("PATCH", objects + "/crate", R"({"orientation": [0, 0, 0, 2]})");
+  EXPECT_EQ(moved.json().at("objects").at(0).at("position"), json({5.0, 6.0, 7.0}));
+  EXPECT_EQ(moved.json().at("objects").at(0).at("orientation"), json({0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(client.get("/v1/scenes/office").json().at("objects").size(), 2U);
+  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 200);
+  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 404);
+  EXPECT_EQ(client.send("PATCH", objects + "/crate", R"({"position": [1, 2, 3]})").code, 404);
+  EXPECT_EQ(client.get("/v1/scenes/hall").code, 404);
+  const json after = client.get("/v1/scenes").json().at("scenes").at(0);
+  EXPECT_EQ(after.at("digest"), before.at("digest"));
+  EXPECT_EQ(after.at("revision"), 8);
+  EXPECT_EQ(client.get("/v1/status").json().at("backend").at("planner"), "here");
+}
+
+TEST_F(ViewHere, RefusesObjectsThatCannotBeMade) {
+  open();
+  const auto refusal = [&](const std::string& form) {
+    const Reached got =
+        http().post("/v1/scenes/office/objects", R"({"name": "x", "form": )" + form + "}");
+    EXPECT_EQ(got.code, 400) << form;
+    return got.json().at("error").get<std::string>();
+  };
+  EXPECT_THAT(refusal(R"({"type": "mesh", "file": "/etc/passwd"})"),
+              HasSubstr("no files are read"));
+  EXPECT_THAT(refusal(R"({"type": "sphere", "radius_m": 1e10})"), HasSubstr("form: "));
+  const std::string broken = refusal(R"({"type": "mesh", "format": "obj", "text": "nonsense"})");
+  EXPECT_THAT(broken, HasSubstr("form"));
+  EXPECT_THAT(broken, ::testing::Not(HasSubstr("/tmp"))) << "clients know nothing of the file";
+}
+
+TEST_F(ViewHere, TwoClientsSeeEachOthersChanges) {
+  open();
+  SocketClient one(door_->port(), kSecret);
+  SocketClient other(door_->port(), kSecret);
+  one.send(R"({"id": 1, "do": "watch"})");
+  const auto revision = [](const json& message) {
+    return message.at("event").at("state").at("scenes").at(0).at("revision").get<int>();
+  };
+  EXPECT_EQ(revision(one.next(1)), 1);
+  const std::string request = request_text("office-free-straight");
+  const std::string plan = R"(, "do": "plan", "request": )" + request + "}";
+  one.send(R"({"id": 2)" + plan);
+  const json before = one.next(2).at("answer");
+  EXPECT_EQ(before.at("collisions").size(), 0U);
+  const json keyframes = json::parse(request).at("keyframes");
+  json at = json::array();
+  for (std::size_t i = 0; i < 3; ++i) {
+    at.push_back(0.5 * (keyframes.at(0).at("position").at(i).get<double>() +
+                        keyframes.at(1).at("position").at(i).get<double>()));
+  }
+  other.send(R"({"id": 1, "do": "scene.add", "object": "crate", "form": {"type": "box",
+                 "size": [0.5, 0.5, 0.5]}, "position": )" +
+             at.dump() + "}");
+  EXPECT_EQ(other.next(1).count("answer"), 1U);
+  EXPECT_EQ(revision(one.next(1)), 2);
+  one.send(R"({"id": 3)" + plan);
+  EXPECT_EQ(one.next(3).at("answer").at("collisions").size(), 1U) << "the crate is on the way";
+}
+
+/// A request that takes many seconds: from room to room through the walls, many times.
+std::string long_request() {
+  json request = json::parse(request_text("office-wall-tour"));
+  const json keyframes = request.at("keyframes");
+  constexpr int kRounds = 200;
+  json many = json::array();
+  for (int round = 0; round < kRounds; ++round) {
+    for (const json& keyframe : keyframes) {
+      many.push_back(
+          {{"position", keyframe.at("position")}, {"orientation", keyframe.at("orientation")}});
+    }
+  }
+  request["keyframes"] = many;
+  request["options"]["deadline_s"] = 600;
+  return request.dump();
+}
+
+TEST_F(ViewHere, TellsOfProgressAndEndsCancelledPlans) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 1, "do": "plan", "progress": true, "request": )" + long_request() + "}");
+  const json progress = socket.next();
+  ASSERT_EQ(progress.count("progress"), 1U) << progress;
+  EXPECT_EQ(progress.at("progress").at("deadline_s"), 600);
+  socket.send(R"({"id": 1, "do": "cancel"})");
+  const json end = socket.next([](const json& message) { return !message.contains("progress"); });
+  EXPECT_EQ(end, json({{"id", 1}, {"cancelled", true}}));
+}
+
+TEST_F(ViewHere, EndsWhilePlansRun) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  for (int id = 1; id <= 5; ++id) {
+    socket.send(R"({"id": )" + std::to_string(id) +
+                R"(, "do": "plan", "progress": true, "request": )" + long_request() + "}");
+  }
+  EXPECT_EQ(socket.next().count("progress"), 1U);
+  door_.reset();
+  backend_.reset();
+  const json end = socket.next([](const json& message) { return message.contains("closed"); });
+  EXPECT_EQ(end.count("closed"), 1U);
+}
+
+TEST_F(ViewHere, TheBackendEndsBeforeItsPlansAndSaysSo) {
+  open();
+  std::mutex mutex;
+  std::vector<int> codes;
+  constexpr int kPlans = 6;
+  for (int i = 0; i < kPlans; ++i) {
+    auto order = read_plan(json::parse(long_request()));
+    ASSERT_TRUE(order);
+    backend_->plan(*std::move(order), nullptr, [&](const Answer& answer) {
+      const std::lock_guard lock(mutex);
+      codes.push_back(answer.code);
+    });
+  }
+  door_.reset();
+  backend_.reset();
+  ASSERT_EQ(codes.size(), std::size_t{kPlans});
+  for (const int code : codes) {
+    EXPECT_TRUE(code == code::kCancelled || code == code::kNoDaemon) << code;
+  }
+}
+
+TEST_F(ViewHere, DrawsTheLastPlan) {
+  open();
+  EXPECT_EQ(http().get("/plan.svg").code, 404);
+  EXPECT_THAT(http().get("/").body, HasSubstr("Nothing was planned yet"));
+  http().post("/v1/plan", request_text("office-graze-door"));
+  const Reached picture = http().get("/plan.svg");
+  EXPECT_EQ(picture.code, 200);
+  EXPECT_EQ(picture.type, "image/svg+xml");
+  EXPECT_THAT(picture.body, HasSubstr("<svg"));
+  EXPECT_THAT(http().get("/").body, HasSubstr("proved free of collision"));
+}
+
+}  // namespace
+}  // namespace camway::view

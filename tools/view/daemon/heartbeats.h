@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/client.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "tools/view/backend.h"
+
+namespace camway::view {
+
+/// Listens to the heartbeats of a daemon on a thread of its own: its status, and events when its
+/// scenes change, when it falls silent, and when it is heard again. Thread-safe.
+class Heartbeats {
+ public:
+  /// Keeps a reference to `client`.
+  explicit Heartbeats(Client& client);
+  ~Heartbeats();
+  Heartbeats(const Heartbeats&) = delete;
+  Heartbeats& operator=(const Heartbeats&) = delete;
+
+  /// Returns the last heartbeat; nothing if the daemon is silent. Waits for the first one as long
+  /// as a daemon may need to be heard.
+  std::optional<DaemonStatus> wait();
+
+  /// Tells of scenes and silence from now on, first of what is known.
+  std::unique_ptr<Watch> watch(Tell event);
+
+  /// Tells of the scenes, which this process has just changed.
+  void scenes_changed(const std::vector<SceneInfo>& scenes);
+
+  /// Lets waiting calls return.
+  void stop();
+
+ private:
+  using Key = std::uint64_t;
+  class Watcher;
+
+  void listen();
+  void heard(DaemonStatus status);
+  void silent();
+  /// Tells all who watch. Requires the lock.
+  void tell(const std::string& event);
+  [[nodiscard]] static std::string scenes_event(const std::vector<SceneInfo>& scenes);
+
+  Client& client_;
+  std::mutex mutex_;  ///< guards what is below; held while events are told
+  std::condition_variable changed_;
+  bool has_stopped_ = false;
+  bool is_known_ = false;  ///< whether a daemon was heard, or had time to be
+  std::optional<DaemonStatus> last_;
+  std::chrono::steady_clock::time_point heard_at_ = std::chrono::steady_clock::now();
+  std::map<Key, Tell> watchers_;
+  Key last_key_ = 0;
+  std::jthread thread_;
+};
+
+}  // namespace camway::view

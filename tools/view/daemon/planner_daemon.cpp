@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "tools/view/daemon/planner_daemon.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "tools/answers/plan_answer.h"
+#include "tools/support/client_request.h"
+#include "tools/support/client_response.h"
+#include "tools/support/watch_event_name.h"
+#include "tools/view/daemon/daemon_scenes.h"
+#include "tools/view/daemon/heartbeats.h"
+#include "tools/view/daemon/status_json.h"
+#include "tools/view/reporter.h"
+#include "tools/view/work_pool.h"
+
+namespace camway::view {
+namespace {
+
+/// Calls about scenes wait for the daemon; so many of them wait at a time.
+constexpr int kCallers = 4;
+
+std::string_view name_of(PlanProgress::Stage stage) {
+  switch (stage) {
+    case PlanProgress::Stage::kWaiting:
+      return "waiting";
+    case PlanProgress::Stage::kPreparing:
+      return "preparing";
+    case PlanProgress::Stage::kDetecting:
+      return "detecting";
+    case PlanProgress::Stage::kCorrecting:
+      return "correcting";
+    case PlanProgress::Stage::kCertifying:
+      return "certifying";
+  }
+  return "unknown";
+}
+
+std::string progress_json(const PlanProgress& progress) {
+  return fmt::format(
+      "{{\"stage\": \"{}\", \"collisions\": {}, \"corrected\": {}, \"elapsed_s\": {:.3f}, "
+      "\"deadline_s\": {}, \"requests_ahead\": {}}}",
+      name_of(progress.stage), progress.num_collisions, progress.num_corrected,
+      progress.since_receipt_s, progress.deadline_s, progress.requests_ahead);
+}
+
+tools::PlanAnswer to_plan_answer(const PlanResponse& response, const PlanOrder& order) {
+  tools::PlanAnswer answer;
+  answer.scene = order.scene;
+  answer.scene_digest = response.scene_digest;
+  answer.request_warnings = tools::request_warnings(order.request);
+  answer.result = tools::to_plan_result(response);
+  return answer;
+}
+
+class DaemonJob final : public Job {
+ public:
+  DaemonJob(Client& client, std::int64_t id) : client_(client), id_(id) {}
+  void cancel() override { client_.cancel(id_); }
+
+ private:
+  Client& client_;
+  const std::int64_t id_;
+};
+
+class PathWatch final : public Watch {
+ public:
+  PathWatch(Client& client, std::int64_t id) : client_(client), id_(id) {}
+  ~PathWatch() override { client_.unwatch(id_); }
+  PathWatch(const PathWatch&) = delete;
+  PathWatch& operator=(const PathWatch&) = delete;
+
+ private:
+  Client& client_;
+  const std::int64_t id_;
+};
+
+std::string event_json(const WatchEvent& event, const PlanOrder& order) {
+  std::string json = fmt::format("{{\"kind\": \"{}\", \"scene_revision\": {}",
+                                 tools::name_of(event.kind), event.scene_revision);
+  if (event.kind == WatchEvent::Kind::kBroken) {
+    std::string_view separator = ", \"broken\": [";
+    for (const CollisionInterval& interval : event.broken) {
+      json += fmt::format("{}{{\"t_begin\": {}, \"t_end\": {}}}", std::exchange(separator, ", "),
+                          interval.t_begin_s, interval.t_end_s);
+    }
+    json += event.broken.empty() ? ", \"broken\": []" : "]";
+  }
+  if (event.answer && tools::has_result(event.answer->status)) {
+    const auto text = tools::answer_text(to_plan_answer(*event.answer, order));
+    if (text) json += ", \"answer\": " + *text;
+  }
+  if (!event.error.empty()) json += ", \"error\": " + json_string(event.error);
+  return json + "}";
+}
+
+class PlannerDaemon final : public Backend {
+ public:
+  PlannerDaemon(std::string scene, const ClientOptions& options)
+      : scene_(std::move(scene)), client_(std::in_place, options) {
+    if (client_->good()) heartbeats_.emplace(*client_);
+  }
+  ~PlannerDaemon() override {
+    stop_calls();
+    heartbeats_.reset();
+    // Its last answers go to the writer.
+    client_.reset();
+    writer_.stop();
+  }
+  PlannerDaemon(const PlannerDaemon&) = delete;
+  PlannerDaemon& operator=(const PlannerDaemon&) = delete;
+
+  /// Returns why no daemon can be asked; empty if one can.
+  [[nodiscard]] const std::string& error() const { return client_->error(); }
+
+  [[nodiscard]] std::string scene() const override { return scene_; }
+  std::shared_ptr<Job> plan(PlanOrder order, Tell progress, Done done) override;
+  std::shared_ptr<Job> check(CheckOrder, Done done) override {
+    done(failure(code::kNotOffered,
+                 "paths are not checked here, since a daemon does not send its triangles; "
+                 "camway check and camway view --scene FILE do"));
+    return nullptr;
+  }
+  void ask_scene(SceneOrder order, Done done) override;
+  void status(Done done) override;
+  std::unique_ptr<Watch> watch_scenes(Tell event) override {
+    return heartbeats_->watch(std::move(event));
+  }
+  std::unique_ptr<Watch> watch_path(PlanOrder order, Tell event) override;
+  [[nodiscard]] std::shared_ptr<const LastPlan> last() const override {
+    const std::lock_guard lock(mutex_);
+    return last_;
+  }
+
+ private:
+  /// Runs a call that waits for the daemon on a thread of its own.
+  void call(Done done, std::function<Answer()> ask);
+  void stop_calls();
+  [[nodiscard]] Answer planned(const PlanResponse& response, const PlanOrder& order);
+  [[nodiscard]] Answer status_answer();
+
+  const std::string scene_;
+  mutable std::mutex mutex_;  ///< guards what is below
+  std::condition_variable call_ended_;
+  int calls_ = 0;  ///< calls that run
+  bool has_stopped_ = false;
+  std::shared_ptr<const LastPlan> last_;
+  WorkPool writer_{1};  ///< writes answers, which would take the time of the client's thread
+  std::optional<Client> client_;
+  std::optional<Heartbeats> heartbeats_;  ///< set unless the client has an error
+  WorkPool callers_{kCallers};
+};
+
+std::shared_ptr<Job> PlannerDaemon::plan(PlanOrder order, Tell progress, Done done) {
+  PlanHandlers handlers;
+  PlanRequest request = tools::to_client_request(order.request, order.scene);
+  if (progress) {
+    constexpr double kProgressPeriod_s = 0.1;
+    request.progress_period_s = kProgressPeriod_s;
+    handlers.on_progress = [progress = std::move(progress)](const PlanProgress& state) {
+      progress(progress_json(state));
+    };
+  }
+  auto reporter = std::make_shared<Reporter>(std::move(done));
+  auto asked = std::make_shared<const PlanOrder>(std::move(order));
+  handlers.on_answer = [this, asked, reporter](const PlanResponse& response) {
+    writer_.post(
+        [this, asked, reporter, response] { reporter->report(planned(response, *asked)); });
+  };
+  const PendingPlan pending = client_->plan_async(request, std::move(handlers));
+  return std::make_shared<DaemonJob>(*client_, pending.request_id);
+}
+
+Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& order) {
+  if (!tools::has_result(response.status) || response.status == Status::kUnknownScene) {
+    return failure(code_of(response.status), response.error);
+  }
+  tools::PlanAnswer answer = to_plan_answer(response, order);
+  const base::Result<std::string> text = tools::answer_text(answer);
+  if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
+  auto last =
+      std::make_shared<const LastPlan>(LastPlan{order.request, std::move(answer.result), nullptr});
+  const std::lock_guard lock(mutex_);
+  last_.swap(last);
+  return {code::kOk, *text, {}};
+}
+
+void PlannerDaemon::call(Done done, std::function<Answer()> ask) {
+  auto reporter = std::make_shared<Reporter>(std::move(done));
+  callers_.post([this, reporter, ask = std::move(ask)] {
+    {
+      const std::lock_guard lock(mutex_);
+      if (has_stopped_) return;
+      ++calls_;
+    }
+    reporter->report(ask());
+    const std::lock_guard lock(mutex_);
+    --calls_;
+    call_ended_.notify_all();
+  });
+}
+
+void PlannerDaemon::stop_calls() {
+  constexpr std::chrono::milliseconds kAgain{20};
+  if (heartbeats_) heartbeats_->stop();
+  {
+    std::unique_lock lock(mutex_);
+    has_stopped_ = true;
+    while (calls_ > 0) {
+      // Repeated, because a call may not have reached the client yet.
+      lock.unlock();
+      client_->cancel_scene_calls();
+      lock.lock();
+      call_ended_.wait_for(lock, kAgain, [this] { return calls_ == 0; });
+    }
+  }
+  callers_.stop();
+}
+
+void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
+  call(std::move(done), [this, order = std::move(order)] {
+    Answer answer = ask_daemon_scene(*client_, order);
+    if (order.is_change() && answer.code == code::kOk) {
+      // Heartbeats tell of it as well, up to a second later.
+      const SceneAnswer list = client_->list_scenes();
+      if (list.ok()) heartbeats_->scenes_changed(list.scenes);
+    }
+    return answer;
+  });
+}
+
+void PlannerDaemon::status(Done done) {
+  call(std::move(done), [this] { return status_answer(); });
+}
+
+Answer PlannerDaemon::status_answer() {
+  const std::optional<DaemonStatus> status = heartbeats_->wait();
+  if (!status) return failure(code::kNoDaemon, "no daemon is heard");
+  return {
+      code::kOk,
+      fmt::format("{{\"planner\": \"daemon\", \"scene\": {}, \"daemon\": {}}}", json_string(scene_),
+                  status_json(*status).dump(-1, ' ', false,
+                                            nlohmann::ordered_json::error_handler_t::replace)),
+      {}};
+}
+
+std::unique_ptr<Watch> PlannerDaemon::watch_path(PlanOrder order, Tell event) {
+  const PlanRequest request = tools::to_client_request(order.request, order.scene);
+  auto asked = std::make_shared<const PlanOrder>(std::move(order));
+  const std::int64_t id =
+      client_->watch(request, [this, asked, event = std::move(event)](const WatchEvent& told) {
+        writer_.post([asked, event, told] { event(event_json(told, *asked)); });
+      });
+  return std::make_unique<PathWatch>(*client_, id);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Backend>> plan_by_daemon(std::string scene,
+                                                      const ClientOptions& options) {
+  auto backend = std::make_unique<PlannerDaemon>(std::move(scene), options);
+  if (!backend->error().empty()) return base::Failure{backend->error()};
+  return std::unique_ptr<Backend>(std::move(backend));
+}
+
+}  // namespace camway::view

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tools/view/desk.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "daemon/version/build_info.h"
+
+namespace camway::view {
+
+Desk::Place Desk::take_place() {
+  if (plans_->fetch_add(1) >= options_.limits.all_plans) {
+    plans_->fetch_sub(1);
+    return nullptr;
+  }
+  return {plans_.get(), [plans = plans_](void*) { plans->fetch_sub(1); }};
+}
+
+void Desk::ask_scene(SceneOrder order, Done done) {
+  if (order.is_change()) {
+    if (options_.is_read_only) {
+      return done(failure(code::kForbidden,
+                          "scenes are not changed here: camway view was started with --read-only"));
+    }
+    if (!rate_.take()) {
+      return done(failure(code::kTooMany, fmt::format("too many changes of scenes: at most {:g} "
+                                                      "a second",
+                                                      options_.limits.changes_per_s)));
+    }
+  }
+  if (order.kind != SceneOrder::Kind::kList) order = in_scene(std::move(order));
+  backend_.ask_scene(std::move(order), std::move(done));
+}
+
+void Desk::status(Done done) const {
+  const bool is_read_only = options_.is_read_only;
+  backend_.status([is_read_only, done = std::move(done)](Answer answer) {
+    if (answer.code == code::kOk) {
+      answer.json =
+          fmt::format("{{\"read_only\": {}, \"backend\": {}}}", is_read_only, answer.json);
+    }
+    done(std::move(answer));
+  });
+}
+
+Answer Desk::version() {
+  constexpr int kDoorVersion = 1;  // the v1 of the paths
+  return {code::kOk,
+          fmt::format("{{\"camway\": {}, \"door\": {}}}", json_string(service::version_text()),
+                      kDoorVersion),
+          {}};
+}
+
+}  // namespace camway::view

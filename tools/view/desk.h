@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "tools/view/backend.h"
+#include "tools/view/change_rate.h"
+#include "tools/view/door.h"
+
+namespace camway::view {
+
+/// What HTTP and sockets have in common: the rules that orders have to keep, and the backend that
+/// answers them. Thread-safe.
+class Desk {
+ public:
+  Desk(const DoorOptions& options, Backend& backend)
+      : options_(options),
+        backend_(backend),
+        rate_(options.limits.changes_per_s, options.limits.change_burst) {}
+
+  [[nodiscard]] const DoorLimits& limits() const { return options_.limits; }
+  [[nodiscard]] Backend& backend() const { return backend_; }
+
+  /// Names the scene of an order that names none.
+  template <class Order>
+  [[nodiscard]] Order in_scene(Order order) const {
+    if (order.scene.empty()) order.scene = backend_.scene();
+    return order;
+  }
+
+  /// Takes a place for a plan of a socket, which the result keeps as long as it lives. Null if all
+  /// places are taken.
+  using Place = std::shared_ptr<void>;
+  [[nodiscard]] Place take_place();
+
+  /// Looks at a scene or changes it, if the rules allow it.
+  void ask_scene(SceneOrder order, Done done);
+  /// Answers with the state of the door and of the backend.
+  void status(Done done) const;
+  /// Returns the versions of the program and of the door.
+  [[nodiscard]] static Answer version();
+
+ private:
+  const DoorOptions options_;
+  Backend& backend_;
+  ChangeRate rate_;
+  /// Plans of all sockets under way. Places keep it, which may outlive the desk.
+  const std::shared_ptr<std::atomic<int>> plans_ = std::make_shared<std::atomic<int>>(0);
+};
+
+}  // namespace camway::view

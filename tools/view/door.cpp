@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include "tools/view/door.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "daemon/http/server.h"
+#include "tools/view/access.h"
+#include "tools/view/desk.h"
+#include "tools/view/http_jobs.h"
+#include "tools/view/page.h"
+#include "tools/view/routes.h"
+#include "tools/view/session.h"
+#include "tools/view/work_pool.h"
+
+namespace camway::view {
+namespace {
+
+constexpr char kJsonType[] = "application/json";
+constexpr char kHtmlType[] = "text/html; charset=utf-8";
+constexpr char kCssType[] = "text/css; charset=utf-8";
+constexpr char kSvgType[] = "image/svg+xml";
+
+/// Bodies are parsed and pictures drawn on threads of their own, so that large ones keep nobody
+/// waiting. Two, so that a picture does not keep requests waiting either.
+constexpr int kReaders = 2;
+
+constexpr std::string_view kPolicy =
+    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+    "object-src 'none'";
+
+/// Headers of every response.
+std::vector<std::pair<std::string, std::string>> common_headers() {
+  return {{"Content-Security-Policy", std::string(kPolicy)},
+          {"X-Content-Type-Options", "nosniff"},
+          {"Referrer-Policy", "no-referrer"},
+          {"Cross-Origin-Resource-Policy", "same-origin"},
+          {"Cache-Control", "no-store"}};
+}
+
+/// The picture has style attributes, which its policy has to allow where it is opened alone.
+http::Response to_picture(std::string picture) {
+  return {code::kOk,
+          kSvgType,
+          std::move(picture),
+          {{"Content-Security-Policy", std::string(kPolicy) + "; style-src 'unsafe-inline'"}}};
+}
+
+http::Response to_response(Answer answer) {
+  http::Response response{answer.code, kJsonType, {}, {}};
+  response.body = answer.code == code::kOk ? std::move(answer.json) : error_json(answer.error);
+  if (!response.body.ends_with('\n')) response.body += '\n';
+  return response;
+}
+
+http::Response refusal(int code, std::string error) {
+  return to_response(failure(code, std::move(error)));
+}
+
+class DoorServer final : public Door {
+ public:
+  DoorServer(const DoorOptions& options, Backend& backend)
+      : lock_{options.port, options.token},
+        desk_(std::make_shared<Desk>(options, backend)),
+        jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
+  ~DoorServer() override {
+    jobs_->close();
+    server_.reset();
+    readers_.stop();
+  }
+  DoorServer(const DoorServer&) = delete;
+  DoorServer& operator=(const DoorServer&) = delete;
+
+  /// Returns why the door cannot be opened; empty if it is open.
+  std::string listen(int port);
+
+  [[nodiscard]] int port() const override { return lock_.port; }
+  [[nodiscard]] std::string url() const override {
+    return fmt::format("http://127.0.0.1:{}/?token={}", lock_.port, lock_.token);
+  }
+
+ private:
+  [[nodiscard]] std::optional<http::Response> refuse(const http::Request& request) const;
+  void answer(const http::Request& request, const http::Reply& reply);
+  void draw(const http::Reply& reply);
+  [[nodiscard]] http::Response page(const http::Request& request) const;
+
+  /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
+  /// if there is no place, which the reply says.
+  Done begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  void ask(const http::Request& request, const http::Reply& reply, const Route& route);
+  /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
+  /// a reader.
+  void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
+                 Done done);
+  void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
+  void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
+  void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
+
+  Lock lock_;  ///< read by the server's thread once the port is set
+  const std::shared_ptr<Desk> desk_;
+  const std::shared_ptr<HttpJobs> jobs_;
+  WorkPool readers_{kReaders};
+  std::unique_ptr<http::Server> server_;
+};
+
+std::string DoorServer::listen(int port) {
+  http::Handlers handlers;
+  handlers.headers = common_headers();
+  handlers.on_head = [this](const http::Request& request) { return refuse(request); };
+  handlers.on_request = [this](const http::Request& request, const http::Reply& reply) {
+    answer(request, reply);
+  };
+  handlers.on_socket =
+      [this](const http::Request& request,
+             std::shared_ptr<http::Socket> socket) -> std::unique_ptr<http::SocketEvents> {
+    const Route route = route_of(request.method, request.target);
+    if (route.place != Place::kSocket || route.code != code::kOk) return nullptr;
+    return open_session(desk_, std::move(socket));
+  };
+  const DoorLimits& limits = desk_->limits();
+  http::Limits http_limits;
+  http_limits.connections = limits.connections;
+  http_limits.body_bytes = limits.body_bytes;
+  http_limits.message_bytes = limits.message_bytes;
+  http_limits.queued_bytes = limits.queued_bytes;
+  auto opened = http::Server::open({"127.0.0.1", port}, std::move(handlers), http_limits,
+                                   [this](int bound) { lock_.port = bound; });
+  if (!opened) return opened.error;
+  server_ = *std::move(opened);
+  return {};
+}
+
+std::optional<http::Response> DoorServer::refuse(const http::Request& request) const {
+  std::string why = why_refused(request, lock_);
+  if (why.empty()) return std::nullopt;
+  return refusal(code::kForbidden, std::move(why));
+}
+
+void DoorServer::answer(const http::Request& request, const http::Reply& reply) {
+  const Route route = route_of(request.method, request.target);
+  if (route.code == code::kNotFound) {
+    return reply(refusal(route.code, "there is no such place; docs/http.md lists them"));
+  }
+  if (route.code == code::kNotAllowed) {
+    http::Response response =
+        refusal(route.code, fmt::format("the method must be {}", route.allowed));
+    response.headers.emplace_back("Allow", route.allowed);
+    return reply(std::move(response));
+  }
+  switch (route.place) {
+    case Place::kPage:
+      return reply(page(request));
+    case Place::kStyle:
+      return reply({code::kOk, kCssType, std::string(page_style())});
+    case Place::kPicture:
+      return draw(reply);
+    case Place::kVersion:
+      return reply(to_response(Desk::version()));
+    case Place::kSocket:
+      return reply(refusal(code::kInvalid, "this place is a WebSocket"));
+    default:
+      return ask(request, reply, route);
+  }
+}
+
+http::Response DoorServer::page(const http::Request& request) const {
+  const std::shared_ptr<const LastPlan> last = desk_->backend().last();
+  http::Response response{
+      code::kOk, kHtmlType, first_page(desk_->backend().scene(), last.get()), {}};
+  // Who came by the address that was printed.
+  if (request.target.size() > 1) response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  return response;
+}
+
+void DoorServer::draw(const http::Reply& reply) {
+  const std::shared_ptr<const LastPlan> last = desk_->backend().last();
+  if (!last || last->result.path.empty()) {
+    return reply(refusal(code::kNotFound, "there is no path to draw"));
+  }
+  readers_.post([last, reply] {
+    std::string picture = plan_picture(*last);
+    if (picture.empty()) return reply(refusal(code::kOurFault, "the path cannot be drawn"));
+    reply(to_picture(std::move(picture)));
+  });
+}
+
+Done DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
+  ticket = jobs_->enter();
+  if (ticket == 0) {
+    reply(refusal(code::kTooMany, fmt::format("too many at a time: at most {} requests",
+                                              desk_->limits().requests)));
+    return nullptr;
+  }
+  return [jobs = jobs_, ticket, reply](Answer answer) {
+    jobs->leave(ticket);
+    reply(to_response(std::move(answer)));
+  };
+}
+
+void DoorServer::ask(const http::Request& request, const http::Reply& reply, const Route& route) {
+  HttpJobs::Ticket ticket = 0;
+  Done done = begin(reply, ticket);
+  if (!done) return;
+  SceneOrder order;
+  order.scene = route.scene;
+  order.object = route.object;
+  switch (route.place) {
+    case Place::kStatus:
+      return desk_->status(std::move(done));
+    case Place::kScenes:
+      return desk_->ask_scene(std::move(order), std::move(done));
+    case Place::kScene:
+      order.kind = SceneOrder::Kind::kDescribe;
+      return desk_->ask_scene(std::move(order), std::move(done));
+    default:
+      break;
+  }
+  if (request.method == "DELETE") {
+    order.kind = SceneOrder::Kind::kRemove;
+    return desk_->ask_scene(std::move(order), std::move(done));
+  }
+  // The route refers to the target of the request, which ends with this call.
+  readers_.post([this, body = request.body, place = route.place, order = std::move(order), ticket,
+                 done = std::move(done)]() mutable {
+    read_body(body, place, std::move(order), ticket, std::move(done));
+  });
+}
+
+void DoorServer::read_body(const std::string& body, Place place, SceneOrder named,
+                           HttpJobs::Ticket ticket, Done done) {
+  const base::Result<nlohmann::json> document = tools::parse_document(body, "request");
+  if (!document) return done(failure(code::kInvalid, document.error));
+  switch (place) {
+    case Place::kPlan:
+      return plan(*document, ticket, std::move(done));
+    case Place::kCheck:
+      return check(*document, ticket, std::move(done));
+    case Place::kObjects:
+      return change(read_added(*document), named, std::move(done));
+    default:
+      return change(read_moved(*document), named, std::move(done));
+  }
+}
+
+void DoorServer::plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done) {
+  base::Result<PlanOrder> order = view::read_plan(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  jobs_->set(ticket,
+             desk_->backend().plan(desk_->in_scene(*std::move(order)), nullptr, std::move(done)));
+}
+
+void DoorServer::check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done) {
+  base::Result<CheckOrder> order = read_check_document(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  jobs_->set(ticket, desk_->backend().check(desk_->in_scene(*std::move(order)), std::move(done)));
+}
+
+void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named, Done done) {
+  if (!order) return done(failure(code::kInvalid, order.error));
+  order->scene = named.scene;
+  // One that is added has its name in the body.
+  if (!named.object.empty()) order->object = named.object;
+  desk_->ask_scene(*std::move(order), std::move(done));
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Door>> Door::open(const DoorOptions& options, Backend& backend) {
+  auto door = std::make_unique<DoorServer>(options, backend);
+  std::string fault = door->listen(options.port);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  return std::unique_ptr<Door>(std::move(door));
+}
+
+}  // namespace camway::view

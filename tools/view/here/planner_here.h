@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "daemon/scene/snapshot/snapshot.h"
+#include "tools/view/backend.h"
+
+namespace camway::view {
+
+struct HereOptions {
+  int threads = 2;  ///< plans at a time, each on as many processors as it can use
+  /// What `camway plan` writes as the answers' scene.
+  std::string scene_text = {};
+};
+
+/// Returns a backend that plans in this process, in the scene of `snapshot`, which changes as
+/// clients say. Answers are those of `camway plan`, bit for bit, timing and the scene's name apart.
+/// Paths are not watched; changes of scenes are told.
+std::unique_ptr<Backend> plan_here(std::shared_ptr<const scene::Snapshot> snapshot,
+                                   const HereOptions& options = {});
+
+}  // namespace camway::view
