@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/http/connection.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -13,6 +15,9 @@
 
 namespace camway::http {
 namespace {
+
+/// A refused client may take so long to send what nobody reads; its connection keeps a place.
+constexpr std::chrono::milliseconds kLongestDrain{2000};
 
 /// The way back to a connection that waits for its response. The connection is kept by it alone.
 class PendingReply {
@@ -93,6 +98,7 @@ void Connection::on_head(beast::error_code fault) {
       version_ = parser_->get().version();
       is_head_ = parser_->get().method() == beast::http::verb::head;
       keeps_alive_ = false;
+      has_unread_ = true;
       return answer(std::move(refusal));
     }
   }
@@ -131,6 +137,7 @@ void Connection::refuse(beast::error_code error) {
   if (status == 0) return abort();
   keeps_alive_ = false;
   is_head_ = false;
+  has_unread_ = true;
   answer(Response{status, "text/plain; charset=utf-8", error.message() + "\n"});
 }
 
@@ -151,15 +158,15 @@ void Connection::answer(std::optional<Response> response) {
       stream_, *message,
       [self = shared_from_this(), message](beast::error_code error, std::size_t) {
         if (error) return self->abort();
-        self->keeps_alive_ ? self->read() : self->end();
+        if (self->keeps_alive_) return self->read();
+        self->has_unread_ ? self->end() : self->abort();
       });
 }
 
 void Connection::end() {
   beast::error_code ignored;
   stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-  buffer_.clear();
-  stream_.expires_after(shared_.limits.patience);
+  stream_.expires_after(std::min(shared_.limits.patience, kLongestDrain));
   drain();
 }
 
@@ -172,6 +179,11 @@ void Connection::drain() {
                           });
 }
 
-void Connection::abort() { stream_.close(); }
+void Connection::abort() {
+  beast::error_code ignored;
+  // What was written arrives, unless unread bytes make the kernel reset the connection.
+  stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  stream_.close();
+}
 
 }  // namespace camway::http

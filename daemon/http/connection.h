@@ -87,6 +87,7 @@ class Connection final : public Place, public std::enable_shared_from_this<Conne
   unsigned version_ = 11;
   bool keeps_alive_ = false;
   bool is_head_ = false;
+  bool has_unread_ = false;  ///< whether the request was refused before all of it was read
 };
 
 /// Serves the connection as a WebSocket, if the handlers take it; else leaves `stream` alone.

@@ -29,6 +29,9 @@ base::Failure failed(std::string error) { return {std::move(error)}; }
 base::Result<CheckInput> read_files(const CheckFlags& flags,
                                     const base::Result<RequestFile>& request) {
   if (!request) return failed(request.error);
+  if (const auto fault = planning::validate(*request)) {
+    return failed(source_of(flags.request) + ": " + fault->message);
+  }
   const base::Result<PathFile> response = read_as<PathFile>(flags.response);
   if (!response) return failed(response.error);
   return check_input(*request, *response, {source_of(flags.request), source_of(flags.response)});
