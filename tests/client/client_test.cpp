@@ -86,7 +86,8 @@ TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
   const PlanResponse response = client.plan(small_request());
   EXPECT_EQ(response.status, Status::kNoAnswer);
   EXPECT_THAT(response.error, HasSubstr("did not answer by the deadline"));
-  EXPECT_GE(response.elapsed_s, 1.5);
+  // The call counts its time from a moment after the one that the deadline is counted from.
+  EXPECT_GE(response.elapsed_s, 1.5 - 0.01);
   EXPECT_GT(response.tries, 1 + options.retries);
 }
 
