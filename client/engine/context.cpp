@@ -131,11 +131,11 @@ Failure Context::silence(double silent_s) const {
                                  "; it ended, or the network fails"};
 }
 
-Clock::time_point after(double seconds) {
+Clock::time_point after(double seconds, Clock::time_point start) {
   // A longer wait than a year could overflow the clock.
   constexpr double kYear_s = 365.0 * 24 * 3600;
   const double bounded = std::isnan(seconds) ? 0.0 : std::clamp(seconds, 0.0, kYear_s);
-  return Clock::now() +
+  return start +
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(bounded));
 }
 

@@ -77,7 +77,7 @@ class Context {
   std::atomic<std::uint64_t> next_seed_;
 };
 
-/// Returns the instant `seconds` from now, at most a year away; now for NaN.
-Clock::time_point after(double seconds);
+/// Returns the instant `seconds` after another one, at most a year away; that one for NaN.
+Clock::time_point after(double seconds, Clock::time_point start = Clock::now());
 
 }  // namespace camway

@@ -10,8 +10,8 @@
 
 namespace camway {
 
-/// What was heard of the scene of a watched path, to find out whether a daemon that was started
-/// anew has forgotten changes.
+/// Remembers what a client heard of the scene of a watched path, to find out whether a daemon that
+/// was started anew has forgotten changes.
 ///
 /// Revisions of a daemon that forgets are counted anew, so that an equal or larger one says
 /// nothing: only an equal digest does. A digest comes with answers alone. If a newer revision than

@@ -37,9 +37,10 @@ std::string explain(const PlanResponse& response) {
 
 /// Returns when a call ends: not before the request's own deadline plus the time for the answer to
 /// arrive.
-Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& options) {
+Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& options,
+                              Clock::time_point start) {
   const double planning_s = std::isfinite(request.deadline_s) ? request.deadline_s : 0.0;
-  return after(std::max(options.deadline_s, planning_s + options.try_timeout_s));
+  return after(std::max(options.deadline_s, planning_s + options.try_timeout_s), start);
 }
 
 std::vector<Outgoing> request_messages_of(const Context& context, const PlanRequest& request,
@@ -55,11 +56,16 @@ std::vector<Outgoing> request_messages_of(const Context& context, const PlanRequ
 
 PlanCall::PlanCall(Context& context, const PlanRequest& request, std::int64_t id,
                    PlanHandlers handlers)
+    : PlanCall(context, request, id, std::move(handlers), Clock::now()) {}
+
+PlanCall::PlanCall(Context& context, const PlanRequest& request, std::int64_t id,
+                   PlanHandlers handlers, Clock::time_point start)
     : Call(Kind::kPlan, id, request_messages_of(context, request, id),
-           context.retry(deadline_of(request, context.options()))),
+           context.retry(deadline_of(request, context.options(), start))),
       context_(context),
       handlers_(std::move(handlers)),
-      collector_(context.options().client_id, id) {}
+      collector_(context.options().client_id, id),
+      start_(start) {}
 
 void PlanCall::take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) {
   const PlanCollector::Taken taken = collector_.take(bytes);

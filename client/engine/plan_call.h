@@ -28,13 +28,16 @@ class PlanCall final : public Call {
   void finish(Outcome outcome) override;
 
  private:
+  PlanCall(Context& context, const PlanRequest& request, std::int64_t id, PlanHandlers handlers,
+           Clock::time_point start);
+
   PlanResponse response_of(Outcome outcome) const;
 
   Context& context_;
   PlanHandlers handlers_;
   PlanCollector collector_;
   std::optional<PlanResponse> refusal_;  ///< the last answer of a daemon that was overloaded
-  const Clock::time_point start_ = Clock::now();
+  const Clock::time_point start_;        ///< the deadline is counted from it, too
   std::promise<PlanResponse> promise_;
 };
 

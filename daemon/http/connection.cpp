@@ -181,7 +181,7 @@ void Connection::drain() {
 
 void Connection::abort() {
   beast::error_code ignored;
-  // What was written arrives, unless unread bytes make the kernel reset the connection.
+  // The other side gets what was written, unless unread bytes make the kernel reset the connection.
   stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
   stream_.close();
 }

@@ -34,7 +34,7 @@ class Place {
   virtual void abort() = 0;
 };
 
-/// What connections share. It outlives the server as long as somebody keeps a `Reply` or a
+/// The part that connections share. It outlives the server as long as somebody keeps a `Reply` or a
 /// `Socket`; what these post then is never run.
 struct Core {
   Core(Handlers given_handlers, const Limits& given_limits)

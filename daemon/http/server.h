@@ -51,7 +51,7 @@ class Socket {
   virtual void close() = 0;
 };
 
-/// What happens to a WebSocket connection, told on the server's thread. Destroyed when the
+/// Receives what happens to a WebSocket connection, on the server's thread. Destroyed when the
 /// connection has ended.
 class SocketEvents {
  public:

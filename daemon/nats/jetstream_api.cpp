@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "daemon/base/base64.h"
+
 namespace camway::nats {
 namespace {
 
@@ -24,19 +26,6 @@ constexpr std::array kFullErrors = {kInsufficientResources, kMemoryExceeded, kSt
 // The cluster has no leader, or this server is not yet ready.
 constexpr std::array kPassingErrors = {10004, 10007, 10008, 10009, 10041, 10118};
 
-constexpr std::uint8_t kNoDigit = 64;
-
-constexpr std::array<std::uint8_t, 256> base64_digits() {
-  std::array<std::uint8_t, 256> digits{};
-  digits.fill(kNoDigit);
-  constexpr std::string_view kAlphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < kAlphabet.size(); ++i) {
-    digits[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::uint8_t>(i);
-  }
-  return digits;
-}
-
 std::string words_of_request_fault(natsStatus status) {
   switch (status) {
     case NATS_TIMEOUT:
@@ -51,30 +40,6 @@ std::string words_of_request_fault(natsStatus status) {
 }
 
 }  // namespace
-
-bool decode_base64(std::string_view text, std::vector<std::uint8_t>& bytes) {
-  static constexpr std::array<std::uint8_t, 256> kDigits = base64_digits();
-  bytes.clear();
-  if (text.size() % 4 != 0) return false;
-  if (text.empty()) return true;
-  std::size_t padding = text.ends_with('=') ? 1 : 0;
-  if (text.ends_with("==")) padding = 2;
-  bytes.reserve(text.size() / 4 * 3);
-  for (std::size_t i = 0; i < text.size(); i += 4) {
-    std::uint32_t value = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool is_padding = i + k + padding >= text.size();
-      const std::uint8_t digit = kDigits[static_cast<unsigned char>(text[i + k])];
-      if (!is_padding && digit == kNoDigit) return false;
-      value = (value << 6U) + (is_padding ? 0 : digit);
-    }
-    bytes.push_back(static_cast<std::uint8_t>(value >> 16U));
-    bytes.push_back(static_cast<std::uint8_t>(value >> 8U));
-    bytes.push_back(static_cast<std::uint8_t>(value));
-  }
-  bytes.resize(bytes.size() - padding);
-  return true;
-}
 
 StreamFault fault_of_error(int code) {
   if (code == kWrongLastSequence) return StreamFault::kConflict;
@@ -152,9 +117,10 @@ StreamResult<Stream::Found> stored_message_from(const ApiAnswer& answer) {
   }
   StoredMessage stored{subject->get<std::string>(), sequence->get<std::uint64_t>(), {}};
   if (const auto data = message->find("data"); data != message->end()) {
-    if (!data->is_string() || !decode_base64(data->get_ref<const std::string&>(), stored.payload)) {
-      return damaged;
-    }
+    if (!data->is_string()) return damaged;
+    const auto payload = base::decode_base64(data->get_ref<const std::string&>());
+    if (!payload) return damaged;
+    stored.payload.assign(payload->begin(), payload->end());
   }
   return Stream::Found(std::move(stored));
 }

@@ -52,9 +52,6 @@ StreamFault fault_of_error(int code);
 /// Reads the message of an answer to MSG.GET, whatever it is. Fails with `kRefused`.
 StreamResult<Stream::Found> stored_message_from(const ApiAnswer& answer);
 
-/// Decodes base64 (RFC 4648) with padding. Returns false if it is none.
-bool decode_base64(std::string_view text, std::vector<std::uint8_t>& bytes);
-
 inline std::string_view text_of(natsMsg& message) {
   return {natsMsg_GetData(&message), static_cast<std::size_t>(natsMsg_GetDataLength(&message))};
 }

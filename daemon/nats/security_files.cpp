@@ -91,7 +91,7 @@ class Check {
 
   void authorities(const std::string& file) {
     const std::vector<Certificate> certificates = read_certificates(File::kCa, file);
-    // Of many, those that hold count.
+    // A file of many authorities is good if one of them holds now.
     if (certificates.empty()) return;
     std::string fault;
     for (const Certificate& each : certificates) {

@@ -15,7 +15,7 @@
 #include "daemon/process/metrics/metrics_text.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/service_manager.h"
-#include "daemon/service/scenes/upload_file.h"
+#include "daemon/scene/import/upload_file.h"
 #include "daemon/service/service.h"
 #include "daemon/service/transport/auth_transport.h"
 #include "daemon/service/transport/lcm_transport.h"
@@ -129,7 +129,7 @@ class ServingDaemon {
   /// Serves until a signal ends it. Returns the exit code. Requires that all is open.
   int run(Reloader::Read read_again, scene::SceneStore& scenes, ConfiguredScenes& configured,
           FleetMember* fleet, const std::function<bool()>& read_scenes) {
-    if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
+    if (const std::size_t files = scene::remove_left_upload_files(); files > 0) {
       log_->info("removed uploads that a daemon left behind", {{"files", files}});
     }
     here_ = std::make_shared<service::LocalAnswerer>(

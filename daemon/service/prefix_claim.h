@@ -9,8 +9,8 @@
 
 #include <camway/claim_t.hpp>
 
+#include "daemon/base/token_bucket.h"
 #include "daemon/service/core/core.h"
-#include "daemon/service/log/token_bucket.h"
 
 namespace camway::service {
 
@@ -52,7 +52,7 @@ class PrefixClaim {
   std::optional<std::string> rival_;
   bool has_asked_ = false;  ///< a daemon that shares its prefix never asks, and yields to none
   bool is_leaving_ = false;
-  TokenBucket answers_;
+  base::TokenBucket answers_;
 };
 
 }  // namespace camway::service

@@ -104,10 +104,11 @@ void expect_taken(const scene::StoreResult& result) {
 }
 
 SceneChange put(const std::shared_ptr<const VoxelMap>& map, const scene::ObjectOptions& options) {
-  return {SceneChange::Kind::kPut,
-          "map",
-          scene::make_map_source(map, scene::report_of(*map, "bench"), options),
-          {}};
+  return {
+      SceneChange::Kind::kPut,
+      "map",
+      scene::make_map_source(map, scene::report_of(*map, "bench"), options, geometry::Vec3::Zero()),
+      {}};
 }
 
 std::size_t changed_parts(const scene::Snapshot& before, const scene::Snapshot& now) {

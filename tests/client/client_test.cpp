@@ -86,8 +86,7 @@ TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
   const PlanResponse response = client.plan(small_request());
   EXPECT_EQ(response.status, Status::kNoAnswer);
   EXPECT_THAT(response.error, HasSubstr("did not answer by the deadline"));
-  // The call counts its time from a moment after the one that the deadline is counted from.
-  EXPECT_GE(response.elapsed_s, 1.5 - 0.01);
+  EXPECT_GE(response.elapsed_s, 1.5);
   EXPECT_GT(response.tries, 1 + options.retries);
 }
 

@@ -26,7 +26,8 @@ constexpr double kEdgeM = 0.5;
 std::shared_ptr<const scene::Snapshot> scene_of(const VoxelSet& occupied,
                                                 const scene::Placement& placement = {}) {
   const auto map = scene::VoxelMap::build(kEdgeM, occupied, {}, scene::UnknownSpace::kFree).map;
-  const auto source = scene::make_map_source(map, scene::report_of(*map, "test"), {});
+  const auto source =
+      scene::make_map_source(map, scene::report_of(*map, "test"), {}, geometry::Vec3::Zero());
   return scene::assemble("map", 1, {scene::place_object("map", source, placement, {}).object}, {});
 }
 

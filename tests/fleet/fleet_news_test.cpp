@@ -132,7 +132,7 @@ TEST(PlannerPresence, SaysWhoPlansWhenThatHasChanged) {
   const std::string none = "warning no planner is heard; requests are planned by this process\n";
   EXPECT_EQ(pass(3s, 0), "");
   EXPECT_EQ(pass(3s, 0), none);
-  // Of planners that start one by one all are counted.
+  // Planners that start one by one are counted together.
   EXPECT_EQ(pass(1s, 1), "");
   EXPECT_EQ(pass(3s, 3), "info planners plan planners=3\n");
   EXPECT_EQ(pass(10s, 2), "");

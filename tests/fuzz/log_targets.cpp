@@ -161,8 +161,8 @@ std::vector<FuzzBytes> source_record_seeds() {
   free.insert(scene::Voxel{1, 1, 1});
   const auto map = scene::VoxelMap::build(0.1, std::move(occupied), std::move(free),
                                           scene::UnknownSpace::kFree, {100'000, 100'000});
-  const auto of_map =
-      scene::make_map_source(map.map, scene::report_of(*map.map, "map"), without_structures());
+  const auto of_map = scene::make_map_source(map.map, scene::report_of(*map.map, "map"),
+                                             without_structures(), geometry::Vec3::Zero());
   return {fuzz_bytes_of(scene::record_of(*shape)), fuzz_bytes_of(scene::record_of(*of_map)), {}};
 }
 
@@ -171,7 +171,7 @@ std::vector<FuzzBytes> source_record_seeds() {
 constinit const FuzzTarget kChangeRecordTarget{"change_record", exercise_change_record,
                                                change_record_seeds, 20'000};
 constinit const FuzzTarget kLogMessageTarget{"log_message", exercise_fleet_message,
-                                               fleet_message_seeds, 100'000};
+                                             fleet_message_seeds, 100'000};
 constinit const FuzzTarget kStreamAnswerTarget{"stream_answer", exercise_stream_answer,
                                                stream_answer_seeds, 100'000};
 constinit const FuzzTarget kSourceRecordTarget{"source_record", exercise_source_record,

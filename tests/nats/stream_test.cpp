@@ -234,20 +234,5 @@ TEST(NatsStreams, NeedJetStream) {
   EXPECT_EQ(made.error, server.url() + " has no JetStream, or not for this user");
 }
 
-TEST(JetStreamApi, DecodesBase64) {
-  std::vector<std::uint8_t> bytes;
-  const auto decoded = [&](std::string_view text) {
-    return decode_base64(text, bytes) ? std::string(bytes.begin(), bytes.end()) : "none";
-  };
-  EXPECT_EQ(decoded(""), "");
-  EXPECT_EQ(decoded("Zg=="), "f");
-  EXPECT_EQ(decoded("Zm8="), "fo");
-  EXPECT_EQ(decoded("Zm9v"), "foo");
-  EXPECT_EQ(decoded("+/+/"), "\xfb\xff\xbf");
-  for (const char* const wrong : {"Z", "Zm9", "Zm9v=", "Zm9*", "=m9v", "Z===", "===="}) {
-    EXPECT_EQ(decoded(wrong), "none") << wrong;
-  }
-}
-
 }  // namespace
 }  // namespace camway::nats

@@ -29,7 +29,8 @@ using Map = std::shared_ptr<const VoxelMap>;
 using Scene = std::shared_ptr<const scene::Snapshot>;
 
 Scene with(const Scene& before, const Map& map) {
-  const auto source = scene::make_map_source(map, scene::report_of(*map, "map"), {});
+  const auto source =
+      scene::make_map_source(map, scene::report_of(*map, "map"), {}, geometry::Vec3::Zero());
   const scene::SnapshotResult result = scene::changed(
       *before, {scene::SceneChange::Kind::kPut, "map", source, {}}, before->revision + 1);
   EXPECT_TRUE(result.snapshot) << result.error;

@@ -108,7 +108,8 @@ struct Pass {
     return least_m;
   }
 
-  /// Where the eye passes if the near quadrilateral comes that near to the origin.
+  /// Returns how far from the origin the eye passes if the near quadrilateral comes that near to
+  /// it.
   [[nodiscard]] double eye_for(double wanted_m) const {
     double low_m = wanted_m;
     double high_m = wanted_m + 1.0;

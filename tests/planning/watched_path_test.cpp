@@ -148,7 +148,7 @@ TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const auto map =
       scene::VoxelMap::build(1.0, std::move(voxels), {}, scene::UnknownSpace::kFree).map;
   ASSERT_TRUE(map);
-  const auto source = scene::make_map_source(map, scene::report_of(*map, "map"), {});
+  const auto source = scene::make_map_source(map, scene::report_of(*map, "map"), {}, Vec3::Zero());
   const auto placed = scene::place_object("map", source, at({0, 0, 0}), {});
   ASSERT_TRUE(placed.object) << placed.error;
   const auto after = scene::assemble("room", 2, {placed.object}, {});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_request.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -142,7 +144,9 @@ SceneReading read_reading(const Field& root) {
   io(may_lack("unknown"), reading.unknown);
   io(may_lack("voxel_m"), reading.voxel_m);
   if (reading.voxel_m && !scene::VoxelGrid::valid_resolution(*reading.voxel_m)) {
-    root.member("voxel_m").fail_number("be from 1e-9 to 1e9");
+    root.member("voxel_m").fail_number(fmt::format("be from {:g} to {:g}",
+                                                   scene::VoxelGrid::kMinResolutionM,
+                                                   scene::VoxelGrid::kMaxResolutionM));
   }
   return reading;
 }

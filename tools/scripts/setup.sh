@@ -22,8 +22,8 @@ kPackages=(
   liblzf-dev
   # scenes of Open Inventor and VRML; the build works without
   libcoin-dev zlib1g-dev
-  # scenes of STEP and IGES; the build works without
-  libocct-data-exchange-dev
+  # scenes of STEP and IGES, whose libraries are linked with TBB; the build works without
+  libocct-data-exchange-dev libtbb-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
   # signed messages, digests of what is kept

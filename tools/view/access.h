@@ -8,7 +8,7 @@
 
 namespace camway::view {
 
-/// Who may use the door.
+/// The rules of who may use the door.
 struct Lock {
   int port = 0;
   std::string token;

@@ -17,13 +17,18 @@ Desk::Place Desk::take_place() {
   return {plans_.get(), [plans = plans_](void*) { plans->fetch_sub(1); }};
 }
 
+bool Desk::takes_change() {
+  const std::lock_guard lock(rate_mutex_);
+  return rate_.take(base::TokenBucket::Clock::now());
+}
+
 void Desk::ask_scene(SceneOrder order, Done done) {
   if (order.is_change()) {
     if (options_.is_read_only) {
       return done(failure(code::kForbidden,
                           "scenes are not changed here: camway view was started with --read-only"));
     }
-    if (!rate_.take()) {
+    if (!takes_change()) {
       return done(failure(code::kTooMany, fmt::format("too many changes of scenes: at most {:g} "
                                                       "a second",
                                                       options_.limits.changes_per_s)));

@@ -3,16 +3,17 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 
+#include "daemon/base/token_bucket.h"
 #include "tools/view/backend.h"
-#include "tools/view/change_rate.h"
 #include "tools/view/door.h"
 
 namespace camway::view {
 
-/// What HTTP and sockets have in common: the rules that orders have to keep, and the backend that
-/// answers them. Thread-safe.
+/// The part that HTTP and sockets have in common: the rules that orders have to keep, and the
+/// backend that answers them. Thread-safe.
 class Desk {
  public:
   Desk(const DoorOptions& options, Backend& backend)
@@ -43,9 +44,13 @@ class Desk {
   [[nodiscard]] static Answer version();
 
  private:
+  /// Counts a change of a scene. Returns false, and counts nothing, if it comes too soon.
+  bool takes_change();
+
   const DoorOptions options_;
   Backend& backend_;
-  ChangeRate rate_;
+  std::mutex rate_mutex_;
+  base::TokenBucket rate_;  ///< of changes of scenes
   /// Plans of all sockets under way. Places keep it, which may outlive the desk.
   const std::shared_ptr<std::atomic<int>> plans_ = std::make_shared<std::atomic<int>>(0);
 };

@@ -172,7 +172,7 @@ http::Response DoorServer::page(const http::Request& request) const {
   const std::shared_ptr<const LastPlan> last = desk_->backend().last();
   http::Response response{
       code::kOk, kHtmlType, first_page(desk_->backend().scene(), last.get()), {}};
-  // Who came by the address that was printed.
+  // A browser that came by the printed address gets a cookie, so that pages need no token.
   if (request.target.size() > 1) response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
   return response;
 }

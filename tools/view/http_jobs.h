@@ -11,8 +11,8 @@
 
 namespace camway::view {
 
-/// What is under way over HTTP: counted, and cancelled when the door closes. Kept by what is under
-/// way. Thread-safe.
+/// The requests under way over HTTP: counted, and cancelled when the door closes. Kept by what is
+/// under way. Thread-safe.
 class HttpJobs {
  public:
   using Ticket = std::uint64_t;

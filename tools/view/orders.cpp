@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/base/base64.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_reader.h"
-#include "tools/view/base64.h"
 
 namespace camway::view {
 namespace {
@@ -85,7 +85,7 @@ void read_content(const Field& field, MeshForm& mesh) {
   if (text) {
     mesh.bytes = text->text();
   } else if (base64) {
-    std::optional<std::string> bytes = decode_base64(base64->text());
+    std::optional<std::string> bytes = base::decode_base64(base64->text());
     if (!bytes) base64->fail("is no base64");
     if (bytes) mesh.bytes = *std::move(bytes);
   } else {
@@ -102,7 +102,7 @@ void read_content(const Field& field, MeshForm& mesh) {
 }
 
 Form read_mesh_form(const Field& field) {
-  field.allow_only({"type", "file", "text", "base64", "format", "scale", "up"});
+  field.allow_only({"type", "file", "text", "base64", "format", "scale", "up", "voxel_m"});
   MeshForm mesh;
   if (const std::optional<Field> file = field.optional_member("file")) {
     mesh.file = file->text();
@@ -117,6 +117,9 @@ Form read_mesh_form(const Field& field) {
   if (const std::optional<Field> scale = field.optional_member("scale"))
     mesh.scale = read_length(*scale);
   if (const std::optional<Field> up = field.optional_member("up")) tools::read_value(*up, mesh.up);
+  if (const std::optional<Field> voxel = field.optional_member("voxel_m")) {
+    mesh.voxel_m = read_length(*voxel);
+  }
   return mesh;
 }
 
@@ -193,7 +196,7 @@ class MessageReader {
   }
 
  private:
-  /// What a message may ask for, in the order of `kVerbs`.
+  /// The orders that a message may have, in the order of `kVerbs`.
   enum class Verb : std::uint8_t {
     kPlan,
     kCheck,

@@ -15,7 +15,7 @@
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
 
-/// What clients ask for, read from JSON. The readers are strict, as those of files: an unknown
+/// The orders of clients, read from JSON. The readers are strict, as those of files: an unknown
 /// member is an error. They never throw for a bad document. Errors name the member.
 namespace camway::view {
 
@@ -52,6 +52,7 @@ struct MeshForm {
   std::string format;  ///< extension of `bytes`, [a-z0-9]+
   double scale = 1.0;  ///< metres per unit
   scene::UpAxis up = scene::UpAxis::kAsInFile;
+  std::optional<double> voxel_m = {};  ///< edge of the voxels of a cloud of points
 };
 using Form = std::variant<BoxForm, SphereForm, CylinderForm, MeshForm>;
 

@@ -24,7 +24,7 @@ enum class Place {
   kObject,
 };
 
-/// Where a request leads, or why it leads nowhere.
+/// The place that a request leads to, or why it leads nowhere.
 struct Route {
   Place place = Place::kPage;
   std::string_view scene;    ///< with kScene, kObjects and kObject

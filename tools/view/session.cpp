@@ -339,7 +339,7 @@ void Session::take(Id id, Message::Cancel) {
 
 void Session::send(std::string text) {
   if (has_ended_ || socket_->send(std::move(text))) return;
-  // Who does not read cannot tell which answers are missing.
+  // A client that does not read cannot tell which answers are missing.
   has_ended_ = true;
   socket_->close();
 }

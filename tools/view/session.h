@@ -12,7 +12,7 @@ namespace camway::view {
 /// Returns the conversation over one WebSocket: numbered messages in, numbered answers out, in any
 /// order.
 ///
-/// Of plans with the same `drag`, the latest wins. One is under way and at most one waits; when a
+/// The latest of plans with the same `drag` wins. One is under way and at most one waits; when a
 /// newer one comes, the one under way is cancelled, and the one that waits is dropped. Both are
 /// answered with `superseded`, even where the plan has ended meanwhile. One that may finish
 /// (`Message::Plan::may_finish`) is not cancelled: where plans take longer than the time between

@@ -223,7 +223,7 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
 
 namespace {
 
-/// What the body does at the keyframe that it must not.
+/// Returns the rule that the body breaks at the keyframe, as a part of a sentence.
 std::string rule_broken(const KeyframeFault& fault, double clearance_m, double surface_error_m) {
   if (fault.leaves_bounds) return "leaves the bounds";
   const std::string error =

@@ -20,7 +20,7 @@ namespace camway::scene {
 struct ImportResult {
   std::optional<Mesh> mesh;
   std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null for a mesh
-  /// Where the frame of the map, and of its mesh, begins in the frame of the scene.
+  /// Origin of the frame of the map, and of its mesh, in the frame of the scene.
   geometry::Vec3 map_origin_m = geometry::Vec3::Zero();
   ImportReport report;
   std::string error;           ///< names the file; empty exactly when `mesh` holds a value

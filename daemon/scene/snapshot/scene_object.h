@@ -46,7 +46,7 @@ struct ObjectSource {
   /// share equal bricks.
   std::vector<MeshPart> parts_O;
   std::shared_ptr<const VoxelMap> map_O;  ///< map whose faces the parts are; kMap only
-  /// Where the frame of the map and of the parts begins in the frame of the object, which has equal
+  /// Origin of the frame of the map and of the parts in the frame of the object, which has equal
   /// axes: voxels are numbered from here. Zero for all but maps.
   geometry::Vec3 map_origin_O = geometry::Vec3::Zero();
   geometry::Box bounds_O;                        ///< bounds of all parts, in their frame
@@ -67,11 +67,12 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
 
 /// Builds the content of an occupancy map; `report` counts its faces. The object has no distance
 /// field. A field depends on the whole map, so each scan would rebuild it; and planning in maps of
-/// buildings was measured to be no more than a tenth faster with a field. `map_origin_O`: where the
-/// frame of the map begins in the frame of the object. Requires that the map has a `faces`.
-std::shared_ptr<const ObjectSource> make_map_source(
-    std::shared_ptr<const VoxelMap> map_O, ImportReport report, const ObjectOptions& options,
-    const geometry::Vec3& map_origin_O = geometry::Vec3::Zero());
+/// buildings was measured to be no more than a tenth faster with a field. `map_origin_O`: the
+/// origin of the frame of the map in the frame of the object. Requires that the map has a `faces`.
+std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
+                                                    ImportReport report,
+                                                    const ObjectOptions& options,
+                                                    const geometry::Vec3& map_origin_O);
 
 /// Returns the report that an import of this mesh would have made.
 ImportReport report_of(const Mesh& mesh, std::string format);

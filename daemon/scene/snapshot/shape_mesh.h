@@ -21,6 +21,9 @@ inline constexpr std::size_t kMaxShapeTriangles = 2'000'000;
 /// The exact box of this size: 12 triangles. [Limit: 0 < size_m <= kLargestShapeM on each axis]
 base::Result<Mesh> box_mesh(const geometry::Vec3& size_m);
 
+/// The part of the radius that a chord error has where none is asked for.
+inline constexpr double kUsualChordShare = 0.01;
+
 /// A polyhedron around a ball: an icosahedron whose faces are divided until the chord error is
 /// kept. [Limit: 0 < radius_m <= kLargestShapeM; 1e-6·radius_m <= chord_error_m]
 base::Result<Mesh> sphere_mesh(double radius_m, double chord_error_m);

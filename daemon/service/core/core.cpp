@@ -80,7 +80,7 @@ bool Core::note_malformed(std::string_view channel, std::size_t size, std::strin
                               {{"channel", channel},
                                {"bytes", size},
                                {"reason", messages::clipped(reason, wire::kMaxTextBytes)}});
-  return malformed_answers.take(TokenBucket::Clock::now());
+  return malformed_answers.take(base::TokenBucket::Clock::now());
 }
 
 void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,

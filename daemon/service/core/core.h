@@ -12,6 +12,7 @@
 #include <camway/daemon_start_t.hpp>
 
 #include "daemon/base/deadline.h"
+#include "daemon/base/token_bucket.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -88,7 +89,7 @@ struct Core {
   MeteredTransport transport;
   Counters counters;
   LimitedLogs limited_log;
-  TokenBucket malformed_answers;
+  base::TokenBucket malformed_answers;
   Outbox outbox;
   Mailbox mailbox;
   WorkerPool workers;

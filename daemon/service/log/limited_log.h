@@ -8,15 +8,14 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/base/token_bucket.h"
 #include "daemon/service/log/log.h"
-#include "daemon/service/log/token_bucket.h"
 
 namespace camway::service {
 
-/// Log for lines of one kind that clients can provoke, limited by a `TokenBucket` so that they
-/// cannot fill the disk. Lines beyond the limit are counted; their number is logged when the limit
-/// permits a line again, but at most once per `kReportPeriod`.
-/// Not thread-safe.
+/// Log for lines of one kind that clients can provoke, limited by a `base::TokenBucket` so that
+/// they cannot fill the disk. Lines beyond the limit are counted; their number is logged when the
+/// limit permits a line again, but at most once per `kReportPeriod`. Not thread-safe.
 class LimitedLog {
  public:
   using Clock = std::chrono::steady_clock;
@@ -46,7 +45,7 @@ class LimitedLog {
   std::shared_ptr<Log> log_;
   LogLevel level_;
   std::string kind_;
-  TokenBucket bucket_;
+  base::TokenBucket bucket_;
   std::int64_t suppressed_ = 0;
   Clock::time_point report_at_ = Clock::time_point::min();  ///< earliest time of the next report
 };

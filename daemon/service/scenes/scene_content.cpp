@@ -13,9 +13,9 @@
 
 #include "daemon/messages/scene_names.h"
 #include "daemon/scene/import/import.h"
+#include "daemon/scene/import/upload_file.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/map_scan.h"
-#include "daemon/service/scenes/upload_file.h"
 #include "lcmtypes/wire/channels.h"
 
 namespace camway::service {
@@ -146,7 +146,7 @@ Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
   if (!is_extension(request.upload_format)) {
     return base::Failure{"upload_format: must be a file name extension of [a-z0-9]{1,8}"};
   }
-  const UploadFile file(*upload, request.upload_format);
+  const scene::UploadFile file({upload->data(), upload->size()}, request.upload_format);
   if (!file.is_good()) return base::Failure{"upload: the daemon has no room for the file"};
   return imported(file.path(), "upload." + request.upload_format, *options, context.ticket.stop());
 }
@@ -197,9 +197,9 @@ Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map, const Vec3& ori
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
                         const OperationContext& context) {
-  constexpr double kDefaultChordShare = 0.01;
-  const double chord_error_m =
-      request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
+  const double chord_error_m = request.chord_error_m != 0.0
+                                   ? request.chord_error_m
+                                   : scene::kUsualChordShare * request.radius_m;
   switch (kind) {
     case scene::ObjectKind::kMesh:
       return read_mesh(request, upload, context);

@@ -21,7 +21,7 @@ namespace camway::testing_support {
 /// The request that is watched.
 inline constexpr std::int64_t kId = 7;
 
-/// Where an answer comes from.
+/// The daemon and the scene that an answer comes from.
 struct From {
   std::int64_t start_id = 0;
   bool is_durable = false;

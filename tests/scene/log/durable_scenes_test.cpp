@@ -118,7 +118,9 @@ TEST(DurableScenes, KeepScansAsDifferences) {
   SceneStore& store = process.store();
   ObjectOptions options;
   std::shared_ptr<const VoxelMap> map = empty_map();
-  const auto source_of = [&] { return make_map_source(map, report_of(*map, "scan"), options); };
+  const auto source_of = [&] {
+    return make_map_source(map, report_of(*map, "scan"), options, geometry::Vec3::Zero());
+  };
   store.put(assemble("room", 1, {}, options));
   ASSERT_TRUE(store.change("room", {SceneChange::Kind::kPut, "map", source_of(), {}}).snapshot);
   std::uint64_t after_first = 0;

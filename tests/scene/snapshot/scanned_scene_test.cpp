@@ -77,7 +77,8 @@ std::shared_ptr<const VoxelMap> anew(const VoxelMap& map) {
 
 SceneChange put(std::shared_ptr<const VoxelMap> map, const Case& at) {
   const ImportReport report = report_of(*map, "OctoMap");
-  return {SceneChange::Kind::kPut, "map", make_map_source(std::move(map), report, at.options),
+  return {SceneChange::Kind::kPut, "map",
+          make_map_source(std::move(map), report, at.options, geometry::Vec3::Zero()),
           at.placement};
 }
 

@@ -61,7 +61,7 @@ std::shared_ptr<const ObjectSource> random_source(testing::Random& random) {
     voxels.insert(Voxel{at(), at(), at()});
   }
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  return make_map_source(map, report_of(*map, "OctoMap"), options);
+  return make_map_source(map, report_of(*map, "OctoMap"), options, geometry::Vec3::Zero());
 }
 
 /// Returns a map after a scan of a solid wall: some of its blocks differ.
@@ -78,7 +78,7 @@ std::shared_ptr<const ObjectSource> scanned(testing::Random& random, const Voxel
     blocks.push_back(std::move(block));
   }
   const auto next = map.with(blocks).map;
-  return make_map_source(next, report_of(*next, "OctoMap"), {});
+  return make_map_source(next, report_of(*next, "OctoMap"), {}, geometry::Vec3::Zero());
 }
 
 SceneChange random_change(testing::Random& random, const Snapshot& scene) {
@@ -132,8 +132,10 @@ TEST(SceneHistory, KeepsOfScansWhatTheyChanged) {
   VoxelSet voxels;
   voxels.insert(VoxelCube{{0, 0, 0}, 256});
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  SceneChange change{
-      ChangeKind::kPut, "map", make_map_source(map, report_of(*map, "OctoMap"), {}), {}};
+  SceneChange change{ChangeKind::kPut,
+                     "map",
+                     make_map_source(map, report_of(*map, "OctoMap"), {}, geometry::Vec3::Zero()),
+                     {}};
   const std::uint64_t bytes_of_map = change.source->memory_bytes();
   auto scene = assemble("room", 1, {}, {});
   scene = changed(*scene, change, 2).snapshot;

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <latch>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,7 +14,7 @@
 
 #include "lcmtypes/wire/checksum.h"
 #include "tests/service/running_service.h"
-#include "tests/support/slow_mesh.h"
+#include "tests/service/scenes/scene_sender.h"
 #include "tests/support/temporary_folder.h"
 
 namespace camway::service {
@@ -24,60 +22,10 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::RunningService;
-
-scene_request_t request_for(std::int64_t id, std::int8_t operation, const std::string& scene,
-                            const std::string& object = "") {
-  scene_request_t request{};
-  request.client_id = "tester";
-  request.request_id = id;
-  request.operation = operation;
-  request.scene = scene;
-  request.object = object;
-  return request;
-}
-
-scene_request_t put_box(std::int64_t id, const std::string& scene, const std::string& object,
-                        double side_m = 1.0) {
-  scene_request_t request = request_for(id, scene_request_t::PUT, scene, object);
-  request.kind = scene_request_t::BOX;
-  for (double& side : request.size_m) side = side_m;
-  return request;
-}
-
-ServiceConfig with_root(const testing::TemporaryFolder& folder, int scene_workers) {
-  ServiceConfig config;
-  config.scene_rules.roots = *SceneRoots::make({folder.path()});
-  config.scene_workers = scene_workers;
-  return config;
-}
-
-/// Sends changes without waiting for their answers.
-class Sender {
- public:
-  explicit Sender(RunningService& running) : running_(running) {}
-
-  void send(const scene_request_t& request) {
-    running_.send_on(running_.channels.scene_request(), wire::encode(request));
-  }
-  /// Returns the answer to a request, skipping others before it; nothing if none comes.
-  std::optional<scene_response_t> answer_to(const scene_request_t& request) {
-    const std::string channel = running_.channels.scene_response(request.client_id);
-    for (std::size_t seen = 0;; ++seen) {
-      const auto bytes = running_.transport.message_on(channel, seen);
-      if (!bytes) return std::nullopt;
-      const auto decoded = wire::decode<scene_response_t>(*bytes);
-      if (decoded.message && decoded.message->request_id == request.request_id) {
-        return decoded.message;
-      }
-    }
-  }
-  [[nodiscard]] std::size_t answers(const std::string& client) const {
-    return running_.transport.published_on(running_.channels.scene_response(client)).size();
-  }
-
- private:
-  RunningService& running_;
-};
+using testing_scenes::put_box;
+using testing_scenes::request_for;
+using testing_scenes::Sender;
+using testing_scenes::with_root;
 
 class SceneServiceTest : public ::testing::Test {
  protected:
@@ -473,133 +421,6 @@ TEST_F(SceneServiceTest, PlanningKeepsTheSceneItBeganWith) {
   const auto answer = running_.answer_to(plan);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->scene_revision, 1);
-}
-
-TEST(SceneServiceSideBySide, ImportsOfOneClientHoldUpNeitherOtherScenesNorOtherClients) {
-  const testing::TemporaryFolder folder;
-  testing::write_slow_mesh((folder.path() / "slow.obj").string());
-  RunningService running(with_root(folder, 2));
-  Sender sender(running);
-  for (int i = 0; i < 10; ++i) {
-    scene_request_t load = request_for(i, scene_request_t::LOAD, "slow" + std::to_string(i));
-    load.client_id = "importer";
-    load.file = "slow.obj";
-    sender.send(load);
-  }
-  // Several changes, because a worker may take the first of them before it takes an import.
-  for (int i = 1; i <= 5; ++i) {
-    const scene_request_t put = put_box(i, "room", "crate");
-    sender.send(put);
-    const auto answer = sender.answer_to(put);
-    ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->status, scene_response_t::STATUS_OK) << answer->message;
-  }
-  scene_request_t list = request_for(20, scene_request_t::LIST, "");
-  list.client_id = "importer";
-  sender.send(list);
-  ASSERT_TRUE(sender.answer_to(list)) << "who only looks waits for no change";
-  EXPECT_EQ(sender.answers("importer"), 1U) << "the imports still run or wait";
-}
-
-TEST(SceneServiceSideBySide, AStopCallsOffImportsAndSaysSo) {
-  const testing::TemporaryFolder folder;
-  testing::write_slow_mesh((folder.path() / "slow.obj").string());
-  RunningService running(with_root(folder, 3));
-  Sender sender(running);
-  std::vector<scene_request_t> loads;
-  for (int i = 0; i < 3; ++i) {
-    loads.push_back(request_for(i, scene_request_t::LOAD, "slow" + std::to_string(i)));
-    loads.back().file = "slow.obj";
-    sender.send(loads.back());
-  }
-  scene_request_t put = put_box(9, "room", "crate");
-  put.client_id = "mover";
-  sender.send(put);
-  ASSERT_TRUE(sender.answer_to(put)) << "so two of the others have begun, and one waits";
-  EXPECT_EQ(running.stop(), RunOutcome::kDrained) << "within the drain limit";
-  for (const scene_request_t& load : loads) {
-    const auto answer = sender.answer_to(load);
-    ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
-    EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
-    EXPECT_EQ(running.scenes.find(load.scene), nullptr);
-  }
-}
-
-TEST(SceneServiceSideBySide, AStopCallsOffTheMakingOfAMirror) {
-  ServiceConfig config;
-  config.scene_rules.mirror_voxels = 1'000'000'000;
-  RunningService running(config);
-  Sender sender(running);
-  scene_request_t load = request_for(1, scene_request_t::LOAD, "fine");
-  load.occupancy_resolution_m = 0.002;
-  sender.send(load);
-  ASSERT_TRUE(sender.answer_to(load));
-  const scene_request_t large = put_box(2, "fine", "hangar", 14.0);  // minutes
-  sender.send(large);
-  scene_request_t other = put_box(3, "room", "crate");
-  other.client_id = "other";
-  sender.send(other);
-  ASSERT_TRUE(sender.answer_to(other)) << "so the hangar is being made";
-  running.stop();  // else the end of `running` waits for those minutes
-  const auto answer = sender.answer_to(large);
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
-  EXPECT_TRUE(running.scenes.find("fine")->objects.empty());
-}
-
-TEST(SceneServiceSideBySide, AStopWaitsForNoLongChange) {
-  RunningService running;
-  Sender sender(running);
-  std::latch entered(1);
-  std::latch done(1);
-  running.scenes.on_change([&] {
-    entered.count_down();
-    done.wait();
-  });
-  const scene_request_t put = put_box(1, "room", "crate");
-  sender.send(put);
-  entered.wait();
-  EXPECT_EQ(running.stop(), RunOutcome::kAbandoned);
-  const auto answer = sender.answer_to(put);
-  done.count_down();
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
-  EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
-}
-
-TEST(SceneServiceSideBySide, OfAClientTheChangesOfASceneStayInOrder) {
-  constexpr int kClients = 8;
-  constexpr int kMoves = 30;
-  RunningService running;
-  const std::uint64_t hall = running.scenes.find("hall")->revision;
-  const std::uint64_t room = running.scenes.find("room")->revision;
-  Sender sender(running);
-  const auto change = [](int client, int i) {
-    const std::string scene = i % 3 == 0 ? "hall" : "room";
-    const std::string object = "crate" + std::to_string(client);
-    scene_request_t request = put_box(i, scene, object, 1.0 + i);
-    request.client_id = "client" + std::to_string(client);
-    return request;
-  };
-  for (int i = 0; i < kMoves; ++i) {
-    for (int client = 0; client < kClients; ++client) sender.send(change(client, i));
-  }
-  for (int client = 0; client < kClients; ++client) {
-    std::map<std::string, std::int64_t> last;
-    for (int i = 0; i < kMoves; ++i) {
-      const auto answer = sender.answer_to(change(client, i));
-      ASSERT_TRUE(answer);
-      ASSERT_EQ(answer->status, scene_response_t::STATUS_OK) << answer->message;
-      EXPECT_GT(answer->scene.revision,
-                std::exchange(last[answer->scene.name], answer->scene.revision));
-    }
-  }
-  EXPECT_EQ(running.scenes.find("hall")->revision, hall + kClients * kMoves / 3);
-  EXPECT_EQ(running.scenes.find("room")->revision, room + kClients * kMoves * 2 / 3);
-  for (const auto& object : running.scenes.find("room")->objects) {
-    EXPECT_EQ(object->bounds_W.sizes().x(), 1.0 + (kMoves - 1)) << object->name;
-  }
 }
 
 TEST(SceneServiceLimits, OneExportAloneMayBeTooLarge) {

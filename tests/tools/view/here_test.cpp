@@ -145,6 +145,19 @@ TEST_F(ViewHere, ObjectsComeMoveAndGo) {
   EXPECT_EQ(client.get("/v1/status").json().at("backend").at("planner"), "here");
 }
 
+// The voxels of a cloud are numbered from an origin near it.
+TEST_F(ViewHere, ACloudOfPointsIsWhereItsPointsAre) {
+  open();
+  HttpClient client = http();
+  const Reached added =
+      client.post("/v1/scenes/office/objects",
+                  R"({"name": "cloud", "form": {"type": "mesh", "format": "xyz", "voxel_m": 0.5,
+          "text": "400000.1 5 6\n400003.1 5 6\n400003.1 7 6\n"}})");
+  ASSERT_EQ(added.code, 200) << added.body;
+  const json scene = added.json().at("scene");
+  EXPECT_NEAR(scene.at("bounds_max_m").at(0), 400003.1, 0.5) << added.body;
+}
+
 TEST_F(ViewHere, RefusesObjectsThatCannotBeMade) {
   open();
   const auto refusal = [&](const std::string& form) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/base/base64.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -51,28 +52,6 @@ std::string split_glb(std::string_view bytes, Chunks& chunks) {
   return chunks.json.empty() ? "has no JSON" : "";
 }
 
-std::optional<std::string> from_base64(std::string_view text) {
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = kDigits.find(c);
-    if (digit == std::string_view::npos) return std::nullopt;
-    bits = (bits << 6U) | static_cast<std::uint32_t>(digit);
-    if (++count < 2 || count == 5) {
-      count = count == 5 ? 1 : count;
-      continue;
-    }
-    bytes.push_back(
-        static_cast<char>((bits >> (count == 2 ? 4U : (count == 3 ? 2U : 0U))) & 0xFFU));
-    if (count == 4) count = 0;
-  }
-  return bytes;
-}
-
 base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& file,
                                        std::string_view binary) {
   const auto uri = buffer.find("uri");
@@ -88,7 +67,7 @@ base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& fil
   const std::size_t comma = text.find(',');
   const auto bytes = comma == std::string::npos
                          ? std::nullopt
-                         : from_base64(std::string_view(text).substr(comma + 1));
+                         : base::decode_base64(std::string_view(text).substr(comma + 1));
   if (!bytes) return base::Failure{"has a buffer that is not written in base64"};
   return *bytes;
 }

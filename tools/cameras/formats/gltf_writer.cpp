@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/base/base64.h"
 #include "tools/cameras/formats/gltf_formats.h"
 
 namespace camway::tools {
@@ -137,24 +138,6 @@ Json document_of(const FloatBuffer& buffer, Playback playback, const CameraWrite
   return root;
 }
 
-/// RFC 4648, section 4.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = (bits << 8U) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    const std::size_t digits = std::min<std::size_t>(bytes.size() - i, 3) + 1;
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k < digits ? kDigits[(bits >> (18U - 6U * k)) & 0x3FU] : '=';
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWriteOptions& options) {
@@ -162,7 +145,7 @@ base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWrite
   Json document = document_of(buffer, track.playback, options);
   if (options.is_text) {
     document["buffers"][0]["uri"] =
-        "data:application/octet-stream;base64," + base64(buffer.bytes());
+        "data:application/octet-stream;base64," + base::encode_base64(buffer.bytes());
     return document.dump() + "\n";
   }
   std::string chunks;

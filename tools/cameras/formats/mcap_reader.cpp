@@ -40,7 +40,7 @@ struct McapMessage {
   std::string_view data;
 };
 
-/// What a file holds. Views are into its bytes.
+/// The contents of a file. Views are into its bytes.
 struct McapContent {
   std::map<std::uint16_t, std::string> schemas;  ///< names
   std::map<std::uint16_t, McapTopic> channels;

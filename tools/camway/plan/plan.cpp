@@ -129,7 +129,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, Planners&
     answer_by_daemon(flags, file, *request, *planners.daemon, answer);
   } else {
     answer_here(flags, file, *request, planners.scenes, answer);
-    // What could not be begun names its file already.
+    // The error of a request that could not be begun names its file already.
     if (answer.scene_digest.empty()) return answer;
   }
   if (answer.result.status == Status::kInvalid) {

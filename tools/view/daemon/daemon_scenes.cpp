@@ -32,6 +32,7 @@ SceneMesh to_client(const MeshForm& form) {
   mesh.format = form.format;
   mesh.scale = form.scale;
   mesh.up = static_cast<SceneMesh::Up>(form.up);
+  mesh.voxel_m = form.voxel_m.value_or(0.0);
   return mesh;
 }
 static_assert(static_cast<int>(SceneMesh::Up::kYToZ) == static_cast<int>(scene::UpAxis::kYToZ));

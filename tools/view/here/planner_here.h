@@ -11,7 +11,7 @@ namespace camway::view {
 
 struct HereOptions {
   int threads = 2;  ///< plans at a time, each on as many processors as it can use
-  /// What `camway plan` writes as the answers' scene.
+  /// The name that answers give as their scene, as those of `camway plan` do.
   std::string scene_text = {};
 };
 

@@ -169,7 +169,8 @@ std::optional<double> metres_of(std::string name) {
   return unit->metres;
 }
 
-/// Where a file mixes units, or has one that is not known, the library converts all that it knows.
+/// Takes the unit of the lengths. The library itself converts a file that mixes units, or has one
+/// that is not known here.
 void take_step_unit(STEPControl_Reader& reader, CadFile& file) {
   TColStd_SequenceOfAsciiString lengths;
   TColStd_SequenceOfAsciiString angles;

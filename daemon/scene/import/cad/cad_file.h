@@ -20,7 +20,7 @@ struct CadPart {
   TopoDS_Shape shape;
 };
 
-/// What a file holds. Lengths of shapes are in millimetres.
+/// The contents of a file. Lengths of shapes are in millimetres.
 struct CadFile {
   std::string format;
   double unit_m = 0.0;  ///< metres per unit of the file

@@ -167,7 +167,7 @@ class FacetCollector {
       std::array<std::uint32_t, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = numbers[triangle[k]];
       if (face.is_reversed) std::swap(corners[1], corners[2]);
-      // At a pole a side of the parameters is one point: such a triangle is a side of others.
+      // A side of the parameters is one point at a pole: such a triangle is a side of others.
       if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]) {
         facets_.triangles.push_back(corners);
       }

@@ -85,7 +85,8 @@ std::string read_bounds(const json& root, Grid& grid) {
   const auto voxel = number(root.value("voxelResolution", json()));
   if (!low || !high) return "gridBounds: must have min and max, of three numbers each";
   if (!voxel || !VoxelGrid::valid_resolution(*voxel)) {
-    return "voxelResolution: must be a number from 1e-9 to 1e9";
+    return fmt::format("voxelResolution: must be a number from {:g} to {:g}",
+                       VoxelGrid::kMinResolutionM, VoxelGrid::kMaxResolutionM);
   }
   grid.begin = *low;
   grid.voxel = *voxel;
@@ -274,7 +275,7 @@ base::Result<layout::Record> read_splat_voxels(const std::string& name, std::str
   record.header.map_resolution = grid.voxel;
   record.header.map_origin = grid.begin;
   record.header.is_free_optional = 1;
-  // Of a face: number times edge, and the sum with the begin.
+  // A face is at its number times the edge, plus the begin: two roundings.
   record.header.relative_rounding = 2.0 * geometry::kUnitRoundoff;
   return record;
 }

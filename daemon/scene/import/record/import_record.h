@@ -19,7 +19,7 @@ namespace camway::scene {
 struct ImportRecordResult {
   std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
   std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null if there is none
-  /// Where the frame of the map, and of the mesh, begins in the frame of the scene.
+  /// Origin of the frame of the map, and of its mesh, in the frame of the scene.
   geometry::Vec3 map_origin_m = geometry::Vec3::Zero();
   std::string refusal;             ///< the reason of the refusal, in printable ASCII; else empty
   Limit limit = Limit::kNone;      ///< limit that the refusal is about

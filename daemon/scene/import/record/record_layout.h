@@ -54,7 +54,7 @@ struct Header {
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
   /// Edge of a voxel in file units for an occupancy map, which has nothing but cubes; else 0.
   double map_resolution = 0.0;
-  /// Where the voxels begin: the lowest corner of voxel (0, 0, 0), in file units.
+  /// Origin of the voxels: the lowest corner of voxel (0, 0, 0), in file units.
   std::array<double, 3> map_origin{};
   /// 1 if the free cubes matter only where unknown space counts as occupied, for files that do not
   /// tell it from free space.

@@ -209,7 +209,8 @@ RecordMap map_of_cloud(const layout::Record& record, const ImportOptions& option
   if (points.is_too_far) return refused_map("has a point too far from the origin");
   if (points.points_m.empty()) return refused_map("holds no point with finite coordinates");
   if (options.voxel_m && !VoxelGrid::valid_resolution(*options.voxel_m)) {
-    return refused_map("voxel_m must be between 1e-9 and 1e9");
+    return refused_map(fmt::format("voxel_m must be between {:g} and {:g}",
+                                   VoxelGrid::kMinResolutionM, VoxelGrid::kMaxResolutionM));
   }
   RecordMap map = options.voxel_m ? map_with_voxels_of(*options.voxel_m, points.points_m, options)
                                   : usual_map_of(points.points_m, options);

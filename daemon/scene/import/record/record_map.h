@@ -16,7 +16,7 @@ namespace camway::scene {
 /// The occupancy map of a record, or why there is none.
 struct RecordMap {
   std::shared_ptr<const VoxelMap> map;  ///< with faces; null exactly if there is a `refusal`
-  /// Where the frame of the map begins in the frame of the object, which has equal axes.
+  /// Origin of the frame of the map in the frame of the object, which has equal axes.
   geometry::Vec3 origin_m = geometry::Vec3::Zero();
   std::string refusal;
   Limit limit = Limit::kNone;      ///< limit that the refusal is about

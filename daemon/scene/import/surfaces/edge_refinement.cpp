@@ -24,8 +24,8 @@ using Side = std::array<std::uint32_t, 2>;
 
 Side sorted(const Side& side) { return {std::min(side[0], side[1]), std::max(side[0], side[1])}; }
 
-/// Where the slide of a side is measured. A side that bends to both sides alike does not slide in
-/// its middle.
+/// Parts of a side at which its slide is measured. A side that bends to both sides alike does not
+/// slide in its middle.
 constexpr std::array<double, 3> kSlideParts = {0.25, 0.5, 0.75};
 
 template <std::size_t N>
@@ -85,7 +85,7 @@ std::vector<Template> templates_of(const std::array<bool, 3>& is_split) {
   return result;
 }
 
-/// What the faces of a part have in common.
+/// The data that the faces of a part have in common.
 struct SharedEdges {
   const EdgePoints& points;
   std::set<EdgePiece> wanted;  ///< to be split in this round

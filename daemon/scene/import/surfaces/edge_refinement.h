@@ -25,7 +25,7 @@ struct EdgePiece {
   auto operator<=>(const EdgePiece&) const = default;
 };
 
-/// Where a piece of a face's boundary comes from.
+/// The origin of a piece of a face's boundary.
 struct BoundarySource {
   std::optional<EdgePiece> piece;  ///< empty if the piece must not be split
   std::size_t curve = 0;           ///< index into `RefinableFace::curves`

@@ -35,7 +35,7 @@ SpanPart KnotAxis::part(double low, double high) const {
   const auto last = knots_.begin() + static_cast<std::ptrdiff_t>(points_);
   auto knot = std::upper_bound(first, last, middle - shift);
   if (knot != first) --knot;
-  // At the ends the span that is found may have no length.
+  // The span that is found at an end of the knots may have no length.
   while (knot != first && *knot == *(knot + 1)) --knot;
   while (knot + 1 != last && *knot == *(knot + 1)) ++knot;
   return {static_cast<std::size_t>(knot - knots_.begin()), low - shift, high - shift};

@@ -165,7 +165,7 @@ std::set<std::set<Point>> pieces_of(const RefinableFace& face, std::uint32_t edg
   return result;
 }
 
-/// What holds for every face that was refined.
+/// Expects the properties that every refined face has.
 void expect_sound(const RefinableFace& face) {
   const ParametricMesh& mesh = face.mesh;
   EXPECT_EQ(error_of(face.surface, mesh).error, "") << "the outline is the boundary";

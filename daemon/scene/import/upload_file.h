@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
-#include "daemon/service/scenes/uploads.h"
-
-namespace camway::service {
+namespace camway::scene {
 
 /// A temporary file with the bytes of an upload, because the import process opens files by name.
 /// The destructor removes it. The file is locked as long as this object lives, so that
@@ -17,7 +17,7 @@ class UploadFile {
  public:
   /// Writes the file into the folder for temporary files. Its name ends with `.extension`, which
   /// tells the importer the format.
-  UploadFile(const UploadRoom& bytes, const std::string& extension);
+  UploadFile(std::span<const std::uint8_t> bytes, const std::string& extension);
   ~UploadFile();
   UploadFile(const UploadFile&) = delete;
   UploadFile& operator=(const UploadFile&) = delete;
@@ -36,4 +36,4 @@ class UploadFile {
 /// their number.
 std::size_t remove_left_upload_files();
 
-}  // namespace camway::service
+}  // namespace camway::scene

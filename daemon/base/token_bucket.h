@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace camway::service {
+namespace camway::base {
 
 /// Limits a rate: permits a burst at once, then a number of events per second.
 /// Not thread-safe.
@@ -34,4 +34,4 @@ class TokenBucket {
   Clock::time_point filled_{};  ///< when the tokens were last counted
 };
 
-}  // namespace camway::service
+}  // namespace camway::base

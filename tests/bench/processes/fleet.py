@@ -23,7 +23,7 @@ import tempfile
 import threading
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 PATIENCE_S = 60
 CPU_GROUPS = pathlib.Path("/sys/fs/cgroup/cpu")
 PERIOD_US = 10_000

@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/scenes/upload_file.h"
+#include "daemon/scene/import/upload_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "tests/support/temporary_folder.h"
 
-namespace camway::service {
+namespace camway::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
-UploadRoom room_of(std::string_view text) {
-  UploadRoom room(text.size());
-  std::ranges::copy(text, room.data());
-  return room;
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 class UploadFileTest : public ::testing::Test {
@@ -50,7 +49,7 @@ class UploadFileTest : public ::testing::Test {
 
 TEST_F(UploadFileTest, HoldsTheBytesAndGoes) {
   {
-    const UploadFile file(room_of("v 0 0 0\n"), "obj");
+    const UploadFile file(bytes_of("v 0 0 0\n"), "obj");
     ASSERT_TRUE(file.is_good());
     EXPECT_EQ(file.path().parent_path(), folder_.path());
     EXPECT_EQ(file.path().extension(), ".obj");
@@ -65,13 +64,13 @@ TEST_F(UploadFileTest, HoldsTheBytesAndGoes) {
 TEST_F(UploadFileTest, WhatAKilledProcessLeftIsRemovedAndNothingElse) {
   const pid_t child = fork();
   if (child == 0) {
-    const UploadFile file(room_of("v 0 0 0\n"), "obj");
+    const UploadFile file(bytes_of("v 0 0 0\n"), "obj");
     kill(getpid(), SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_EQ(files(), 1);
-  const UploadFile own(room_of("v 0 0 0\n"), "off");
+  const UploadFile own(bytes_of("v 0 0 0\n"), "off");
   folder_.write("upload.obj", "of somebody");
   fs::create_directory(folder_.path() / "camway_upload_folder");
   fs::create_symlink("upload.obj", folder_.path() / "camway_upload_link.obj");
@@ -83,9 +82,9 @@ TEST_F(UploadFileTest, WhatAKilledProcessLeftIsRemovedAndNothingElse) {
 
 TEST_F(UploadFileTest, IsNotGoodWithoutAFolder) {
   setenv("TMPDIR", "/nowhere", 1);
-  EXPECT_FALSE(UploadFile(room_of("x"), "obj").is_good());
+  EXPECT_FALSE(UploadFile(bytes_of("x"), "obj").is_good());
   EXPECT_EQ(remove_left_upload_files(), 0U);
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::scene

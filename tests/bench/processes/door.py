@@ -21,7 +21,7 @@ import sys
 import time
 from urllib.parse import parse_qs, urlsplit
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 MUST_MS = 33.0
 RATE_PER_S = 120.0
 STEP_M = 1e-4  # by which each request differs from the one before

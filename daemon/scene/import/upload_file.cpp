@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/scenes/upload_file.h"
+#include "daemon/scene/import/upload_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace camway::service {
+namespace camway::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,7 +58,7 @@ bool remove_if_left(const fs::path& path) {
 
 }  // namespace
 
-UploadFile::UploadFile(const UploadRoom& bytes, const std::string& extension) {
+UploadFile::UploadFile(std::span<const std::uint8_t> bytes, const std::string& extension) {
   constexpr int kTries = 10;
   std::error_code failed;
   const fs::path folder = fs::temp_directory_path(failed);
@@ -94,4 +94,4 @@ std::size_t remove_left_upload_files() {
   return removed;
 }
 
-}  // namespace camway::service
+}  // namespace camway::scene
