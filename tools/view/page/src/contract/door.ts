@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What the door says of scenes, fields and itself: docs/http.md.
+
+import type { Answer, Segment } from './answer.js';
+import type { PlanRequest, Quat, Vec3 } from './request.js';
+
+export interface SceneFacts {
+  name: string;
+  revision: number;
+  digest: string;
+  triangles: number;
+  bounds: { min: Vec3; max: Vec3 };
+}
+
+export interface ObjectFacts {
+  name: string;
+  kind: string;
+  digest: string;
+  triangles: number;
+  position: Vec3;
+  orientation: Quat;
+  bounds: { min: Vec3; max: Vec3 };
+}
+
+export interface SceneDescription {
+  scene: SceneFacts;
+  objects: ObjectFacts[];
+  warnings?: string;
+}
+
+/** An option of a request, as `GET /v1/fields` lists it. */
+export interface Field {
+  name: string;
+  type: 'number' | 'count' | 'boolean' | 'choice' | 'object';
+  help: string;
+  range?: string;
+  default?: unknown;
+  choices?: string[];
+  unit?: string;
+}
+
+/** `GET /v1/last`: what was planned last, for a page that is opened. */
+export interface LastPlan {
+  request?: PlanRequest;
+  answer?: Answer;
+}
+
+/** A path as interpolated, before it was corrected. */
+export interface Interpolated {
+  segments: Segment[];
+}
+
+/** What a self-contained page holds instead of a door. Meshes are GLB in base64, by digest. */
+export interface Review {
+  request: PlanRequest;
+  answer: Answer;
+  before: Interpolated;
+  scene: SceneDescription;
+  meshes: Record<string, string>;
+  triangles: Record<string, [Vec3, Vec3, Vec3]>;
+}

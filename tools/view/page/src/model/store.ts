@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+import type { Answer, Segment } from '../contract/answer.js';
+import type { SceneDescription } from '../contract/door.js';
+import type { PlanRequest } from '../contract/request.js';
+
+/** Everything that the views of the page show. Values are replaced, never changed in place. */
+export interface State {
+  readonly request: PlanRequest | undefined;
+  /** The answer to `request`, or to an older one while `isPending`. */
+  readonly answer: Answer | undefined;
+  /** The path as interpolated through the keyframes of the request. */
+  readonly before: readonly Segment[];
+  readonly isPending: boolean;
+  /** Whether the answer is of a drag that goes on. */
+  readonly isDraft: boolean;
+  readonly scene: SceneDescription | undefined;
+  /** The instant on the path that all views show, in seconds. */
+  readonly cursor_s: number;
+  readonly isPlaying: boolean;
+  /** Index of the selected keyframe of the request, or the name of the selected object. */
+  readonly selection: { keyframe: number } | { object: string } | undefined;
+  readonly connection: 'open' | 'lost' | 'review';
+  readonly watched: 'off' | 'ok' | 'broken' | 'replanning';
+  readonly message: string;
+  readonly isReadOnly: boolean;
+}
+
+export type Listener = (now: State, before: State) => void;
+
+/** Holds the state and tells its listeners of changes, once for each call of `set`. */
+export class Store {
+  private listeners: Listener[] = [];
+
+  constructor(private state: State) {}
+
+  get now(): State {
+    return this.state;
+  }
+
+  set(change: Partial<State>): void {
+    const before = this.state;
+    this.state = { ...before, ...change };
+    for (const listener of this.listeners) listener(this.state, before);
+  }
+
+  listen(listener: Listener): void {
+    this.listeners.push(listener);
+  }
+}
+
+export const kEmptyState: State = {
+  request: undefined,
+  answer: undefined,
+  before: [],
+  isPending: false,
+  isDraft: false,
+  scene: undefined,
+  cursor_s: 0,
+  isPlaying: false,
+  selection: undefined,
+  connection: 'lost',
+  watched: 'off',
+  message: '',
+  isReadOnly: false,
+};
