@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "daemon/geometry/types.h"
+#include "daemon/scene/import/record/vertical_axis.h"
 #include "daemon/scene/mesh/mesh.h"
 
 /// Floor plans of scenes and paths.
 namespace camway::draw {
 
 /// The axis of a scene that points up.
-enum class SceneUp { kY, kZ };
+using SceneUp = scene::VerticalAxis;
 
 /// A point on paper, with the scene seen from above: x to the right, y down. [Units: metres]
 using PlanPoint = Eigen::Vector2d;
