@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "daemon/geometry/types.h"
@@ -42,7 +43,9 @@ struct FloorSection {
 /// whose horizontal area is nearly the largest. Returns `height_m` - 2 m if there is no level.
 double find_floor_m(const scene::Mesh& mesh, SceneUp up, double height_m);
 
-/// Cuts `mesh` at `height_m` and collects the faces between the cut and the floor below it.
-FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m);
+/// Cuts `mesh` at `height_m` and collects the faces between the cut and the floor below it, which
+/// is at `floor_m`; by default, it is searched.
+FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m,
+                       std::optional<double> floor_m = std::nullopt);
 
 }  // namespace camway::draw

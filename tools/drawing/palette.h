@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 /// Colours of all drawings, which the page of `camway view` shares
 /// (tools/view/page/src/model/palette.ts); a test compares the two. They are those of Okabe & Ito
@@ -43,5 +44,16 @@ constexpr Color kTop = rgb(0xF2F1ED);
 constexpr Color kOutline = rgb(0xB3B0AB);
 constexpr Color kGrid = rgb(0xDADADA);
 }  // namespace palette
+
+/// Names of the same things, as legends have them.
+namespace names {
+constexpr std::string_view kBefore = "path as interpolated";
+constexpr std::string_view kCollision = "collision";
+constexpr std::string_view kAfter = "path";
+constexpr std::string_view kCorrected = "corrected";
+constexpr std::string_view kInserted = "inserted keyframe";
+constexpr std::string_view kGiven = "given keyframe";
+constexpr std::string_view kInfeasible = "surface that cannot be passed";
+}  // namespace names
 
 }  // namespace camway::draw

@@ -221,7 +221,8 @@ void drop_rare(std::vector<double>& levels, const std::vector<double>& floors,
     if (i < certain) is_certain[level] = true;
   }
   for (std::size_t i = levels.size(); i-- > 0;) {
-    const bool is_rare = static_cast<double>(counts[i]) < kRare * static_cast<double>(floors.size());
+    const bool is_rare =
+        static_cast<double>(counts[i]) < kRare * static_cast<double>(floors.size());
     if (counts[i] == 0 || (is_rare && !is_certain[i])) {
       levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(i));
     }
@@ -240,7 +241,8 @@ VisitedStoreys visited_storeys(const scene::Mesh& mesh, SceneUp up,
     floors.push_back(floor_among(hits));
     if (floors.back()) found.push_back(*floors.back());
   }
-  if (found.empty()) return storeys;
+  // On a hill, only its top is level.
+  if (found.empty() || 2 * found.size() < points_W.size()) return storeys;
   std::ranges::sort(found);
   storeys.floors_m = levels_among(found);
   if (storeys.floors_m.empty()) return storeys;
@@ -298,9 +300,19 @@ class LevelAreas {
   }
 
  private:
-  static constexpr double kStep_m = 0.05;
+  static constexpr double kStep_m = 0.02;
   std::map<std::int64_t, Level> levels_;
 };
+
+/// Returns the area of all faces as seen along an axis, hidden ones included.
+double area_seen_m2(const scene::Mesh& mesh, SceneUp up) {
+  double area_m2 = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle t = mesh.triangle(i);
+    area_m2 += 0.5 * std::abs(height_of((t[1] - t[0]).cross(t[2] - t[0]), up));
+  }
+  return area_m2;
+}
 
 double length_of_walls(const scene::Mesh& mesh, SceneUp up, double height_m) {
   double length_m = 0.0;
@@ -322,9 +334,9 @@ double length_of_walls(const scene::Mesh& mesh, SceneUp up, double height_m) {
 }  // namespace
 
 std::vector<double> storeys_of(const scene::Mesh& mesh, SceneUp up) {
-  constexpr double kWaist_m = 1.2;  // walls are cut here, most furniture is lower
   constexpr double kLeastArea = 0.05;
   constexpr double kLeastWalls = 0.1;
+  constexpr double kMostlyLevel = 0.4;
   constexpr std::size_t kMostLevels = 16;
   struct Candidate {
     double height_m;
@@ -334,6 +346,9 @@ std::vector<double> storeys_of(const scene::Mesh& mesh, SceneUp up) {
   const LevelAreas areas(mesh, up);
   const std::vector<LevelAreas::Level> levels = areas.by_area();
   double most_walls_m = 0.0;
+  double all_m2 = 0.0;
+  for (const LevelAreas::Level& level : levels) all_m2 += level.area_m2;
+  if (all_m2 < kMostlyLevel * area_seen_m2(mesh, up)) return {};
   for (const LevelAreas::Level& level : levels) {
     if (level.area_m2 < kLeastArea * levels.front().area_m2) break;
     if (candidates.size() == kMostLevels) break;
@@ -342,7 +357,7 @@ std::vector<double> storeys_of(const scene::Mesh& mesh, SceneUp up) {
       return std::abs(floor_m - other.height_m) >= kLeastStorey_m;
     });
     if (!is_apart) continue;
-    candidates.push_back({floor_m, length_of_walls(mesh, up, floor_m + kWaist_m)});
+    candidates.push_back({floor_m, length_of_walls(mesh, up, floor_m + kEyes_m)});
     most_walls_m = std::max(most_walls_m, candidates.back().walls_m);
   }
   std::vector<double> floors;
@@ -356,13 +371,8 @@ std::vector<double> storeys_of(const scene::Mesh& mesh, SceneUp up) {
 }
 
 SceneUp up_of(const scene::Mesh& mesh) {
-  double level_m2[2] = {};
-  for (const SceneUp up : {SceneUp::kY, SceneUp::kZ}) {
-    for (const LevelAreas::Level& level : LevelAreas(mesh, up).by_area()) {
-      level_m2[up == SceneUp::kZ ? 1 : 0] += level.area_m2;
-    }
-  }
-  return level_m2[1] > level_m2[0] ? SceneUp::kZ : SceneUp::kY;
+  const bool is_z = area_seen_m2(mesh, SceneUp::kZ) > area_seen_m2(mesh, SceneUp::kY);
+  return is_z ? SceneUp::kZ : SceneUp::kY;
 }
 
 }  // namespace camway::draw

@@ -23,12 +23,17 @@ struct VisitedStoreys {
 VisitedStoreys visited_storeys(const scene::Mesh& mesh, SceneUp up,
                                const std::vector<geometry::Vec3>& points_W, std::size_t certain);
 
+/// Height above a floor at which a storey is cut if no path says otherwise: doors and windows are
+/// open there, and most furniture is lower.
+inline constexpr double kEyes_m = 1.5;
+
 /// Returns the heights of the floors of a scene, lowest first: large level areas at least 1.8 m
-/// apart with walls above them. Empty if there is none.
+/// apart with walls above them. Empty if there is none, and for a scene that is mostly sloped, as a
+/// landscape is.
 std::vector<double> storeys_of(const scene::Mesh& mesh, SceneUp up);
 
-/// Returns the axis that points up in a scene, as its faces show it: floors, ceilings and tables
-/// have more area than the walls of one direction.
+/// Returns the axis that points up in a scene, as its faces show it: seen along it, floors,
+/// ceilings and tables have more area than the walls have that are seen along another axis.
 SceneUp up_of(const scene::Mesh& mesh);
 
 }  // namespace camway::draw
