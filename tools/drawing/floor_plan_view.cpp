@@ -110,12 +110,17 @@ void draw_collisions(cairo_t* cr, const View& view, const FloorPlan& plan, const
   }
 }
 
+/// Returns the viewing direction on paper, of unit length unless the camera looks straight up or
+/// down.
+PlanPoint direction_on_paper(const motion::Pose& pose, SceneUp up) {
+  return to_plan(pose.orientation * geometry::Vec3(0.0, 0.0, -1.0), up).normalized();
+}
+
 void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel) {
   for (const PanelKeyframe& keyframe : panel.keyframes) {
     trace(cr, view, quad_on_paper(plan, keyframe.pose));
     stroke(cr, keyframe.is_inserted ? palette::kInserted : palette::kGiven, 1.6);
-    const geometry::Vec3 forward_W = keyframe.pose.orientation * geometry::Vec3(0.0, 0.0, -1.0);
-    const PlanPoint forward = to_plan(forward_W, plan.up);
+    const PlanPoint forward = direction_on_paper(keyframe.pose, plan.up);
     draw_view_wedge(cr, view.to_px(to_plan(keyframe.pose.position, plan.up)),
                     std::atan2(forward.y(), forward.x()), keyframe.is_inserted);
   }
@@ -128,13 +133,16 @@ void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan, const 
 /// Draws numbers and heights beside keyframes where there is room, else the numbers alone.
 void draw_keyframe_labels(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel,
                           const std::vector<PlanBox>& kept_clear) {
+  constexpr double kWedgeMiddle_px = 12.0;
   LabelPlacer places(view.frame);
   for (const PlanBox& box : kept_clear) places.block(box);
   for (const PanelCollision& collision : panel.collisions) {
     if (!collision.path.empty()) places.block(view.to_px(middle_of(collision, plan.up)), 9.0);
   }
   for (const PanelKeyframe& keyframe : panel.keyframes) {
-    places.block(view.to_px(to_plan(keyframe.pose.position, plan.up)), 5.0);
+    const PlanPoint at = view.to_px(to_plan(keyframe.pose.position, plan.up));
+    places.block(at, 5.0);
+    places.block(at + kWedgeMiddle_px * direction_on_paper(keyframe.pose, plan.up), 6.0);
   }
   for (const PanelKeyframe& keyframe : panel.keyframes) {
     if (keyframe.number.empty()) continue;
