@@ -2,6 +2,7 @@
 #include "tools/drawing/legend.h"
 
 #include <cmath>
+#include <utility>
 
 namespace camway::draw {
 namespace {
