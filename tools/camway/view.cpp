@@ -67,7 +67,7 @@ base::Result<std::unique_ptr<view::Backend>> backend_here(
   const scene::SnapshotResult loaded =
       load_timed(place_name(file), file, options, user_cache(flags.file)).result;
   if (!loaded.snapshot) return base::Failure{loaded.error};
-  return view::plan_here(loaded.snapshot);
+  return view::plan_here(loaded.snapshot, {.scene_reading = options.import});
 }
 
 base::Result<std::unique_ptr<view::Backend>> backend_daemon(ViewFlags flags) {

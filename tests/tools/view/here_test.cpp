@@ -35,7 +35,7 @@ class ViewHere : public ::testing::Test {
   void open(const std::string& scene = "office", const DoorLimits& limits = {}) {
     const scene::SnapshotResult loaded = scene::load_snapshot(scene, kScenes / (scene + ".obj"));
     if (!loaded.snapshot) throw std::runtime_error(loaded.error);
-    backend_ = plan_here(loaded.snapshot);
+    backend_ = plan_here(loaded.snapshot, {.scene_reading = scene::ImportOptions{}});
     auto opened = Door::open({.token = kSecret, .limits = limits}, *backend_);
     if (!opened) throw std::runtime_error(opened.error);
     door_ = *std::move(opened);
