@@ -12,7 +12,9 @@
 #include "tools/view/access.h"
 #include "tools/view/desk.h"
 #include "tools/view/http_jobs.h"
+#include "tools/view/mesh_desk.h"
 #include "tools/view/page.h"
+#include "tools/view/responses.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
 #include "tools/view/work_pool.h"
@@ -20,52 +22,19 @@
 namespace camway::view {
 namespace {
 
-constexpr char kJsonType[] = "application/json";
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
-constexpr char kSvgType[] = "image/svg+xml";
 
 /// Bodies are parsed and pictures drawn on threads of their own, so that large ones keep nobody
 /// waiting. Two, so that a picture does not keep requests waiting either.
 constexpr int kReaders = 2;
-
-constexpr std::string_view kPolicy =
-    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
-    "object-src 'none'";
-
-/// Headers of every response.
-std::vector<std::pair<std::string, std::string>> common_headers() {
-  return {{"Content-Security-Policy", std::string(kPolicy)},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Cache-Control", "no-store"}};
-}
-
-/// The picture has style attributes, which its policy has to allow where it is opened alone.
-http::Response to_picture(std::string picture) {
-  return {code::kOk,
-          kSvgType,
-          std::move(picture),
-          {{"Content-Security-Policy", std::string(kPolicy) + "; style-src 'unsafe-inline'"}}};
-}
-
-http::Response to_response(Answer answer) {
-  http::Response response{answer.code, kJsonType, {}, {}};
-  response.body = answer.code == code::kOk ? std::move(answer.json) : error_json(answer.error);
-  if (!response.body.ends_with('\n')) response.body += '\n';
-  return response;
-}
-
-http::Response refusal(int code, std::string error) {
-  return to_response(failure(code, std::move(error)));
-}
 
 class DoorServer final : public Door {
  public:
   DoorServer(const DoorOptions& options, Backend& backend)
       : lock_{options.port, options.token},
         desk_(std::make_shared<Desk>(options, backend)),
+        meshes_(std::make_shared<MeshDesk>(backend)),
         jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
   ~DoorServer() override {
     jobs_->close();
@@ -91,7 +60,9 @@ class DoorServer final : public Door {
 
   /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
   /// if there is no place, which the reply says.
-  Done begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  http::Reply begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  /// Sends the mesh of an object.
+  void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
   /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
   /// a reader.
@@ -103,6 +74,7 @@ class DoorServer final : public Door {
 
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
+  const std::shared_ptr<MeshDesk> meshes_;
   const std::shared_ptr<HttpJobs> jobs_;
   WorkPool readers_{kReaders};
   std::unique_ptr<http::Server> server_;
@@ -185,27 +157,36 @@ void DoorServer::draw(const http::Reply& reply) {
   readers_.post([last, reply] {
     std::string picture = plan_picture(*last);
     if (picture.empty()) return reply(refusal(code::kOurFault, "the path cannot be drawn"));
-    reply(to_picture(std::move(picture)));
+    reply(picture_response(std::move(picture)));
   });
 }
 
-Done DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
+http::Reply DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
   ticket = jobs_->enter();
   if (ticket == 0) {
     reply(refusal(code::kTooMany, fmt::format("too many at a time: at most {} requests",
                                               desk_->limits().requests)));
     return nullptr;
   }
-  return [jobs = jobs_, ticket, reply](Answer answer) {
+  return [jobs = jobs_, ticket, reply](http::Response response) {
     jobs->leave(ticket);
-    reply(to_response(std::move(answer)));
+    reply(std::move(response));
   };
+}
+
+void DoorServer::send_mesh(const Route& route, const http::Reply& reply) {
+  meshes_->ask(std::string(route.scene), std::string(route.object), [reply](GlbAnswer answer) {
+    if (!answer.glb) return reply(refusal(answer.code, std::move(answer.error)));
+    reply({code::kOk, "model/gltf-binary", *answer.glb, {}});
+  });
 }
 
 void DoorServer::ask(const http::Request& request, const http::Reply& reply, const Route& route) {
   HttpJobs::Ticket ticket = 0;
-  Done done = begin(reply, ticket);
-  if (!done) return;
+  http::Reply send = begin(reply, ticket);
+  if (!send) return;
+  if (route.place == Place::kMesh) return send_mesh(route, send);
+  Done done = [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
   SceneOrder order;
   order.scene = route.scene;
   order.object = route.object;

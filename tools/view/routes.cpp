@@ -48,14 +48,16 @@ std::optional<Route> scene_route(std::string_view path) {
   route.place = Place::kScene;
   route.allowed = "GET";
   if (path.empty()) return route;
-  if (next_part(path) != "objects") return std::nullopt;
-  route.place = Place::kObjects;
-  route.allowed = "POST";
-  if (path.empty()) return route;
+  const std::string_view kind = next_part(path);
   route.object = next_part(path);
-  if (!path.empty() || route.object.empty()) return std::nullopt;
-  route.place = Place::kObject;
-  route.allowed = "PATCH, DELETE";
+  if (!path.empty()) return std::nullopt;
+  if (kind == "objects") {
+    route.place = route.object.empty() ? Place::kObjects : Place::kObject;
+    route.allowed = route.object.empty() ? "POST" : "PATCH, DELETE";
+    return route;
+  }
+  if (kind != "meshes" || route.object.empty()) return std::nullopt;
+  route.place = Place::kMesh;
   return route;
 }
 

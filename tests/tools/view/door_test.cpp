@@ -173,6 +173,34 @@ TEST_F(ViewDoor, AnswersEveryPlace) {
   }
 }
 
+TEST_F(ViewDoor, SendsMeshesForPages) {
+  scene::Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  backend_.display_mesh = std::make_shared<const scene::Mesh>(mesh);
+  open();
+  for (int time = 0; time < 2; ++time) {
+    const Reached got = client_->get("/v1/scenes/hall/meshes/0123abc");
+    EXPECT_EQ(got.code, 200);
+    EXPECT_EQ(got.type, "model/gltf-binary");
+    EXPECT_EQ(got.body.substr(0, 4), "glTF");
+  }
+  EXPECT_EQ(client_->send("HEAD", "/v1/scenes/hall/meshes/0123abc").code, 200);
+  EXPECT_EQ(client_->post("/v1/scenes/hall/meshes/0123abc", "{}").code, 405);
+}
+
+TEST_F(ViewDoor, SaysWhyThereIsNoMesh) {
+  open();
+  const Reached got = client_->get("/v1/scenes/hall/meshes/%00..%2f");
+  EXPECT_EQ(got.code, 404);
+  EXPECT_EQ(error_of(got), "no object %00..%2f");
+  for (const char* const nowhere :
+       {"/v1/scenes/hall/meshes", "/v1/scenes/hall/meshes/", "/v1/scenes/hall/meshes/a/b",
+        "/v1/scenes//meshes/a", "/v1/scenes/hall/mesh/a"}) {
+    EXPECT_EQ(client_->get(nowhere).code, 404) << nowhere;
+  }
+}
+
 TEST_F(ViewDoor, SaysWhichMethodAPlaceTakes) {
   open();
   const Reached got = client_->get("/v1/scenes/hall/objects/crate");
