@@ -17,17 +17,12 @@
 #include "tools/view/responses.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
-#include "tools/view/work_pool.h"
 
 namespace camway::view {
 namespace {
 
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
-
-/// Bodies are parsed and pictures drawn on threads of their own, so that large ones keep nobody
-/// waiting. Two, so that a picture does not keep requests waiting either.
-constexpr int kReaders = 2;
 
 class DoorServer final : public Door {
  public:
@@ -39,7 +34,7 @@ class DoorServer final : public Door {
   ~DoorServer() override {
     jobs_->close();
     server_.reset();
-    readers_.stop();
+    desk_->stop();
   }
   DoorServer(const DoorServer&) = delete;
   DoorServer& operator=(const DoorServer&) = delete;
@@ -65,18 +60,19 @@ class DoorServer final : public Door {
   void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
   /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
-  /// a reader.
+  /// a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
                  Done done);
   void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
+  void interpolate(const nlohmann::json& document, Done done);
+  void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
 
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
   const std::shared_ptr<MeshDesk> meshes_;
   const std::shared_ptr<HttpJobs> jobs_;
-  WorkPool readers_{kReaders};
   std::unique_ptr<http::Server> server_;
 };
 
@@ -133,6 +129,10 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
       return draw(reply);
     case Place::kVersion:
       return reply(to_response(Desk::version()));
+    case Place::kFields:
+      return reply(to_response(Desk::fields()));
+    case Place::kLast:
+      return reply(to_response(desk_->last()));
     case Place::kSocket:
       return reply(refusal(code::kInvalid, "this place is a WebSocket"));
     default:
@@ -154,7 +154,7 @@ void DoorServer::draw(const http::Reply& reply) {
   if (!last || last->result.path.empty()) {
     return reply(refusal(code::kNotFound, "there is no path to draw"));
   }
-  readers_.post([last, reply] {
+  desk_->post([last, reply] {
     std::string picture = plan_picture(*last);
     if (picture.empty()) return reply(refusal(code::kOurFault, "the path cannot be drawn"));
     reply(picture_response(std::move(picture)));
@@ -206,8 +206,8 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
     return desk_->ask_scene(std::move(order), std::move(done));
   }
   // The route refers to the target of the request, which ends with this call.
-  readers_.post([this, body = request.body, place = route.place, order = std::move(order), ticket,
-                 done = std::move(done)]() mutable {
+  desk_->post([this, body = request.body, place = route.place, order = std::move(order), ticket,
+               done = std::move(done)]() mutable {
     read_body(body, place, std::move(order), ticket, std::move(done));
   });
 }
@@ -221,6 +221,10 @@ void DoorServer::read_body(const std::string& body, Place place, SceneOrder name
       return plan(*document, ticket, std::move(done));
     case Place::kCheck:
       return check(*document, ticket, std::move(done));
+    case Place::kInterpolate:
+      return interpolate(*document, std::move(done));
+    case Place::kTriangles:
+      return triangles(*document, named.scene, std::move(done));
     case Place::kObjects:
       return change(read_added(*document), named, std::move(done));
     default:
@@ -239,6 +243,19 @@ void DoorServer::check(const nlohmann::json& document, HttpJobs::Ticket ticket, 
   base::Result<CheckOrder> order = read_check_document(document);
   if (!order) return done(failure(code::kInvalid, order.error));
   jobs_->set(ticket, desk_->backend().check(desk_->in_scene(*std::move(order)), std::move(done)));
+}
+
+void DoorServer::interpolate(const nlohmann::json& document, Done done) {
+  base::Result<PlanOrder> order = view::read_plan(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  desk_->interpolate(*std::move(order), std::move(done));
+}
+
+void DoorServer::triangles(const nlohmann::json& document, const std::string& scene, Done done) {
+  base::Result<TrianglesOrder> order = read_triangles(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  order->scene = scene;
+  desk_->triangles(*std::move(order), std::move(done));
 }
 
 void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named, Done done) {

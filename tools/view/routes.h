@@ -17,12 +17,16 @@ enum class Place {
   kStatus,
   kPlan,
   kCheck,
+  kInterpolate,
+  kFields,
+  kLast,
   kSocket,
   kScenes,
   kScene,
   kObjects,
   kObject,
   kMesh,
+  kTriangles,
 };
 
 /// The place that a request leads to, or why it leads nowhere.

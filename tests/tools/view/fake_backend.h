@@ -55,7 +55,9 @@ class FakeBackend final : public Backend {
   }
   void triangles(std::string, std::vector<std::int64_t> indices, Done done) override {
     std::map<std::int64_t, geometry::Triangle> found;
-    for (const std::int64_t index : indices) found[index] = {};
+    for (const std::int64_t index : indices) {
+      found[index].fill(geometry::Vec3::Zero());
+    }
     done({code::kOk, triangles_json(1, found), {}});
   }
   void status(Done done) override { done({code::kOk, R"({"planner": "fake"})", {}}); }

@@ -281,6 +281,60 @@ TEST_F(ViewHere, DrawsTheLastPlan) {
   EXPECT_THAT(http().get("/").body, HasSubstr("proved free of collision"));
 }
 
+TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  for (const std::string name : {"office-free-straight", "office-free-timed", "office-free-stairs",
+                                 "office-free-atrium", "office-free-turn"}) {
+    const std::string request = request_text(name);
+    const json answer = http().post("/v1/plan", request).json();
+    ASSERT_TRUE(answer.at("collisions").empty()) << name;
+    const Reached before = http().post("/v1/interpolate", request);
+    ASSERT_EQ(before.code, 200) << before.body;
+    EXPECT_EQ(before.json().size(), 1U);
+    // Bit for bit: both are the shortest decimals of their doubles.
+    EXPECT_EQ(before.json().at("segments"), answer.at("segments")) << name;
+    socket.send(R"({"id": 1, "do": "interpolate", "request": )" + request + "}");
+    EXPECT_EQ(socket.next().at("answer"), before.json());
+    // An answer with a frame is interpolated to the same path.
+    json again = json::parse(request);
+    again["keyframes"] = answer.at("keyframes");
+    if (!answer.contains("frame")) continue;
+    again["frame"] = answer.at("frame");
+    const json edited = http().post("/v1/interpolate", again.dump()).json();
+    EXPECT_EQ(edited.at("segments").size(), answer.at("segments").size()) << name;
+  }
+}
+
+TEST_F(ViewHere, APathIsInterpolatedThroughWhatIsInTheWay) {
+  open();
+  const std::string request = request_text("office-graze-column");
+  const json answer = http().post("/v1/plan", request).json();
+  ASSERT_FALSE(answer.at("collisions").empty());
+  const json before = http().post("/v1/interpolate", request).json();
+  EXPECT_NE(before.at("segments"), answer.at("segments"));
+  EXPECT_EQ(before.at("segments").front().at("t0"), answer.at("segments").front().at("t0"));
+  EXPECT_EQ(before.at("segments").back().at("t1"), answer.at("segments").back().at("t1"));
+}
+
+TEST_F(ViewHere, RemembersTheLastPlan) {
+  open();
+  EXPECT_EQ(http().get("/v1/last").json(), json::object());
+  const std::string request = request_text("office-graze-door");
+  const json answer = http().post("/v1/plan", request).json();
+  const json last = http().get("/v1/last").json();
+  EXPECT_EQ(last.at("request"), json::parse(request));
+  EXPECT_EQ(last.at("answer"), answer);
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 3, "do": "last"})");
+  EXPECT_EQ(socket.next().at("answer"), last);
+  socket.send(R"({"id": 4, "do": "fields"})");
+  EXPECT_EQ(socket.next().at("answer"), http().get("/v1/fields").json());
+  socket.send(R"({"id": 5, "do": "triangles", "indices": [3]})");
+  EXPECT_EQ(socket.next().at("answer"),
+            http().post("/v1/scenes/office/triangles", R"({"indices": [3]})").json());
+}
+
 /// Asks a backend for a mesh and waits for it.
 MeshAnswer mesh_of(Backend& backend, const std::string& scene, const std::string& digest) {
   auto promise = std::make_shared<std::promise<MeshAnswer>>();

@@ -195,8 +195,9 @@ Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& ord
   tools::PlanAnswer answer = to_plan_answer(response, order);
   const base::Result<std::string> text = tools::answer_text(answer);
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
-  auto last =
-      std::make_shared<const LastPlan>(LastPlan{order.request, std::move(answer.result), nullptr});
+  auto last = std::make_shared<const LastPlan>(
+      LastPlan{order.request, std::move(answer.result), nullptr, order.text,
+               std::make_shared<const std::string>(*text)});
   const std::lock_guard lock(mutex_);
   last_.swap(last);
   return {code::kOk, *text, {}};

@@ -232,7 +232,8 @@ Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const 
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
   {
     auto last = std::make_shared<const LastPlan>(
-        LastPlan{order.request, std::move(answer.result), snapshot->mesh.share()});
+        LastPlan{order.request, std::move(answer.result), snapshot->mesh.share(), order.text,
+                 std::make_shared<const std::string>(*text)});
     const std::lock_guard lock(mutex_);
     last_.swap(last);
   }
