@@ -55,6 +55,8 @@ export interface Actions {
    */
   insertKeyframe(time_s?: number, pose?: Pose): void;
   deleteKeyframe(index: number): void;
+  /** Gives all keyframes the times that they have now, or takes all times away. */
+  setTimed(isTimed: boolean): void;
   /** Sets an option by the path of its name (`['limits', 'speed_m_per_s']`); `undefined` resets it. */
   setOption(path: readonly string[], value: unknown): void;
   /** Sets members of the camera: `near`, `fov_x_deg`, `fov_y_deg`. */
