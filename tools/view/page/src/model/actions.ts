@@ -110,6 +110,14 @@ export interface Facts {
   readonly status: Readonly<Record<string, unknown>> | undefined;
 }
 
+/** The request as a document: `RequestDocument` has these. */
+export interface DocumentFacts {
+  readonly name: string;
+  readonly isDirty: boolean;
+  readonly canUndo: boolean;
+  readonly canRedo: boolean;
+}
+
 /** What the viewport drew last, for the status bar. */
 export interface DrawReport {
   readonly draws: number;
