@@ -79,9 +79,8 @@ export function bodyGeometries(request: PlanRequest): BufferGeometry[] {
   const body = request.body as BodyMember | undefined;
   const center = new Vector3(...(body?.center ?? [0, 0, 0]));
   const moved = (geometry: BufferGeometry): BufferGeometry => geometry.translate(center.x, center.y, center.z);
-  switch (body?.type) {
-    case undefined:
-      return [quadrilateral(request.camera ?? kDefaultCamera)];
+  if (!body) return [quadrilateral(request.camera ?? kDefaultCamera)];
+  switch (body.type) {
     case 'box':
       return body.size ? [moved(new BoxGeometry(...body.size))] : [];
     case 'sphere':

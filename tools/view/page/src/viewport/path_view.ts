@@ -5,6 +5,7 @@
 import { Group, Vector3 } from 'three';
 import type { IUniform } from 'three';
 import type { Answer, Segment } from '../contract/answer.js';
+import type { PlanRequest } from '../contract/request.js';
 import { clearanceColour, kPalette } from '../model/palette.js';
 import { bezierAt, poseAt } from '../model/path.js';
 import { TimeMap } from '../model/times.js';
@@ -72,20 +73,20 @@ class Samples {
   }
 }
 
-/** Certified lower bound of the clearance at a time; undefined where nothing is proved. */
+/**
+ * Certified lower bound of the clearance at a time; undefined without a profile. The one bound for the whole path says
+ * nothing about a stretch: a path that is tight in one place would look tight everywhere.
+ */
 function clearanceAt(answer: Answer, time_s: number): number | undefined {
-  const profile = answer.clearance_profile;
-  if (profile && profile.length > 0) {
-    let low = 0;
-    let high = profile.length - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((profile[middle]?.t_end ?? 0) < time_s) low = middle + 1;
-      else high = middle;
-    }
-    return profile[low]?.clearance_m;
+  const profile = answer.clearance_profile ?? [];
+  let low = 0;
+  let high = profile.length - 1;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((profile[middle]?.t_end ?? 0) < time_s) low = middle + 1;
+    else high = middle;
   }
-  return answer.certificate?.certified ? answer.certificate.clearance_lower_bound : undefined;
+  return profile[low]?.clearance_m;
 }
 
 export class PathView {
@@ -101,7 +102,13 @@ export class PathView {
     this.group.add(this.sleeve, this.ghost, this.tube);
   }
 
-  show(answer: Answer | undefined, before: readonly Segment[], frame: Frame, colours: PathColours): void {
+  show(
+    request: PlanRequest | undefined,
+    answer: Answer | undefined,
+    before: readonly Segment[],
+    frame: Frame,
+    colours: PathColours,
+  ): void {
     const tube = new TubeBuilder();
     const ghost = new TubeBuilder();
     const sleeve = new TubeBuilder();
@@ -115,13 +122,14 @@ export class PathView {
       const samples = new Samples(after, frame, breaks.slice(0, 20_000));
       const colourAt = (i: number): Rgb => {
         const clearance = clearanceAt(answer, samples.times[i] ?? 0);
-        return clearance === undefined ? colours.unproved : clearanceColour(clearance);
+        if (clearance !== undefined) return clearanceColour(clearance);
+        return answer.certificate?.certified ? rgbOf(kPalette.after) : colours.unproved;
       };
       tube.line(samples.points, colourAt, kPathStyle);
       this.addSpans(tube, samples, spans, rgbOf(kPalette.collision), kCollisionStyle);
       this.addSpans(sleeve, samples, correctedSpans(answer), rgbOf(kPalette.corrected), kSleeveStyle);
     }
-    if (before.length > 0) this.addGhost(ghost, tube, answer, before, frame);
+    if (before.length > 0) this.addGhost(ghost, tube, request, answer, before, frame);
     this.sleeve.show(sleeve);
     this.ghost.show(ghost);
     this.tube.show(tube);
@@ -139,6 +147,7 @@ export class PathView {
   private addGhost(
     ghost: TubeBuilder,
     tube: TubeBuilder,
+    request: PlanRequest | undefined,
     answer: Answer | undefined,
     before: readonly Segment[],
     frame: Frame,
@@ -146,7 +155,7 @@ export class PathView {
     const spans = (answer?.collisions ?? []).map((c) => ({ begin: c.t_begin, end: c.t_end }));
     const samples = new Samples(before, frame, spans.flatMap((s) => [s.begin, s.end]));
     const after = answer?.segments ?? [];
-    const clock = new TimeMap(answer);
+    const clock = new TimeMap(request, answer);
     const differs = samples.times.map((t, i) => {
       const pose = after.length > 0 ? poseAt(after, clock.toPath(t)) : undefined;
       return !pose || frame.toLocal(pose.position).distanceTo(samples.points[i] as Vector3) > kSamePlace_m;

@@ -14,7 +14,7 @@ import type { CameraMode, Eye } from './camera_views.js';
 import { CursorView } from './cursor_view.js';
 import { FindingsView } from './findings_view.js';
 import type { TriangleSource } from './findings_view.js';
-import { Frame, toQuaternion, upVector, uprightAxis } from './frame.js';
+import { Frame, toQuat, toQuaternion, upVector, uprightAxis } from './frame.js';
 import type { UpAxis } from './frame.js';
 import { Handles } from './handles.js';
 import type { HandleMode } from './handles.js';
@@ -47,7 +47,7 @@ export interface ViewReport extends DrawCount {
 
 /** Objects that are a larger part of the scene are the building, and are not dragged by accident. */
 const kLargestMovable = 0.4;
-const kLeastView_m = 1.5;
+const kLeastView_m = 2;
 const kSurfaceMargin_m = 0.05;
 const kDefaultDirection = new Vector3(0.15, 1, 0.75);
 
@@ -127,6 +127,29 @@ export class Viewport {
     const direction = camera.getWorldDirection(new Vector3());
     const reach = mode === 'walk' ? 3 : controls.distance;
     return this.frame.toPose(camera.position.clone().addScaledVector(direction, reach), new Quaternion()).position;
+  }
+
+  /** The pose of a keyframe after a step to the right, up and back, as the view has these directions. */
+  nudged(index: number, [right, up, back]: Vec3, step_m: number): Pose {
+    const keyframe = this.store.now.request?.keyframes[index];
+    if (!keyframe) return this.viewPose;
+    const upward = upVector(this.up);
+    const ahead = this.navigation.camera.getWorldDirection(new Vector3());
+    ahead.addScaledVector(upward, -ahead.dot(upward)).normalize();
+    const sideways = ahead.clone().cross(upward);
+    const place = this.frame.toLocal(keyframe.position).addScaledVector(sideways, right * step_m);
+    place.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
+    return { position: this.frame.toPose(place, new Quaternion()).position, orientation: keyframe.orientation };
+  }
+
+  /** The pose of a keyframe after a turn about the upward axis, and up about its own right. */
+  turned(index: number, yaw_deg: number, pitch_deg: number): Pose {
+    const keyframe = this.store.now.request?.keyframes[index];
+    if (!keyframe) return this.viewPose;
+    const yaw = new Quaternion().setFromAxisAngle(upVector(this.up), (yaw_deg * Math.PI) / 180);
+    const pitch = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), (pitch_deg * Math.PI) / 180);
+    const turned = yaw.multiply(toQuaternion(keyframe.orientation)).multiply(pitch);
+    return { position: keyframe.position, orientation: toQuat(turned) };
   }
 
   get upAxis(): UpAxis {
@@ -326,7 +349,7 @@ export class Viewport {
     const points = this.pathPoints();
     if (points.length === 0) return undefined;
     const sphere = new Box3().setFromPoints(points).getBoundingSphere(new Sphere());
-    sphere.radius = Math.max(0.85 * sphere.radius, kLeastView_m) * 1.15;
+    sphere.radius = Math.max(1.3 * sphere.radius, kLeastView_m);
     return sphere;
   }
 
@@ -376,7 +399,7 @@ export class Viewport {
     const { theme } = this;
     const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
     const sceneSize_m = this.sceneSphere().radius;
-    this.pathView.show(answer, before, this.frame, { unproved: theme.ink });
+    this.pathView.show(request, answer, before, this.frame, { unproved: theme.ink });
     this.keyframesView.show(
       { request, answer, selected, frame: this.frame, sceneSize_m },
       { given: theme.ink, selected: theme.accent, rim: theme.rim, pixelRatio: this.stage.pixelRatio },
@@ -409,7 +432,7 @@ export class Viewport {
     const { answer, before, request, cursor_s } = this.store.now;
     const path = pathOf(this.store.now);
     const pose = poseAt(path, cursor_s);
-    const given_s = new TimeMap(answer).toGiven(cursor_s);
+    const given_s = new TimeMap(request, answer).toGiven(cursor_s);
     const poseBefore = answer?.segments.length ? poseAt(before, given_s) : undefined;
     const camera = { ...(request?.camera ?? kDefaultCamera) };
     camera.near *= answer?.near_scale ?? 1;
