@@ -63,7 +63,7 @@ export class CursorView {
     pose: Pose | undefined,
     before: Pose | undefined,
     frame: Frame,
-    sceneSize_m: number,
+    pathSize_m: number,
     colour: Rgb,
     nearScale: number,
   ): void {
@@ -78,7 +78,7 @@ export class CursorView {
     const lines = new TubeBuilder();
     const camera = { ...(request.camera ?? kDefaultCamera) };
     camera.near *= nearScale;
-    const length_m = 2.5 * pyramidLength(camera, sceneSize_m);
+    const length_m = 1.8 * pyramidLength(camera, pathSize_m);
     const add = (at: Pose, tone: Rgb, isDashed: boolean): void => {
       const eye = frame.toLocal(at.position);
       const turn = toQuaternion(at.orientation);

@@ -33,7 +33,7 @@ export interface KeyframeScene {
   answer: Answer | undefined;
   selected: number | undefined;
   frame: Frame;
-  sceneSize_m: number;
+  pathSize_m: number;
 }
 
 export class KeyframesView {
@@ -48,12 +48,12 @@ export class KeyframesView {
     this.group.add(this.pyramids, this.markers);
   }
 
-  show({ request, answer, selected, frame, sceneSize_m }: KeyframeScene, look: KeyframeLook): void {
+  show({ request, answer, selected, frame, pathSize_m }: KeyframeScene, look: KeyframeLook): void {
     const tubes = new TubeBuilder();
     const markers: Marker[] = [];
     const keyframes = request?.keyframes ?? [];
     const camera = request?.camera ?? kDefaultCamera;
-    const length_m = pyramidLength(camera, sceneSize_m);
+    const length_m = pyramidLength(camera, pathSize_m);
     const invalid = rgbOf(kPalette.collision);
     const faults = new Map((answer?.keyframe_faults ?? []).map((fault) => [fault.keyframe, fault]));
     const special = specialKeyframes(answer);

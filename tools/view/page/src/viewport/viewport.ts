@@ -101,7 +101,7 @@ export class Viewport {
     this.pathView = new PathView(viewHeight);
     this.keyframesView = new KeyframesView(viewHeight);
     this.cursorView = new CursorView(viewHeight);
-    this.findings = new FindingsView(viewHeight, invalidate);
+    this.findings = new FindingsView(viewHeight, this.look.section, invalidate);
     scene.add(this.sceneView.group, ...this.overlays);
     this.pointer = this.makePointer();
     this.applyTheme();
@@ -390,7 +390,9 @@ export class Viewport {
     this.dirty = { content: false, cursor: false };
     this.navigation.camera.updateMatrixWorld();
     const isFull = this.cameraViews.mode === 'full';
-    this.labels.place(this.navigation.camera, this.stage.width, this.stage.height, !isFull);
+    const canvas = this.stage.canvas.getBoundingClientRect();
+    const covered = this.cameraViews.parts(canvas).map(({ part }) => part);
+    this.labels.place(this.navigation.camera, this.stage.width, this.stage.height, !isFull, covered);
     return goesOn;
   }
 
@@ -398,10 +400,10 @@ export class Viewport {
     const { answer, before, request, selection } = this.store.now;
     const { theme } = this;
     const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
-    const sceneSize_m = this.sceneSphere().radius;
+    const pathSize_m = this.pathSphere()?.radius ?? 1;
     this.pathView.show(request, answer, before, this.frame, { unproved: theme.ink });
     this.keyframesView.show(
-      { request, answer, selected, frame: this.frame, sceneSize_m },
+      { request, answer, selected, frame: this.frame, pathSize_m },
       { given: theme.ink, selected: theme.accent, rim: theme.rim, pixelRatio: this.stage.pixelRatio },
     );
     this.labels.show(this.labelsNow(selected));
@@ -437,12 +439,12 @@ export class Viewport {
     const camera = { ...(request?.camera ?? kDefaultCamera) };
     camera.near *= answer?.near_scale ?? 1;
     const size_m = this.sceneSphere().radius;
-    this.cursorView.show(request, pose, poseBefore, this.frame, size_m, this.theme.accent, answer?.near_scale ?? 1);
+    this.cursorView.show(request, pose, poseBefore, this.frame, this.pathSphere()?.radius ?? 1, this.theme.accent, answer?.near_scale ?? 1);
     const eye = (at: Pose | undefined, isColliding: boolean): Eye | undefined =>
       at && { position: this.frame.toLocal(at.position), orientation: toQuaternion(at.orientation), isColliding };
     const collides = (list: readonly { t_begin: number; t_end: number }[] | undefined, t: number): boolean =>
       (list ?? []).some(({ t_begin, t_end }) => t >= t_begin && t <= t_end);
-    const isCorrected = (answer?.corrections?.length ?? 0) > 0;
+    const isCorrected = (answer?.corrections ?? []).some(({ kind }) => kind !== 'none');
     this.cameraViews.setEyes(
       camera,
       eye(pose, collides(answer?.remaining_collisions, cursor_s)),
