@@ -3,7 +3,7 @@
 // before would have it.
 
 import { DoubleSide, Group, Mesh, ShaderMaterial, Vector3 } from 'three';
-import type { BufferGeometry, IUniform } from 'three';
+import type { BufferGeometry } from 'three';
 import type { PlanRequest } from '../contract/request.js';
 import type { Pose } from '../model/actions.js';
 import { kPalette } from '../model/palette.js';
@@ -11,7 +11,7 @@ import { addPyramid, bodyGeometries, kDefaultCamera, pictureCorners, pyramidLeng
 import { toQuaternion } from './frame.js';
 import type { Frame } from './frame.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
-import type { Rgb } from './tubes.js';
+import type { Rgb, TubeUniforms } from './tubes.js';
 
 const kVertexShader = /* glsl */ `
 varying vec3 vEyeward;
@@ -52,8 +52,8 @@ export class CursorView {
   private readonly material = makeGlassMaterial([0, 0, 0], 0.5);
   private shown: PlanRequest | undefined;
 
-  constructor(viewHeight: IUniform<number>) {
-    this.lines = new Tubes(viewHeight, 40);
+  constructor(shared: TubeUniforms) {
+    this.lines = new Tubes(shared, 40);
     this.bodies.renderOrder = 55;
     this.group.add(this.bodies, this.lines);
   }

@@ -23,6 +23,7 @@ import type { Frame } from './frame.js';
 import { Markers } from './markers.js';
 import type { Marker } from './markers.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
+import type { TubeUniforms } from './tubes.js';
 
 export type TriangleSource = (indices: readonly number[]) => Promise<Record<string, Triangle>>;
 
@@ -138,10 +139,10 @@ export class FindingsView {
   private readonly lines: Tubes;
   private asked = 0;
 
-  constructor(viewHeight: IUniform<number>, section: IUniform<Vector4>, private readonly onChange: () => void) {
+  constructor(shared: TubeUniforms, section: IUniform<Vector4>, private readonly onChange: () => void) {
     this.witnesses = new Lit(kCollision, 0.85, true, section);
     this.proof = new Lit(kProof, 0.5, false, section);
-    this.lines = new Tubes(viewHeight, 15);
+    this.lines = new Tubes(shared, 15);
     this.group.add(this.witnesses, this.proof, this.lines, this.markers);
   }
 
