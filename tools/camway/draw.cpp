@@ -19,6 +19,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/review_file.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/scene_plan.h"
 #include "tools/drawing/side_by_side.h"
@@ -128,6 +129,9 @@ std::pair<draw::SceneUp, std::string> vertical_of_scene(const DrawFlags& flags,
 /// Draws the plan of a scene alone.
 ExitCode draw_scene_alone(const DrawFlags& flags) {
   if (flags.scene.file.empty()) return invalid("--scene or --request is required");
+  if (std::filesystem::path(flags.picture).extension() == ".html") {
+    return invalid(flags.picture + ": a page needs --request and --response");
+  }
   const scene::SnapshotResult loaded = load_drawn(flags, flags.scene.file, {});
   if (!loaded.snapshot) return invalid(loaded.error);
   draw::ScenePlan plan;
@@ -163,6 +167,9 @@ ExitCode draw_response(const DrawFlags& flags) {
           another_scene(source, response->scene_digest, snapshot.name, snapshot.digest);
       !error.empty()) {
     return invalid(error);
+  }
+  if (std::filesystem::path(flags.picture).extension() == ".html") {
+    return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
   }
   draw::FloorPlan plan = floor_plan(flags, *request, *response, *snapshot.mesh.share());
   plan.up = flags.vertical ? *flags.vertical
@@ -204,13 +211,15 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
           ->type_name("FILE")
           ->needs(response);
   response->needs(request);
-  command->add_option("-o,--picture", flags->picture, "Picture to write: .svg or .png")
+  command
+      ->add_option("-o,--picture", flags->picture,
+                   "Picture to write: .svg or .png; or .html, a page to look around in")
       ->required()
       ->type_name("FILE")
       ->check([](const std::string& file) {
         const std::filesystem::path extension = std::filesystem::path(file).extension();
-        return extension == ".svg" || extension == ".png" ? std::string()
-                                                          : file + ": is neither .svg nor .png";
+        const bool is_known = extension == ".svg" || extension == ".png" || extension == ".html";
+        return is_known ? std::string() : file + ": is neither .svg nor .png nor .html";
       });
   cli_support::add_choice(*command, "--vertical", flags->vertical,
                           base::named_values<scene::VerticalAxis>(),

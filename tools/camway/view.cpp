@@ -16,11 +16,12 @@
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
 #include "tools/camway/common/key_file.h"
-#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/door_request.h"
 #include "tools/view/daemon/planner_daemon.h"
 #include "tools/view/door.h"
 #include "tools/view/here/planner_here.h"
+#include "tools/view/page/embed/embedded_page.h"
 #include "tools/view/token.h"
 
 namespace camway::tools {
@@ -43,27 +44,23 @@ ExitCode invalid_view(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
-/// Returns the name of a scene for places of the door: the file's, with '_' for what they cannot
-/// hold.
-std::string place_name(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string();
-  for (char& c : name) {
-    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                         (c >= '0' && c <= '9') || c == '-' || c == '.';
-    if (!is_kept) c = '_';
-  }
-  return name.empty() ? "scene" : name;
+base::Result<std::optional<DoorRequest>> read_first_request(const std::string& file) {
+  if (file.empty()) return std::optional<DoorRequest>();
+  base::Result<DoorRequest> request = read_door_request(file);
+  if (!request) return base::Failure{request.error};
+  return std::optional<DoorRequest>(*std::move(request));
 }
 
 /// Loads the scene of the flags, or that of the request. Returns what plans in it here.
-base::Result<std::unique_ptr<view::Backend>> backend_here(
-    const ViewFlags& flags, const std::optional<RequestFile>& request) {
-  const std::string file = request ? flags.file.file_for(flags.request, *request) : flags.file.file;
+base::Result<std::unique_ptr<view::Backend>> backend_here(const ViewFlags& flags,
+                                                          const std::optional<DoorRequest>& first) {
+  const std::string file =
+      first ? flags.file.file_for(flags.request, first->request) : flags.file.file;
   if (file.empty()) {
     return base::Failure{"SCENE names a scene of a daemon, --scene a file to plan in without one"};
   }
   scene::SnapshotOptions options;
-  options.import = flags.file.import_options(request ? request->reading : SceneReading{});
+  options.import = flags.file.import_options(first ? first->request.reading : SceneReading{});
   const scene::SnapshotResult loaded =
       load_timed(place_name(file), file, options, user_cache(flags.file)).result;
   if (!loaded.snapshot) return base::Failure{loaded.error};
@@ -78,30 +75,25 @@ base::Result<std::unique_ptr<view::Backend>> backend_daemon(ViewFlags flags) {
   return view::plan_by_daemon(flags.scene, flags.client);
 }
 
-/// Begins to plan the request of the flags, for the first page.
-void plan_first(view::Backend& backend, const std::string& file, RequestFile request) {
-  backend.plan({backend.scene(), std::move(request)}, nullptr, [file](const view::Answer& answer) {
+/// Begins to plan the request of the flags, for the first page. Returns it as the door takes it.
+std::string plan_first(view::Backend& backend, const std::string& file, DoorRequest first) {
+  view::PlanOrder order = plan_order(std::move(first), backend.scene());
+  std::string text = *order.text;
+  backend.plan(std::move(order), nullptr, [file](const view::Answer& answer) {
     if (!answer.error.empty()) print_error(file + ": " + answer.error);
   });
-}
-
-base::Result<std::optional<RequestFile>> read_view_request(const std::string& file) {
-  if (file.empty()) return std::optional<RequestFile>();
-  base::Result<RequestFile> request = read_request(file);
-  if (!request) return base::Failure{request.error};
-  if (const auto fault = planning::validate(*request)) {
-    return base::Failure{source_of(file) + ": " + fault->message};
-  }
-  return std::optional<RequestFile>(*std::move(request));
+  return text;
 }
 
 /// Prints the address and serves until a signal to end comes.
 ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
-                    view::Backend& backend) {
+                    const std::string& first_request, view::Backend& backend) {
   constexpr long kLongLookMs = 900;
   view::DoorOptions options;
   options.port = flags.port;
   options.is_read_only = flags.is_read_only;
+  options.first_request = first_request;
+  options.page = view::embedded_page();
   options.token = view::random_token();
   if (options.token.empty()) {
     print_error("the kernel gives no random bits for the token");
@@ -122,15 +114,16 @@ ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
 }
 
 ExitCode run_view(const ViewFlags& flags) {
-  base::Result<std::optional<RequestFile>> request = read_view_request(flags.request);
-  if (!request) return invalid_view(request.error);
+  base::Result<std::optional<DoorRequest>> first = read_first_request(flags.request);
+  if (!first) return invalid_view(first.error);
   // Before any thread, all of which inherit the signal mask.
   const Interruption interruption;
   const base::Result<std::unique_ptr<view::Backend>> backend =
-      flags.scene.empty() ? backend_here(flags, *request) : backend_daemon(flags);
+      flags.scene.empty() ? backend_here(flags, *first) : backend_daemon(flags);
   if (!backend) return invalid_view(backend.error);
-  if (*request) plan_first(**backend, flags.request, **std::move(request));
-  return serve_door(flags, interruption, **backend);
+  std::string request_text;
+  if (*first) request_text = plan_first(**backend, flags.request, **std::move(first));
+  return serve_door(flags, interruption, request_text, **backend);
 }
 
 constexpr char kViewFooter[] =

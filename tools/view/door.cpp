@@ -11,66 +11,40 @@
 #include "daemon/http/server.h"
 #include "tools/view/access.h"
 #include "tools/view/desk.h"
+#include "tools/view/export.h"
 #include "tools/view/http_jobs.h"
-#include "tools/view/page.h"
+#include "tools/view/mesh_desk.h"
+#include "tools/view/plan_picture.h"
+#include "tools/view/responses.h"
+#include "tools/view/review.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
-#include "tools/view/work_pool.h"
 
 namespace camway::view {
 namespace {
 
-constexpr char kJsonType[] = "application/json";
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
-constexpr char kSvgType[] = "image/svg+xml";
+constexpr char kScriptType[] = "text/javascript; charset=utf-8";
 
-/// Bodies are parsed and pictures drawn on threads of their own, so that large ones keep nobody
-/// waiting. Two, so that a picture does not keep requests waiting either.
-constexpr int kReaders = 2;
-
-constexpr std::string_view kPolicy =
-    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
-    "object-src 'none'";
-
-/// Headers of every response.
-std::vector<std::pair<std::string, std::string>> common_headers() {
-  return {{"Content-Security-Policy", std::string(kPolicy)},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Cache-Control", "no-store"}};
-}
-
-/// The picture has style attributes, which its policy has to allow where it is opened alone.
-http::Response to_picture(std::string picture) {
-  return {code::kOk,
-          kSvgType,
-          std::move(picture),
-          {{"Content-Security-Policy", std::string(kPolicy) + "; style-src 'unsafe-inline'"}}};
-}
-
-http::Response to_response(Answer answer) {
-  http::Response response{answer.code, kJsonType, {}, {}};
-  response.body = answer.code == code::kOk ? std::move(answer.json) : error_json(answer.error);
-  if (!response.body.ends_with('\n')) response.body += '\n';
-  return response;
-}
-
-http::Response refusal(int code, std::string error) {
-  return to_response(failure(code, std::move(error)));
+/// Returns a function that sends an answer as JSON.
+Done in_json(http::Reply send) {
+  return [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
 }
 
 class DoorServer final : public Door {
  public:
   DoorServer(const DoorOptions& options, Backend& backend)
-      : lock_{options.port, options.token},
+      : page_(options.page),
+        lock_{options.port, options.token},
         desk_(std::make_shared<Desk>(options, backend)),
+        meshes_(std::make_shared<MeshDesk>(backend)),
         jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
   ~DoorServer() override {
     jobs_->close();
     server_.reset();
-    readers_.stop();
+    desk_->stop();
+    meshes_->stop();
   }
   DoorServer(const DoorServer&) = delete;
   DoorServer& operator=(const DoorServer&) = delete;
@@ -87,24 +61,37 @@ class DoorServer final : public Door {
   [[nodiscard]] std::optional<http::Response> refuse(const http::Request& request) const;
   void answer(const http::Request& request, const http::Reply& reply);
   void draw(const http::Reply& reply);
-  [[nodiscard]] http::Response page(const http::Request& request) const;
+  /// Returns a file of the page.
+  [[nodiscard]] http::Response page(const http::Request& request, Place place) const;
 
   /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
   /// if there is no place, which the reply says.
-  Done begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  http::Reply begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  /// Sends the mesh of an object.
+  void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
-  /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
-  /// a reader.
+  /// Reads the body of a request and has it answered. `named` has the names of the target, and the
+  /// format of an export as its object. Runs on a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
-                 Done done);
+                 const http::Reply& send);
+  /// Has a document answered in JSON.
+  void read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                     HttpJobs::Ticket ticket, Done done);
   void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
+  void interpolate(const nlohmann::json& document, Done done);
+  void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
+  void review(const nlohmann::json& document, const http::Reply& send);
+  /// Sends the path in a format, which a parameter of the target names.
+  void send_export(const nlohmann::json& document, std::string_view format,
+                   const http::Reply& send);
 
+  const PageFiles page_;
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
+  const std::shared_ptr<MeshDesk> meshes_;
   const std::shared_ptr<HttpJobs> jobs_;
-  WorkPool readers_{kReaders};
   std::unique_ptr<http::Server> server_;
 };
 
@@ -154,13 +141,17 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
   switch (route.place) {
     case Place::kPage:
-      return reply(page(request));
+    case Place::kScript:
     case Place::kStyle:
-      return reply({code::kOk, kCssType, std::string(page_style())});
+      return reply(page(request, route.place));
     case Place::kPicture:
       return draw(reply);
     case Place::kVersion:
       return reply(to_response(Desk::version()));
+    case Place::kFields:
+      return reply(to_response(Desk::fields()));
+    case Place::kLast:
+      return reply(to_response(desk_->last()));
     case Place::kSocket:
       return reply(refusal(code::kInvalid, "this place is a WebSocket"));
     default:
@@ -168,12 +159,18 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
 }
 
-http::Response DoorServer::page(const http::Request& request) const {
-  const std::shared_ptr<const LastPlan> last = desk_->backend().last();
-  http::Response response{
-      code::kOk, kHtmlType, first_page(desk_->backend().scene(), last.get()), {}};
+http::Response DoorServer::page(const http::Request& request, Place place) const {
+  const auto [file, type] = place == Place::kPage     ? std::pair(page_.html, kHtmlType)
+                            : place == Place::kScript ? std::pair(page_.script, kScriptType)
+                                                      : std::pair(page_.style, kCssType);
+  if (file.text.empty()) {
+    return refusal(code::kNotFound, "this program was built without its page");
+  }
+  http::Response response = file_response(file, type, lock_.port, request);
   // A browser that came by the printed address gets a cookie, so that pages need no token.
-  if (request.target.size() > 1) response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  if (place == Place::kPage && request.target.size() > 1) {
+    response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  }
   return response;
 }
 
@@ -182,33 +179,43 @@ void DoorServer::draw(const http::Reply& reply) {
   if (!last || last->result.path.empty()) {
     return reply(refusal(code::kNotFound, "there is no path to draw"));
   }
-  readers_.post([last, reply] {
+  desk_->post([last, reply] {
     std::string picture = plan_picture(*last);
     if (picture.empty()) return reply(refusal(code::kOurFault, "the path cannot be drawn"));
-    reply(to_picture(std::move(picture)));
+    reply(picture_response(std::move(picture)));
   });
 }
 
-Done DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
+http::Reply DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
   ticket = jobs_->enter();
   if (ticket == 0) {
     reply(refusal(code::kTooMany, fmt::format("too many at a time: at most {} requests",
                                               desk_->limits().requests)));
     return nullptr;
   }
-  return [jobs = jobs_, ticket, reply](Answer answer) {
+  return [jobs = jobs_, ticket, reply](http::Response response) {
     jobs->leave(ticket);
-    reply(to_response(std::move(answer)));
+    reply(std::move(response));
   };
+}
+
+void DoorServer::send_mesh(const Route& route, const http::Reply& reply) {
+  meshes_->ask(std::string(route.scene), std::string(route.object), [reply](GlbAnswer answer) {
+    if (!answer.glb) return reply(refusal(answer.code, std::move(answer.error)));
+    reply({code::kOk, "model/gltf-binary", *answer.glb, {}});
+  });
 }
 
 void DoorServer::ask(const http::Request& request, const http::Reply& reply, const Route& route) {
   HttpJobs::Ticket ticket = 0;
-  Done done = begin(reply, ticket);
-  if (!done) return;
+  http::Reply send = begin(reply, ticket);
+  if (!send) return;
+  if (route.place == Place::kMesh) return send_mesh(route, send);
+  Done done = in_json(send);
   SceneOrder order;
   order.scene = route.scene;
-  order.object = route.object;
+  order.object =
+      route.place == Place::kExport ? parameter_of(request.target, "format") : route.object;
   switch (route.place) {
     case Place::kStatus:
       return desk_->status(std::move(done));
@@ -225,25 +232,36 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
     return desk_->ask_scene(std::move(order), std::move(done));
   }
   // The route refers to the target of the request, which ends with this call.
-  readers_.post([this, body = request.body, place = route.place, order = std::move(order), ticket,
-                 done = std::move(done)]() mutable {
-    read_body(body, place, std::move(order), ticket, std::move(done));
+  desk_->post([this, body = request.body, place = route.place, order = std::move(order), ticket,
+               send = std::move(send)]() mutable {
+    read_body(body, place, std::move(order), ticket, send);
   });
 }
 
 void DoorServer::read_body(const std::string& body, Place place, SceneOrder named,
-                           HttpJobs::Ticket ticket, Done done) {
+                           HttpJobs::Ticket ticket, const http::Reply& send) {
   const base::Result<nlohmann::json> document = tools::parse_document(body, "request");
-  if (!document) return done(failure(code::kInvalid, document.error));
+  if (!document) return send(refusal(code::kInvalid, document.error));
+  if (place == Place::kReview) return review(*document, send);
+  if (place == Place::kExport) return send_export(*document, named.object, send);
+  read_document(*document, place, named, ticket, in_json(send));
+}
+
+void DoorServer::read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                               HttpJobs::Ticket ticket, Done done) {
   switch (place) {
     case Place::kPlan:
-      return plan(*document, ticket, std::move(done));
+      return plan(document, ticket, std::move(done));
     case Place::kCheck:
-      return check(*document, ticket, std::move(done));
+      return check(document, ticket, std::move(done));
+    case Place::kInterpolate:
+      return interpolate(document, std::move(done));
+    case Place::kTriangles:
+      return triangles(document, named.scene, std::move(done));
     case Place::kObjects:
-      return change(read_added(*document), named, std::move(done));
+      return change(read_added(document), named, std::move(done));
     default:
-      return change(read_moved(*document), named, std::move(done));
+      return change(read_moved(document), named, std::move(done));
   }
 }
 
@@ -260,12 +278,50 @@ void DoorServer::check(const nlohmann::json& document, HttpJobs::Ticket ticket, 
   jobs_->set(ticket, desk_->backend().check(desk_->in_scene(*std::move(order)), std::move(done)));
 }
 
+void DoorServer::interpolate(const nlohmann::json& document, Done done) {
+  base::Result<PlanOrder> order = view::read_plan(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  desk_->interpolate(*std::move(order), std::move(done));
+}
+
+void DoorServer::triangles(const nlohmann::json& document, const std::string& scene, Done done) {
+  base::Result<TrianglesOrder> order = read_triangles(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  order->scene = scene;
+  desk_->triangles(*std::move(order), std::move(done));
+}
+
 void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named, Done done) {
   if (!order) return done(failure(code::kInvalid, order.error));
   order->scene = named.scene;
   // One that is added has its name in the body.
   if (!named.object.empty()) order->object = named.object;
   desk_->ask_scene(*std::move(order), std::move(done));
+}
+
+void DoorServer::review(const nlohmann::json& document, const http::Reply& send) {
+  base::Result<ReviewOrder> order = read_review(document);
+  if (!order) return send(refusal(code::kInvalid, order.error));
+  order->plan = desk_->in_scene(std::move(order->plan));
+  // It waits for the backend, which must not keep other requests waiting.
+  meshes_->post([this, order = *std::move(order), send] {
+    ReviewFile made = make_review(order, page_, desk_->backend(), *meshes_);
+    if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+    send({code::kOk,
+          kHtmlType,
+          std::move(made.html),
+          {{"Content-Disposition", "attachment; filename=\"review.html\""}}});
+  });
+}
+
+void DoorServer::send_export(const nlohmann::json& document, std::string_view format,
+                             const http::Reply& send) {
+  ExportFile made = make_export(document, format);
+  if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+  send({code::kOk,
+        "application/octet-stream",
+        std::move(made.bytes),
+        {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", made.name)}}});
 }
 
 }  // namespace

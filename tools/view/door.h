@@ -7,6 +7,7 @@
 
 #include "daemon/base/result.h"
 #include "tools/view/backend.h"
+#include "tools/view/page_files.h"
 
 namespace camway::view {
 
@@ -29,7 +30,10 @@ struct DoorOptions {
   int port = 0;  ///< 0: any free port
   std::string token = {};
   bool is_read_only = false;  ///< whether changes of scenes are refused
+  /// The request that is planned at first, as JSON, until there is a last plan; empty: none.
+  std::string first_request = {};
   DoorLimits limits = {};
+  PageFiles page = {};  ///< what `/` shows
 };
 
 /// The door: HTTP and WebSocket on 127.0.0.1, in JSON (docs/http.md). Requests are answered by a

@@ -11,7 +11,6 @@
 
 #include "tests/tools/view/door_client.h"
 #include "tests/tools/view/fake_backend.h"
-#include "tools/view/page.h"
 #include "tools/view/routes.h"
 
 namespace camway::view {
@@ -19,7 +18,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
   struct RouteCase {
@@ -31,6 +29,9 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/", 200},
            {"HEAD", "/", 200},
            {"POST", "/", 405},
+           {"GET", "/page.js", 200},
+           {"GET", "/page.css", 200},
+           {"GET", "/page.ts", 404},
            {"GET", "/?token=x", 200},
            {"GET", "//", 404},
            {"GET", "", 404},
@@ -53,6 +54,20 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/v1/scenes/a/objects/b", 405},
            {"DELETE", "/v1/scenes/a/objects/", 404},
            {"DELETE", "/v1/scenes/a/objects/b/c", 404},
+           {"GET", "/v1/scenes/a/meshes/b", 200},
+           {"HEAD", "/v1/scenes/a/meshes/b", 200},
+           {"GET", "/v1/scenes/a/meshes", 404},
+           {"POST", "/v1/scenes/a/triangles", 200},
+           {"GET", "/v1/scenes/a/triangles", 405},
+           {"POST", "/v1/scenes/a/triangles/1", 404},
+           {"POST", "/v1/interpolate", 200},
+           {"GET", "/v1/fields", 200},
+           {"GET", "/v1/last", 200},
+           {"POST", "/v1/last", 405},
+           {"POST", "/v1/review", 200},
+           {"GET", "/v1/review", 405},
+           {"POST", "/v1/export?format=csv", 200},
+           {"GET", "/v1/export", 405},
            {"GET", "/v2/plan", 404},
        }) {
     EXPECT_EQ(route_of(each.method, each.target).code, each.code)
@@ -121,6 +136,15 @@ TEST_F(ViewDoor, NamesTheMemberThatIsWrong) {
   std::string file = kSmallRequest;
   file.insert(1, R"("body": {"type": "mesh", "file": "/etc/passwd"}, )");
   EXPECT_THAT(error("/v1/plan", file), HasSubstr("body.file: is a file"));
+  EXPECT_THAT(error("/v1/interpolate", one), HasSubstr("request: camera.near"));
+  const std::string triangles = "/v1/scenes/office/triangles";
+  EXPECT_EQ(error(triangles, "{}"), "indices: is missing");
+  EXPECT_THAT(error(triangles, R"({"indices": 7})"), HasSubstr("indices: must be an array"));
+  EXPECT_THAT(error(triangles, R"({"indices": [1.5]})"), HasSubstr("indices[0]: is 1.5; it must"));
+  EXPECT_THAT(error(triangles, R"({"indices": [0, 1e300]})"), HasSubstr("indices[1]: "));
+  EXPECT_THAT(error(triangles, R"({"indices": [], "scene": "x"})"), HasSubstr("scene: "));
+  json many = {{"indices", std::vector<int>(kMostIndices + 1)}};
+  EXPECT_THAT(error(triangles, many.dump()), HasSubstr("has 100001 numbers, and may have 100000"));
   EXPECT_EQ(error("/v1/check", "{}"), "request: is missing");
   EXPECT_THAT(error("/v1/check", std::string(R"({"path": {}, "request": )") + kSmallRequest + "}"),
               HasSubstr("path: segments: is missing"));
@@ -164,12 +188,61 @@ TEST_F(ViewDoor, AnswersEveryPlace) {
       std::string(R"({"path": {"segments": []}, "request": )") + kSmallRequest + "}";
   EXPECT_EQ(client_->post("/v1/check", check).json().at("verdict"), "free");
   EXPECT_EQ(client_->get("/v1/socket").code, 400);
+  EXPECT_EQ(client_->post("/v1/scenes/hall/triangles", R"({"indices": [7, 5]})").json(),
+            json::parse(R"({"revision": 1, "triangles": {"5": [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+                                                         "7": [[0, 0, 0], [0, 0, 0], [0, 0, 0]]}})"));
+  EXPECT_EQ(client_->post("/v1/interpolate", kSmallRequest).json().at("segments").size(), 1U);
+  EXPECT_GT(client_->get("/v1/fields").json().at("fields").size(), 10U);
   const auto orders = backend_.orders();
   ASSERT_EQ(orders.size(), 5U);
   for (std::size_t i = 2; i < orders.size(); ++i) {
     EXPECT_EQ(orders[i].scene, "hall");
     EXPECT_EQ(orders[i].object, "crate");
     EXPECT_TRUE(orders[i].is_change());
+  }
+}
+
+TEST_F(ViewDoor, TellsOfTheLastPlan) {
+  DoorOptions options{.token = kSecret};
+  const auto last = [&] {
+    const auto door = Door::open(options, backend_);
+    return HttpClient((*door)->port(), kSecret).get("/v1/last").json();
+  };
+  EXPECT_EQ(last(), json::object());
+  options.first_request = R"({"a": 1})";
+  EXPECT_EQ(last(), json::parse(R"({"request": {"a": 1}})"));
+  LastPlan plan;
+  plan.request_text = std::make_shared<const std::string>(R"({"b": 2})");
+  plan.answer_text = std::make_shared<const std::string>("{\"status\": \"ok\"}\n");
+  backend_.last_plan = std::make_shared<const LastPlan>(plan);
+  EXPECT_EQ(last(), json::parse(R"({"request": {"b": 2}, "answer": {"status": "ok"}})"));
+}
+
+TEST_F(ViewDoor, SendsMeshesForPages) {
+  scene::Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  backend_.display_mesh = std::make_shared<const scene::Mesh>(mesh);
+  open();
+  for (int time = 0; time < 2; ++time) {
+    const Reached got = client_->get("/v1/scenes/hall/meshes/0123abc");
+    EXPECT_EQ(got.code, 200);
+    EXPECT_EQ(got.type, "model/gltf-binary");
+    EXPECT_EQ(got.body.substr(0, 4), "glTF");
+  }
+  EXPECT_EQ(client_->send("HEAD", "/v1/scenes/hall/meshes/0123abc").code, 200);
+  EXPECT_EQ(client_->post("/v1/scenes/hall/meshes/0123abc", "{}").code, 405);
+}
+
+TEST_F(ViewDoor, SaysWhyThereIsNoMesh) {
+  open();
+  const Reached got = client_->get("/v1/scenes/hall/meshes/%00..%2f");
+  EXPECT_EQ(got.code, 404);
+  EXPECT_EQ(error_of(got), "no object %00..%2f");
+  for (const char* const nowhere :
+       {"/v1/scenes/hall/meshes", "/v1/scenes/hall/meshes/", "/v1/scenes/hall/meshes/a/b",
+        "/v1/scenes//meshes/a", "/v1/scenes/hall/mesh/a"}) {
+    EXPECT_EQ(client_->get(nowhere).code, 404) << nowhere;
   }
 }
 
@@ -226,16 +299,62 @@ TEST_F(ViewDoor, APortThatIsTakenIsSaid) {
   EXPECT_THAT(second.error, HasSubstr("cannot listen on 127.0.0.1 port"));
 }
 
-TEST_F(ViewDoor, NamesOnThePageAreText) {
-  LastPlan last;
-  last.result.status = planning::Status::kInfeasible;
-  last.result.message = "shut in by <script>alert('\"&')</script>";
-  backend_.last_plan = std::make_shared<const LastPlan>(last);
+/// A page of three files.
+constexpr PageFiles kPage{
+    {"<html>", "zipped html"}, {"script", "zipped script"}, {"style", "zipped style"}, "policy"};
+
+TEST_F(ViewDoor, ServesThePageCompressedToThoseWhoTakeIt) {
+  const auto door = Door::open({.token = kSecret, .page = kPage}, backend_);
+  HttpClient client((*door)->port(), kSecret);
+  struct FileCase {
+    const char* target;
+    const char* type;
+    PageFile file;
+  };
+  for (const FileCase& each : {FileCase{"/", "text/html; charset=utf-8", kPage.html},
+                               FileCase{"/page.js", "text/javascript; charset=utf-8", kPage.script},
+                               FileCase{"/page.css", "text/css; charset=utf-8", kPage.style}}) {
+    const Reached plain = client.get(each.target);
+    EXPECT_EQ(plain.code, 200);
+    EXPECT_EQ(plain.type, each.type);
+    EXPECT_EQ(plain.body, each.file.text);
+    EXPECT_EQ(plain.header("Content-Encoding"), "");
+    EXPECT_EQ(plain.header("Vary"), "Accept-Encoding");
+    for (const char* const takes : {"gzip", "br, gzip;q=0.5", "gzip, deflate"}) {
+      const Reached packed = client.send("GET", each.target, {}, {{"Accept-Encoding", takes}});
+      EXPECT_EQ(packed.body, each.file.gzip) << takes;
+      EXPECT_EQ(packed.header("Content-Encoding"), "gzip") << takes;
+      EXPECT_EQ(packed.type, each.type);
+    }
+    for (const char* const takes : {"", "br", "gzip;q=0", "deflate, gzip;q=0.0, br"}) {
+      const Reached got = client.send("GET", each.target, {}, {{"Accept-Encoding", takes}});
+      EXPECT_EQ(got.body, each.file.text) << takes;
+    }
+    const Reached head = client.send("HEAD", each.target);
+    EXPECT_EQ(head.code, 200);
+    EXPECT_EQ(head.header("Content-Length"), std::to_string(each.file.text.size()));
+    EXPECT_EQ(client.post(each.target, "{}").code, 405);
+  }
+}
+
+TEST_F(ViewDoor, ThePageMayAskTheDoorAndNobodyElse) {
+  const auto door = Door::open({.token = kSecret, .page = kPage}, backend_);
+  const int port = (*door)->port();
+  const std::string policy = HttpClient(port, kSecret).get("/").header("Content-Security-Policy");
+  EXPECT_EQ(policy,
+            "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+            "object-src 'none'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' data: blob:; "
+            "connect-src 'self' ws://127.0.0.1:" +
+                std::to_string(port) + " ws://localhost:" + std::to_string(port));
+}
+
+TEST_F(ViewDoor, SaysThatThereIsNoPage) {
   open();
-  const Reached page = client_->get("/");
-  EXPECT_EQ(page.type, "text/html; charset=utf-8");
-  EXPECT_THAT(page.body, Not(HasSubstr("<script")));
-  EXPECT_THAT(page.body, HasSubstr("&lt;script&gt;alert(&#39;&quot;&amp;&#39;)"));
+  for (const char* const target : {"/", "/page.js", "/page.css"}) {
+    const Reached got = client_->get(target);
+    EXPECT_EQ(got.code, 404);
+    EXPECT_THAT(error_of(got), HasSubstr("built without its page"));
+  }
   EXPECT_EQ(client_->get("/plan.svg").code, 404) << "there is no path to draw";
 }
 

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <regex>
@@ -270,13 +273,178 @@ TEST_F(ViewHere, TheBackendEndsBeforeItsPlansAndSaysSo) {
 TEST_F(ViewHere, DrawsTheLastPlan) {
   open();
   EXPECT_EQ(http().get("/plan.svg").code, 404);
-  EXPECT_THAT(http().get("/").body, HasSubstr("Nothing was planned yet"));
   http().post("/v1/plan", request_text("office-graze-door"));
   const Reached picture = http().get("/plan.svg");
   EXPECT_EQ(picture.code, 200);
   EXPECT_EQ(picture.type, "image/svg+xml");
   EXPECT_THAT(picture.body, HasSubstr("<svg"));
-  EXPECT_THAT(http().get("/").body, HasSubstr("proved free of collision"));
+}
+
+TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  for (const std::string name : {"office-free-straight", "office-free-timed", "office-free-stairs",
+                                 "office-free-atrium", "office-free-turn"}) {
+    const std::string request = request_text(name);
+    const json answer = http().post("/v1/plan", request).json();
+    ASSERT_TRUE(answer.at("collisions").empty()) << name;
+    const Reached before = http().post("/v1/interpolate", request);
+    ASSERT_EQ(before.code, 200) << before.body;
+    EXPECT_EQ(before.json().size(), 1U);
+    // Bit for bit: both are the shortest decimals of their doubles.
+    EXPECT_EQ(before.json().at("segments"), answer.at("segments")) << name;
+    socket.send(R"({"id": 1, "do": "interpolate", "request": )" + request + "}");
+    EXPECT_EQ(socket.next().at("answer"), before.json());
+    // An answer with a frame is interpolated to the same path.
+    json again = json::parse(request);
+    again["keyframes"] = answer.at("keyframes");
+    if (!answer.contains("frame")) continue;
+    again["frame"] = answer.at("frame");
+    const json edited = http().post("/v1/interpolate", again.dump()).json();
+    EXPECT_EQ(edited.at("segments").size(), answer.at("segments").size()) << name;
+  }
+}
+
+TEST_F(ViewHere, APathIsInterpolatedAtTheTimesOfItsRequest) {
+  open();
+  json request = json::parse(request_text("office-free-timed"));
+  constexpr double kSince1970_s = 1.76e9;
+  for (json& keyframe : request.at("keyframes")) {
+    keyframe["time"] = keyframe.at("time").get<double>() + kSince1970_s;
+  }
+  const json answer = http().post("/v1/plan", request.dump()).json();
+  const json before = http().post("/v1/interpolate", request.dump()).json();
+  EXPECT_GE(before.at("segments").front().at("t0"), kSince1970_s);
+  EXPECT_EQ(before.at("segments"), answer.at("segments"));
+}
+
+TEST_F(ViewHere, APathIsInterpolatedThroughWhatIsInTheWay) {
+  open();
+  const std::string request = request_text("office-graze-column");
+  const json answer = http().post("/v1/plan", request).json();
+  ASSERT_FALSE(answer.at("collisions").empty());
+  const json before = http().post("/v1/interpolate", request).json();
+  EXPECT_NE(before.at("segments"), answer.at("segments"));
+  EXPECT_EQ(before.at("segments").front().at("t0"), answer.at("segments").front().at("t0"));
+  EXPECT_EQ(before.at("segments").back().at("t1"), answer.at("segments").back().at("t1"));
+}
+
+TEST_F(ViewHere, RemembersTheLastPlan) {
+  open();
+  EXPECT_EQ(http().get("/v1/last").json(), json::object());
+  const std::string request = request_text("office-graze-door");
+  const json answer = http().post("/v1/plan", request).json();
+  const json last = http().get("/v1/last").json();
+  EXPECT_EQ(last.at("request"), json::parse(request));
+  EXPECT_EQ(last.at("answer"), answer);
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 3, "do": "last"})");
+  EXPECT_EQ(socket.next().at("answer"), last);
+  socket.send(R"({"id": 4, "do": "fields"})");
+  EXPECT_EQ(socket.next().at("answer"), http().get("/v1/fields").json());
+  socket.send(R"({"id": 5, "do": "triangles", "indices": [3]})");
+  EXPECT_EQ(socket.next().at("answer"),
+            http().post("/v1/scenes/office/triangles", R"({"indices": [3]})").json());
+}
+
+TEST_F(ViewHere, ExportsWhatCamwayExportWrites) {
+  open();
+  const testing::TemporaryFolder folder;
+  const std::string request = request_text("office-graze-column");
+  const std::string answer = http().post("/v1/plan", request).body;
+  const std::string response = (folder.path() / "response.json").string();
+  std::ofstream(response) << answer;
+  const std::string document = "{\"request\": " + request + ", \"answer\": " + answer + "}";
+  const json formats = http().get("/v1/fields").json().at("exports");
+  EXPECT_GT(formats.size(), 5U);
+  for (const json& format : formats) {
+    const auto name = format.at("name").get<std::string>();
+    const Reached got = http().post("/v1/export?format=" + name, document);
+    ASSERT_EQ(got.code, 200) << name << got.body;
+    EXPECT_THAT(got.header("Content-Disposition"),
+                HasSubstr("camera" + format.at("extension").get<std::string>()));
+    const std::string file =
+        (folder.path() / ("out" + format.at("extension").get<std::string>())).string();
+    const std::string command =
+        std::string("'") + CAMWAY_BINARY + "' export '" + response + "' --request '" +
+        (kScenes / "requests" / "office-graze-column.json").string() + "' --no-proof --format " +
+        name + " --out '" + file + "' 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    EXPECT_TRUE(*tools::read_text(file) == got.body) << name;
+  }
+}
+
+TEST_F(ViewHere, SaysWhyNothingIsExported) {
+  open();
+  const std::string request = request_text("office-graze-door");
+  const json answer = http().post("/v1/plan", request).json();
+  json document{{"request", json::parse(request)}, {"answer", answer}};
+  const auto error = [&](const std::string& query) {
+    const Reached got = http().post("/v1/export" + query, document.dump());
+    EXPECT_EQ(got.code, 400) << query;
+    return got.json().at("error").get<std::string>();
+  };
+  EXPECT_THAT(error(""), HasSubstr("format: is none of: gltf"));
+  for (const char* const query : {"?format=", "?format=fbx", "?format=../csv", "?fromat=csv"}) {
+    EXPECT_THAT(error(query), HasSubstr("format: is none of: gltf"));
+  }
+  document["answer"]["segments"] = json::array();
+  EXPECT_THAT(error("?format=csv"), HasSubstr("answer"));
+  document.erase("answer");
+  EXPECT_EQ(error("?format=csv"), "answer: is missing");
+}
+
+/// Asks a backend for a mesh and waits for it.
+MeshAnswer mesh_of(Backend& backend, const std::string& scene, const std::string& digest) {
+  auto promise = std::make_shared<std::promise<MeshAnswer>>();
+  backend.mesh(scene, digest, [promise](MeshAnswer mesh) { promise->set_value(std::move(mesh)); });
+  return promise->get_future().get();
+}
+
+Answer triangles_of(Backend& backend, const std::vector<std::int64_t>& indices) {
+  auto promise = std::make_shared<std::promise<Answer>>();
+  backend.triangles(backend.scene(), indices,
+                    [promise](Answer answer) { promise->set_value(std::move(answer)); });
+  return promise->get_future().get();
+}
+
+TEST_F(ViewHere, MeshesAreThoseOfObjectsInTheirOwnFrames) {
+  open();
+  const std::string crate =
+      R"({"name": "crate", "form": {"type": "box", "size": [0.5, 0.6, 0.7]},
+          "position": [9, 1.5, 9], "orientation": [0.5, 0.5, 0.5, 0.5]})";
+  const json added = json::parse(http().post("/v1/scenes/office/objects", crate).body);
+  const auto digest = added["objects"][0]["digest"].get<std::string>();
+  const MeshAnswer box = mesh_of(*backend_, "office", digest);
+  ASSERT_TRUE(box.mesh) << box.error;
+  EXPECT_EQ(box.code, 200);
+  EXPECT_EQ(box.mesh->bounds().min(), geometry::Vec3(-0.25, -0.3, -0.35));
+  EXPECT_EQ(box.mesh->bounds().max(), geometry::Vec3(0.25, 0.3, 0.35));
+  EXPECT_EQ(box.scene_triangles, added["scene"]["triangles"]);
+  const MeshAnswer none = mesh_of(*backend_, "office", std::string(32, '0'));
+  EXPECT_FALSE(none.mesh);
+  EXPECT_EQ(none.code, 404);
+  EXPECT_THAT(none.error, HasSubstr("no object of this digest"));
+  EXPECT_EQ(mesh_of(*backend_, "mars", digest).code, 404);
+}
+
+TEST_F(ViewHere, TrianglesAreThoseOfTheSceneByNumber) {
+  open();
+  const auto scene = scene::load_snapshot("office", kScenes / "office.obj").snapshot;
+  const auto last = static_cast<std::int64_t>(scene->index.size()) - 1;
+  const Answer answer = triangles_of(*backend_, {0, last, last + 1, -1, 0, INT64_MAX, INT64_MIN});
+  const json got = json::parse(answer.json);
+  EXPECT_EQ(got["revision"], 1);
+  ASSERT_EQ(got["triangles"].size(), 2) << answer.json;
+  for (const std::int64_t index : {std::int64_t{0}, last}) {
+    const geometry::Triangle expected = scene->index.triangle(static_cast<std::size_t>(index));
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(got["triangles"][std::to_string(index)][corner][axis],
+                  expected.at(corner)[static_cast<Eigen::Index>(axis)]);
+      }
+    }
+  }
 }
 
 }  // namespace
