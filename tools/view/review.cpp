@@ -100,8 +100,8 @@ class ReviewData {
   }
   bool add_meshes() {
     std::set<std::string> digests;
-    for (const Json& object : Json::parse(scene_).at("objects"))
-      digests.insert(object.at("digest"));
+    const Json scene = Json::parse(scene_);
+    for (const Json& object : scene.at("objects")) digests.insert(object.at("digest"));
     for (const std::string& digest : digests) {
       const GlbAnswer mesh = meshes_.wait_for(order_.plan.scene, digest);
       if (!mesh.glb) return fail(mesh.code, mesh.error);
@@ -149,10 +149,11 @@ std::optional<std::string> assembled(const PageFiles& page, const std::string& d
   const std::string end = fmt::format(
       "<script type=\"application/json\" id=\"review\">{}</script>\n<script>{}</script>\n</body>",
       for_html(data), page.script.text);
-  const bool fits = replace_once(html, "</body>", end) &&
-                    replace_once(html, R"(<script defer src="/page.js"></script>)", "") &&
+  // The script comes last, since it may hold any text.
+  const bool fits = replace_once(html, R"(<script defer src="/page.js"></script>)", "") &&
+                    replace_once(html, R"(<meta charset="utf-8">)", policy) &&
                     replace_once(html, R"(<link rel="stylesheet" href="/page.css">)", style) &&
-                    replace_once(html, R"(<meta charset="utf-8">)", policy);
+                    replace_once(html, "</body>", end);
   if (!fits) return std::nullopt;
   return html;
 }
