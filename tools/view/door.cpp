@@ -70,9 +70,8 @@ class DoorServer final : public Door {
   /// Sends the mesh of an object.
   void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
-  /// Reads the body of a request and has it answered. `named` has the names of the target,
-  /// and the format of an export as its object. Runs on
-  /// a thread of the desk.
+  /// Reads the body of a request and has it answered. `named` has the names of the target, and the
+  /// format of an export as its object. Runs on a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
                  const http::Reply& send);
   /// Has a document answered in JSON.

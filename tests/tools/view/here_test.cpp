@@ -305,6 +305,19 @@ TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
   }
 }
 
+TEST_F(ViewHere, APathIsInterpolatedAtTheTimesOfItsRequest) {
+  open();
+  json request = json::parse(request_text("office-free-timed"));
+  constexpr double kSince1970_s = 1.76e9;
+  for (json& keyframe : request.at("keyframes")) {
+    keyframe["time"] = keyframe.at("time").get<double>() + kSince1970_s;
+  }
+  const json answer = http().post("/v1/plan", request.dump()).json();
+  const json before = http().post("/v1/interpolate", request.dump()).json();
+  EXPECT_GE(before.at("segments").front().at("t0"), kSince1970_s);
+  EXPECT_EQ(before.at("segments"), answer.at("segments"));
+}
+
 TEST_F(ViewHere, APathIsInterpolatedThroughWhatIsInTheWay) {
   open();
   const std::string request = request_text("office-graze-column");
