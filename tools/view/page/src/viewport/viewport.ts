@@ -84,7 +84,7 @@ export class Viewport {
     this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h));
     const invalidate = (): void => this.stage.invalidate();
     this.extent = new Extent(store, () => this.frame, () => this.up);
-    this.sceneView = new SceneView(this.look, sources.mesh, invalidate, (message) => store.set({ message }));
+    this.sceneView = new SceneView(this.look, this.stage.tubes.viewHeight, sources.mesh, invalidate, (message) => store.set({ message }));
     this.labels = new Labels(part('labels'));
     this.cameraViews = new CameraViews(part('camera-views'));
     this.section = new Section(part('section'), this.look.section, invalidate);
