@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tools/answers/scene_record.h"
 #include "tools/drawing/floor_plan.h"
 
 namespace camway::view {
@@ -29,6 +31,7 @@ std::string plan_picture(const LastPlan& last) {
   plan.subtitle =
       fmt::format("{}: {}", planning::to_string(last.result.status), last.result.message);
   if (last.mesh) plan.mesh = *last.mesh;
+  plan.up = tools::vertical_axis(std::nullopt, last.request);
   plan.corners_C = motion::near_corners_C(last.request.camera);
   plan.keyframes = last.result.keyframes;
   plan.before = draw::sample(motion::interpolate(keyframes_given(last.result)), kPageSamples);
