@@ -61,6 +61,7 @@ class Planner {
     measure();
     slow();
     add_clearance();
+    add_clearance_profile();
     set_status({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_}, result_);
     return std::move(slowed_.law);
   }
@@ -160,6 +161,15 @@ class Planner {
     if (result_.measures) {
       result_.measures->clearance_lower_bound_m = result_.certificate.clearance_lower_bound_m;
     }
+  }
+
+  // The profile is of the path as it will be returned, whatever changed it.
+  void add_clearance_profile() {
+    if (!request_.options.clearance_profile || result_.path.empty()) return;
+    result_.clearance_profile = collision::clearance_profile(
+        query_, result_.path, result_.remaining_collisions,
+        result_.certificate.clearance_lower_bound_m, deadline_.not_before_s(kLeastBudget_s));
+    result_.timing.certify_ms += lap_ms();
   }
 
   // Time for the stages after the final check.

@@ -144,6 +144,8 @@ void add_report(planning::PlanResult& result, Random& random) {
   result.deadline_reached = true;
   for (std::size_t i = 0; i < below(random, 5); ++i)
     result.slowed.push_back({number(random), number(random), number(random), number(random)});
+  for (std::size_t i = 0; i < below(random, 5); ++i)
+    result.clearance_profile.push_back({number(random), number(random), number(random)});
   for (std::size_t i = 0; i < below(random, 5); ++i) {
     planning::KeyframeFault& fault = result.keyframe_faults.emplace_back();
     fault.keyframe = i;

@@ -152,6 +152,9 @@ void take_report(const PlanResponse& response, planning::PlanResult& result) {
     result.slowed.push_back(
         {each.t_begin_s, each.t_end_s, each.given_t_begin_s, each.given_t_end_s});
   }
+  for (const ClearanceStretch& each : response.clearance_profile) {
+    result.clearance_profile.push_back({each.t_begin_s, each.t_end_s, each.clearance_m});
+  }
   std::ranges::transform(response.keyframe_faults, std::back_inserter(result.keyframe_faults),
                          fault_of_keyframe);
   if (response.infeasibility) result.infeasibility = proof_of(*response.infeasibility);

@@ -71,6 +71,13 @@ struct SlowedStretch {
   double given_t_end_s = 0.0;    ///< end by the times of the request
 };
 
+/// A time range of the path with a proved lower bound of the distance between body and scene.
+struct ClearanceStretch {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  double clearance_m = 0.0;  ///< 0 where nothing is proved; at most 100 unless more is required
+};
+
 /// A given keyframe at which the body collides, is nearer to the scene than the required clearance,
 /// or leaves its bounds.
 struct KeyframeFault {

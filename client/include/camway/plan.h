@@ -119,6 +119,7 @@ struct PlanRequest {
   /// Whether a given keyframe that collides is moved to the nearest free pose. If not, the request
   /// ends with `kInvalid`.
   bool repair_keyframes = false;
+  bool clearance_profile = false;  ///< whether the answer has `PlanResponse::clearance_profile`
   std::int64_t seed = 0;  ///< random seed of the searches for detours
 
   /// Id of the request; 0 lets the client pick one. Any other number must never have been used by
@@ -210,6 +211,8 @@ struct PlanResponse {
   /// limits. Then all times in the answer are times on the slowed path.
   double time_scale = 1.0;
   std::vector<SlowedStretch> slowed;           ///< slowed parts of `path`, in order of time
+  /// Proved clearance of all of `path`, stretch after stretch; empty unless the request asks for it.
+  std::vector<ClearanceStretch> clearance_profile;
   std::vector<KeyframeFault> keyframe_faults;  ///< given keyframes that collide, or were repaired
   std::optional<Infeasibility> infeasibility;  ///< the proof of `kInfeasible`
   /// Whether the deadline left anything undone, whatever the status. Only then may the same request

@@ -71,6 +71,7 @@ struct PlanOptions {
   double max_shrink = 0.0;
   /// Moves given keyframes that collide to the nearest free pose instead of refusing the request.
   bool repair_keyframes = false;
+  bool clearance_profile = false;  ///< adds `PlanResult::clearance_profile`
   std::uint64_t seed = 1;  ///< random seed of the searches for ways round [Limit: 1 <= value]
   /// Speed along the chords from which times are derived; if not set,
   /// motion::kNominalSpeed_m_per_s. Refused where keyframes have times.
@@ -142,6 +143,11 @@ inline constexpr FieldSpec kMaxShrink{
 inline constexpr FieldSpec kRepairKeyframes{
     .name = "repair_keyframes",
     .help = "move a given keyframe that collides to the nearest free pose, instead of refusing it"};
+inline constexpr FieldSpec kClearanceProfile{
+    .name = "clearance_profile",
+    .help =
+        "add the proved clearance of each stretch of the path to the answer, as "
+        "`clearance_profile`"};
 inline constexpr FieldSpec kSeed{.name = "seed",
                                  .range = {.least = 1.0},
                                  .help = "seed of the random numbers in searches for ways round"};
@@ -193,6 +199,7 @@ void visit_table(const Visit& visit, Is<PlanOptions> auto& options, Wire&... wir
   visit(option::kBounds, options.bounds, wire.bounds...);
   visit(option::kMaxShrink, options.max_shrink, wire.max_shrink...);
   visit(option::kRepairKeyframes, options.repair_keyframes, wire.repair_keyframes...);
+  visit(option::kClearanceProfile, options.clearance_profile, wire.clearance_profile...);
   visit(option::kSeed, options.seed, wire.seed...);
   visit(option::kDefaultSpeed, options.default_speed_m_per_s, wire.default_speed_m_per_s...);
   visit(option::kViewingDistance, options.viewing_distance_m, wire.viewing_distance_m...);

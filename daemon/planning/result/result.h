@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/base/named_enum.h"
+#include "daemon/collision/clearance_profile.h"
 #include "daemon/collision/interval.h"
 #include "daemon/correction/infeasibility/cage_box.h"
 #include "daemon/correction/path/correction.h"
@@ -133,6 +134,9 @@ struct PlanResult {
   /// part or all the way (`planning/stages/slowing.h`); every time of the result is a slowed one.
   double time_scale = 1.0;
   std::vector<SlowedStretch> slowed;  ///< in order of time; times between them are only shifted
+  /// Proved clearance of all of `path` by stretches, at most `collision::kMostProfileStretches`; the
+  /// least is that of `certificate`. Empty unless the request asks for it, and without a path.
+  std::vector<collision::ClearanceStretch> clearance_profile;
   std::vector<KeyframeFault> keyframe_faults;  ///< faults with kInvalid; else the repaired ones
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
   /// Keyframes from which no way out was found; no proof. On the wire only a part of `message`.

@@ -144,6 +144,13 @@ void members(Io& io, Is<SlowedStretch> auto& stretch, Wire&... wire) {
 }
 
 template <class Io, class... Wire>
+void members(Io& io, Is<collision::ClearanceStretch> auto& stretch, Wire&... wire) {
+  io("t_begin", stretch.t_begin_s, wire.t_begin_s...);
+  io("t_end", stretch.t_end_s, wire.t_end_s...);
+  io("clearance_m", stretch.clearance_m, wire.clearance_m...);
+}
+
+template <class Io, class... Wire>
 void members(Io& io, Is<KeyframeFault> auto& fault, Wire&... wire) {
   io("keyframe", fault.keyframe, wire.keyframe...);
   io({"depth_m", "depth"}, fault.depth_m, wire.depth_m...);
@@ -237,6 +244,8 @@ void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   io(may_lack("deadline_reached", result.deadline_reached), result.deadline_reached,
      wire.deadline_reached...);
   io(may_lack("slowed", !result.slowed.empty()), result.slowed, wire.slowed...);
+  io(may_lack("clearance_profile", !result.clearance_profile.empty()), result.clearance_profile,
+     wire.clearance_profile...);
   io(may_lack("keyframe_faults", !result.keyframe_faults.empty()), result.keyframe_faults,
      wire.keyframe_faults...);
   const auto proof = [&](auto& object, auto& mine) { members(object, mine, wire...); };

@@ -70,6 +70,10 @@ void to_sent_times(const TimeOrigin& origin, PlanResult& result) {
     move(correction.t_begin_s);
     move(correction.t_end_s);
   }
+  collision::move_times({[&](double time_s) { return origin.sent_s(time_s); },
+                         [&](double time_s) { return origin.sent_not_after_s(time_s); },
+                         [&](double time_s) { return origin.sent_not_before_s(time_s); }},
+                        result.clearance_profile);
   for (SlowedStretch& stretch : result.slowed) {
     for (double* time_s :
          {&stretch.t_begin_s, &stretch.t_end_s, &stretch.given_t_begin_s, &stretch.given_t_end_s}) {

@@ -124,6 +124,7 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
   request.bounds.min_m[1] = -0.5;
   request.max_shrink = 0.25;
   request.repair_keyframes = true;
+  request.clearance_profile = true;
   request.seed = 99;
   const std::vector<Bytes> pages = to_pages(request, "me", 7);
   ASSERT_GT(pages.size(), 1u);
@@ -144,6 +145,7 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
     EXPECT_EQ(page->bounds.has_min[0] + page->bounds.has_max[1], 0);
     EXPECT_EQ(page->max_shrink, 0.25);
     EXPECT_EQ(page->repair_keyframes, 1);
+    EXPECT_EQ(page->clearance_profile, 1);
     EXPECT_EQ(page->seed, 99);
   }
 }

@@ -35,7 +35,8 @@ TEST(JsonOptions, ReadsEveryField) {
     "limits": {"speed_m_per_s": 1.5, "acceleration_m_per_s2": 2.5, "turn_rate_deg_per_s": 180,
                "retime": true},
     "bounds": {"min": [null, -0.5, 0], "max": [3, null, null]},
-    "max_shrink": 0.25, "repair_keyframes": true, "seed": 42})");
+    "max_shrink": 0.25, "repair_keyframes": true,
+    "clearance_profile": true, "seed": 42})");
   ASSERT_TRUE(parsed) << parsed.error;
   const PlanOptions& options = *parsed;
   EXPECT_EQ(options.method, planning::Method::kLadder);
@@ -54,6 +55,7 @@ TEST(JsonOptions, ReadsEveryField) {
   EXPECT_TRUE(std::isinf(options.bounds.max_W.y()) && std::isinf(options.bounds.max_W.z()));
   EXPECT_EQ(options.max_shrink, 0.25);
   EXPECT_TRUE(options.repair_keyframes);
+  EXPECT_TRUE(options.clearance_profile);
   EXPECT_EQ(options.seed, 42U);
 }
 

@@ -81,6 +81,9 @@ void add_any_report(planning::PlanResult& result, testing::Random& random) {
   result.slowed.resize(random() % 3);
   for (planning::SlowedStretch& stretch : result.slowed)
     stretch = {number(), number(), number(), number()};
+  result.clearance_profile.resize(random() % 3);
+  for (collision::ClearanceStretch& stretch : result.clearance_profile)
+    stretch = {number(), number(), number()};
   result.keyframe_faults.resize(random() % 3);
   for (planning::KeyframeFault& fault : result.keyframe_faults) {
     fault.keyframe = random() % 1000;

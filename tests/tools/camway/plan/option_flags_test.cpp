@@ -58,12 +58,13 @@ TEST(OptionFlags, OverrideTheOptionsThatAreGiven) {
   EXPECT_EQ(request_with({}).options, planning::PlanOptions{});
   const planning::PlanRequest request = request_with(
       {"--objective", "safest", "--clearance-m", "0.25", "--max-inserted-keyframes", "7",
-       "--repair-keyframes", "--default-speed-m-per-s", "2", "--max-turn-deg", "90"});
+       "--repair-keyframes", "--clearance-profile", "--default-speed-m-per-s", "2", "--max-turn-deg", "90"});
   planning::PlanOptions expected;
   expected.objective = correction::Objective::kSafest;
   expected.clearance_m = 0.25;
   expected.max_inserted_keyframes = 7;
   expected.repair_keyframes = true;
+  expected.clearance_profile = true;
   expected.default_speed_m_per_s = 2.0;
   expected.orientation.max_turn_rad = std::numbers::pi / 2;
   EXPECT_EQ(request.options, expected);
