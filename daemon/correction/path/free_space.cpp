@@ -35,7 +35,7 @@ FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& pol
 }
 
 bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
-  return probe_.check(motion::standing_at(pose), margin_m).free;
+  return probe_.is_free(pose, margin_m);
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
