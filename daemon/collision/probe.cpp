@@ -143,13 +143,13 @@ bool Probe::is_free(const motion::Pose& pose, double margin_m) {
 // The search of `check` would find the same: no bound excludes a triangle whose distance is less
 // than what is required by more than its error, and no slab about a body that stands still is wider
 // than that distance. A distance of exactly 0 is decided by exact predicates.
-bool Probe::is_surely_near(std::uint32_t obstacle, double margin_m) const {
+bool Probe::is_surely_near(std::uint32_t obstacle, double margin_m) {
   const Triangle other = obstacles_.index.triangle(obstacle);
+  if (touches(other)) return true;
   const double near_m = margin_m + keep_m_ - 2.0 * obstacles_.index.nearest_error_m(ends_);
-  return std::ranges::any_of(placed_, [&](const Triangle& part) {
-    const double distance_m = geometry::triangle_distance(part, other, std::max(0.0, near_m));
-    return distance_m == 0.0 || distance_m < near_m;
-  });
+  return near_m > 0.0 && std::ranges::any_of(placed_, [&](const Triangle& part) {
+           return geometry::triangle_distance(part, other, near_m) < near_m;
+         });
 }
 
 ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, Way way) {
