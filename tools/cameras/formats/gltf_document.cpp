@@ -52,6 +52,36 @@ std::string split_glb(std::string_view bytes, Chunks& chunks) {
   return chunks.json.empty() ? "has no JSON" : "";
 }
 
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// A relative URI as the name of a file: "a%20b" is "a b" (glTF 2.0, section 2.8).
+std::string file_name_of(const std::string& uri) {
+  std::string name;
+  for (std::size_t at = 0; at < uri.size(); ++at) {
+    const bool has_two = uri[at] == '%' && at + 2 < uri.size();
+    const int high = has_two ? hex_digit(uri[at + 1]) : -1;
+    const int low = has_two ? hex_digit(uri[at + 2]) : -1;
+    if (high < 0 || low < 0) {
+      name += uri[at];
+      continue;
+    }
+    name += static_cast<char>(16 * high + low);
+    at += 2;
+  }
+  return name;
+}
+
+/// Opens the file of a URI. Programs that do not encode names write those with '%' as they are.
+base::Result<std::string> open_uri(const CameraFile& file, const std::string& uri) {
+  const std::string name = file_name_of(uri);
+  base::Result<std::string> read = file.open_beside(name);
+  return read || name == uri ? read : file.open_beside(uri);
+}
+
 base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& file,
                                        std::string_view binary) {
   const auto uri = buffer.find("uri");
@@ -60,7 +90,7 @@ base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& fil
   const auto& text = uri->get_ref<const std::string&>();
   if (!text.starts_with("data:")) {
     if (!file.open_beside) return base::Failure{"needs the file " + text};
-    base::Result<std::string> read = file.open_beside(text);
+    base::Result<std::string> read = open_uri(file, text);
     if (!read) return base::Failure{"needs " + text + ", which " + read.error};
     return read;
   }

@@ -84,6 +84,35 @@ TEST(CameraFormats, KnowTheirFilesByNameAndContent) {
   EXPECT_EQ(name_of("a.txt", "# t x y z\n\n1 2 3 4 5 6 7 8\n"), "tum");
   EXPECT_EQ(name_of("a.txt", "1 2 3 4 5 6 7 8 9 10 11 12\n"), "kitti");
   EXPECT_EQ(name_of("a.txt", "hello\n"), "none");
+  // The content counts where names say nothing.
+  EXPECT_EQ(name_of("images.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), "kitti");
+  EXPECT_EQ(name_of("images.txt", "# x\n1 1 0 0 0 0 0 0 1 a.png\n\n"), "colmap");
+  EXPECT_EQ(name_of("poses.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n"), "colmap");
+  EXPECT_EQ(name_of("a.fbx", "glTF\2"), "gltf");
+  EXPECT_EQ(name_of("a.txt",
+                    "\xEF\xBB\xBF"
+                    "1 2 3 4 5 6 7 8\n"),
+            "tum");
+}
+
+TEST(CameraFormats, SayWhyAFileIsNone) {
+  const auto why = [](const std::string& name, const std::string& bytes) {
+    const CameraFile file = file_of(name, bytes);
+    const std::string unreadable = why_unreadable(file);
+    return unreadable.empty() ? why_no_format(file) : unreadable;
+  };
+  EXPECT_EQ(why("a.csv", " \n"), "is empty");
+  EXPECT_EQ(why("a.csv", "\xFF\xFEt"), "is UTF-16: save it as UTF-8, or as plain CSV");
+  EXPECT_THAT(why("a.glb", "Kaydara FBX Binary  "), HasSubstr("rename it to .fbx"));
+  EXPECT_THAT(why("a.blend", "x"), HasSubstr("use the add-on"));
+  EXPECT_THAT(why("a.bag", "x"), HasSubstr("write the poses as TUM"));
+  EXPECT_THAT(why("a.usdz", "x"), HasSubstr("USD is not supported"));
+  EXPECT_THAT(why("a.json", "{\n\"a\": }"), HasSubstr("line 2"));
+  EXPECT_THAT(why("a.json", "{}"), HasSubstr("has neither 'camera_path'"));
+  EXPECT_THAT(why("a.json", R"({"camera": {}, "keyframes": []})"), HasSubstr("camway plan"));
+  EXPECT_THAT(why("a.csv", "t,x,y\n"), HasSubstr("line 1 names no column for z, qw"));
+  EXPECT_THAT(why("a.txt", "# r\n1 2 3\n"), HasSubstr("Its first line has 3 words"));
+  EXPECT_THAT(why("a.dat", std::string("a\0b", 3)), HasSubstr("is binary"));
 }
 
 TEST(CameraFormats, TurnChannelsInTheOrderZxy) {
@@ -128,18 +157,18 @@ TEST(CameraFormats, ReadPathsOfNerfstudio) {
               HasSubstr("camera_path[0].camera_to_world: must be 16 numbers, or 3 or 4 rows of 4"));
   EXPECT_THAT(error_of("nerfstudio", R"({"camera_path": [{"camera_to_world":
               [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})"),
-              HasSubstr("has no rotation"));
+              HasSubstr("is no rotation: it mirrors"));
 }
 
 TEST(CameraFormats, ReadAnglesOfTransforms) {
   const std::string frames =
       R"("frames": [{"transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}])";
-  EXPECT_NEAR(*sound("transforms", R"({"camera_angle_x": 0.7, )" + frames + "}").fov_x_rad, 0.7,
-              1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(sound("transforms", R"({"camera_angle_x": 0.7, )" + frames + "}")),
+              0.7, 1e-12);
   const CameraTrack track =
       sound("transforms", R"({"fl_x": 50, "w": 100, "h": 50, )" + frames + "}");
-  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
-  EXPECT_NEAR(*track.fov_y_rad, 2.0 * std::atan(0.5), 1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(track), 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_y_rad(track), 2.0 * std::atan(0.5), 1e-12);
   EXPECT_FALSE(track.has_times);
 }
 
@@ -156,8 +185,49 @@ TEST(CameraFormats, ReadEverySecondLineOfColmap) {
   expect_near(track.keys[0].pose_W.position, Vec3(1, 0, 5));
   expect_near(track.keys[1].pose_W.position, Vec3(0, 0, 5));
   expect_near(look(track.keys[0]), -Vec3::UnitZ());
-  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
-  EXPECT_NEAR(*track.fov_y_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(track), 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_y_rad(track), 90.0 * kDegree, 1e-12);
+}
+
+TEST(CameraFormats, ReadTheLensOfEachFrame) {
+  const std::string matrix = R"("transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]])";
+  const std::string file = R"({"w": 100, "h": 100, "frames": [{"fl_x": 50, )" + matrix +
+                           R"(}, {"fl_x": 25, )" + matrix + "}]}";
+  const CameraTrack track = sound("transforms", file);
+  EXPECT_NEAR(*track.keys[0].fov_x_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*track.keys[1].fov_x_rad, 2.0 * std::atan(2.0), 1e-12);
+  EXPECT_NEAR(*track.keys[1].fov_y_rad, 2.0 * std::atan(2.0), 1e-12);
+  EXPECT_THAT(
+      error_of("transforms", R"({"frames": [{"transform_matrix":
+              [[1,0.5,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]})"),
+      HasSubstr("frames[0].transform_matrix: is no rotation: its columns are not at right"));
+  // Each image of COLMAP has its camera.
+  const CameraTrack images =
+      sound("colmap", "1 1 0 0 0 0 0 0 1 a\n\n2 1 0 0 0 0 0 0 2 b\n\n", {},
+            {{"cameras.txt", "1 PINHOLE 100 50 50 25 50 25\n2 SIMPLE_RADIAL 100 50 25 50 25 0\n"}});
+  EXPECT_NEAR(*widest_fov_x_rad(images), 2.0 * std::atan(2.0), 1e-12);
+}
+
+TEST(CameraFormats, TakeNoAngleOfWhatIsNoFlatPicture) {
+  const std::string frames =
+      R"("frames": [{"transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]})";
+  const std::string sizes = R"("fl_x": 50, "w": 100, "h": 50, )";
+  for (const std::string kind :
+       {R"("camera_model": "OPENCV_FISHEYE", )", R"("is_fisheye": true, )"}) {
+    const CameraTrack track = sound("transforms", "{" + kind + sizes + frames);
+    EXPECT_FALSE(widest_fov_x_rad(track)) << kind;
+    EXPECT_THAT(track.why_no_fov, HasSubstr("which is no flat picture"));
+  }
+  const CameraTrack path = sound("nerfstudio", R"({"fps": 10, "camera_type": "equirectangular",
+      "camera_path": [{"camera_to_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "fov": 50}]})");
+  EXPECT_FALSE(widest_fov_y_rad(path));
+  EXPECT_THAT(path.why_no_fov, HasSubstr("'equirectangular'"));
+  const std::string image = "1 1 0 0 0 0 0 0 1 a\n\n";
+  EXPECT_THAT(sound("colmap", image, {}, {{"cameras.txt", "1 OPENCV_FISHEYE 9 9 9 9 9 9 0 0\n"}})
+                  .why_no_fov,
+              HasSubstr("the model OPENCV_FISHEYE"));
+  EXPECT_EQ(sound("colmap", image).why_no_fov, "cameras.txt beside it is not there");
+  EXPECT_THAT(error_of("chan", "1 0 0 0 0 0 0 200\n"), HasSubstr("200 degrees"));
 }
 
 TEST(CameraFormats, NameWhatIsWrong) {

@@ -103,7 +103,8 @@ TEST(PoseTables, LeaveOutRowsThatRepeatTheOneBefore) {
 TEST(PoseTables, RefuseWhatIsNoRow) {
   EXPECT_EQ(error_of("tum", "1 2 3\n"), "f: line 1: has 3 numbers, not 8");
   EXPECT_EQ(error_of("tum", "\n1 2 3 x 5 6 7 8\n"), "f: line 2: 'x' is no number");
-  EXPECT_EQ(error_of("tum", ""), "f: it has no poses");
+  EXPECT_EQ(error_of("tum", ""), "f: is empty");
+  EXPECT_EQ(error_of("tum", "# no pose\n"), "f: it has no poses");
   EXPECT_EQ(error_of("tum", "1 0 0 0 0 0 0 0\n"),
             "f: line 1: its quaternion is 0, so it has no direction");
   EXPECT_EQ(error_of("tum", "1 2 3 4 0 0 0 1 9\n"), "f: line 1: has 9 numbers, not 8");
