@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/base/base64.h"
+#include "daemon/base/percent.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -52,32 +53,10 @@ std::string split_glb(std::string_view bytes, Chunks& chunks) {
   return chunks.json.empty() ? "has no JSON" : "";
 }
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-/// A relative URI as the name of a file: "a%20b" is "a b" (glTF 2.0, section 2.8).
-std::string file_name_of(const std::string& uri) {
-  std::string name;
-  for (std::size_t at = 0; at < uri.size(); ++at) {
-    const bool has_two = uri[at] == '%' && at + 2 < uri.size();
-    const int high = has_two ? hex_digit(uri[at + 1]) : -1;
-    const int low = has_two ? hex_digit(uri[at + 2]) : -1;
-    if (high < 0 || low < 0) {
-      name += uri[at];
-      continue;
-    }
-    name += static_cast<char>(16 * high + low);
-    at += 2;
-  }
-  return name;
-}
-
-/// Opens the file of a URI. Programs that do not encode names write those with '%' as they are.
+/// Opens the file of a relative URI (glTF 2.0, section 2.8). Programs that do not encode names
+/// write those with '%' as they are.
 base::Result<std::string> open_uri(const CameraFile& file, const std::string& uri) {
-  const std::string name = file_name_of(uri);
+  const std::string name = base::percent_decoded(uri);
   base::Result<std::string> read = file.open_beside(name);
   return read || name == uri ? read : file.open_beside(uri);
 }

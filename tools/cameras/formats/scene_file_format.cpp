@@ -34,9 +34,13 @@ std::string names_of(const std::vector<SceneFileCamera>& cameras) {
 
 /// Whether the file seems to animate a lens: by a channel of COLLADA, or a curve of FBX.
 bool animates_a_lens(std::string_view bytes) {
-  constexpr std::array<std::string_view, 5> kMarks = {
-      "/xfov\"", "/yfov\"", std::string_view("FocalLength\0\1AnimCurveNode", 26),
-      std::string_view("FieldOfView\0\1AnimCurveNode", 26), "AnimCurveNode::F"};
+  constexpr std::array<std::string_view, 6> kMarks = {
+      "/xfov\"",
+      "/yfov\"",
+      std::string_view("FocalLength\0\1AnimCurveNode", 26),
+      std::string_view("FieldOfView\0\1AnimCurveNode", 26),
+      "AnimCurveNode::FocalLength",
+      "AnimCurveNode::FieldOfView"};
   return std::ranges::any_of(
       kMarks, [&](std::string_view mark) { return bytes.find(mark) != std::string_view::npos; });
 }
