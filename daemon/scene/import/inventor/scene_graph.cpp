@@ -10,6 +10,7 @@
 #include <Inventor/nodes/SoLOD.h>
 #include <Inventor/nodes/SoLevelOfDetail.h>
 #include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoUnits.h>
 #include <Inventor/nodes/SoWWWInline.h>
 
 #include <algorithm>
@@ -182,6 +183,7 @@ class GraphReader {
     if (std::ranges::any_of(ignored_, is_kind)) {
       ++graph_.ignored[node.getTypeId().getName().getString()];
     }
+    graph_.has_units = graph_.has_units || node.isOfType(SoUnits::getClassTypeId());
     if (node.isOfType(SoLOD::getClassTypeId())) {
       auto& lod = static_cast<SoLOD&>(node);
       lod.range.setNum(0);
