@@ -14,6 +14,7 @@
 #include <string_view>
 #include <thread>
 
+#include "daemon/base/base64.h"
 #include "daemon/scene/import/import_process.h"
 
 namespace camway::scene {
@@ -478,6 +479,41 @@ TEST_F(Import, SaysWhatToDoWithFormatsThatAreNotRead) {
   EXPECT_THAT(error_of(write("a.gltf", gltf)), HasSubstr("compressed (EXT_meshopt_compression)"));
   EXPECT_THAT(error_of(write("a.ifc", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('IFC4'));ENDSEC;\n")),
               HasSubstr("is of the schema IFC4"));
+}
+
+TEST_F(Import, SaysWhatAFileIsWhoseNameSaysAnotherFormat) {
+  EXPECT_THAT(error_of(write("a.obj", "#Inventor V2.1 ascii\n")),
+              HasSubstr("its content is Open Inventor: name it .iv"));
+  EXPECT_THAT(error_of(write("b.obj", "ISO-10303-21;\nHEADER;\n")), HasSubstr("name it .step"));
+  EXPECT_THAT(error_of(write("c.obj", "Kaydara FBX Binary  ")), HasSubstr("name it .fbx"));
+  EXPECT_THAT(error_of(write("d.fbx", gltf({1, 2, 3, 4, 2, 3, 1, 5, 3}))),
+              HasSubstr("name it .gltf"));
+  EXPECT_THAT(error_of(write("e.json", "[1]")), HasSubstr(".voxel.json, with its .voxel.bin"));
+}
+
+TEST_F(Import, ReadsTextsBehindAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  expect_the_triangle(import_text("a.obj", mark + std::string(kObj)));
+  expect_the_triangle(import_text("a.off", mark + std::string(kOff)));
+  expect_the_triangle(import_text("a.ply", mark + std::string(kPly)));
+  expect_the_triangle(import_text("a.stl", mark + std::string(kStl)));
+  EXPECT_EQ(import_text("a.ug", mark + "v p 0 0 0; v q 1 0 0; v r 0 1 0; f (p q r);")
+                .mesh->triangles.size(),
+            1U);
+}
+
+TEST_F(Import, OpensTheFilesThatGltfNamesInAUri) {
+  std::string text = gltf({1, 2, 3, 4, 2, 3, 1, 5, 3});
+  const std::string begin = "data:application/octet-stream;base64,";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t end = text.find('"', at);
+  const std::string coded = text.substr(at + begin.size(), end - at - begin.size());
+  const auto bytes = base::decode_base64(coded);
+  ASSERT_TRUE(bytes);
+  write("a b\xC3\xBC.bin", *bytes);
+  text.replace(at, end - at, "a%20b%C3%BC.bin");
+  EXPECT_EQ(import_text("a.gltf", text).mesh->triangles.size(), 1U);
 }
 
 // Many programs write it so; assimp 5.2 refuses the whole file.

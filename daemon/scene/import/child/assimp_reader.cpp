@@ -24,6 +24,7 @@
 #include "daemon/scene/import/child/assimp_cameras.h"
 #include "daemon/scene/import/child/assimp_refusal.h"
 #include "daemon/scene/import/child/collada_text.h"
+#include "daemon/scene/import/child/encoded_names.h"
 #include "daemon/scene/import/common/import_process_main.h"
 #include "daemon/scene/import/common/transform_chain.h"
 #include "daemon/scene/import/readers/tokens.h"
@@ -151,6 +152,7 @@ std::string unit_fault(const aiScene& scene, const std::string& format) {
 void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
   if (record.text.find("Collada") != std::string::npos) {
     record.notes += "the file's own <unit> and <up_axis> are applied: metres, Y up\n";
+    record.header.unit_m = 1.0;
   }
   if (record.text.find("FBX") == std::string::npos || scene.mMetaData == nullptr) return;
   if (const std::optional<double> unit_cm = fbx_unit_cm(scene, record.text)) {
@@ -183,6 +185,7 @@ bool is_collada(const std::string& extension) {
 const aiScene* read_with_assimp(Assimp::Importer& importer, const std::string& file,
                                 const std::string& extension, unsigned steps) {
   if (!is_collada(extension)) {
+    importer.SetIOHandler(new EncodedNames);  // which the importer deletes
     return importer.ReadFile(file, steps);
   }
   const std::string document = without_blanks_before_numbers(text_of(file, kWhole));

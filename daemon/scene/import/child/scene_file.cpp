@@ -15,6 +15,7 @@
 #include "daemon/scene/import/common/mapped_file.h"
 #include "daemon/scene/import/points/point_reader.h"
 #include "daemon/scene/import/readers/mesh_reader.h"
+#include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/record/record_layout.h"
 #include "daemon/scene/import/surfaces/bezier_patches.h"
 #include "daemon/scene/import/unigrafix/unigrafix_reader.h"
@@ -47,6 +48,13 @@ base::Result<import_record::Record> read_directly(const std::string& file,
   return mesh_readers::read_mesh(extension, bytes);
 }
 
+/// The bytes without the mark before UTF-8, which a binary STL could have by chance.
+std::string_view text_of(std::string_view extension, std::string_view bytes) {
+  const std::string_view text = mesh_readers::without_bom(bytes);
+  const bool is_stl = mesh_readers::equals_ignoring_case(extension, ".stl");
+  return is_stl && !text.starts_with("solid") ? bytes : text;
+}
+
 int import_directly(const std::string& file, const std::string& extension) {
   const import_process::MappedFile mapped(file);
   if (!mapped.is_open()) {
@@ -54,7 +62,8 @@ int import_directly(const std::string& file, const std::string& extension) {
     return errno == ENOMEM ? import_record::kExitOutOfMemory
                            : import_process::refuse("cannot be opened");
   }
-  base::Result<import_record::Record> read = read_directly(file, extension, mapped.bytes());
+  base::Result<import_record::Record> read =
+      read_directly(file, extension, text_of(extension, mapped.bytes()));
   if (!read) return import_process::refuse(std::move(read.error));
   return import_process::write_record(*read);
 }
@@ -71,6 +80,11 @@ int import_map(const std::string& file, const std::string& extension) {
 int import_scene_file(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (is_read_directly(file, extension)) return import_directly(file, extension);
+  if (mesh_readers::equals_ignoring_case(extension, ".json")) {
+    return import_process::refuse(
+        "of JSON only voxels of splats are read: a file named .voxel.json, with its .voxel.bin "
+        "beside it. Being two files, they cannot be uploaded");
+  }
   if (is_map_extension(extension)) return import_map(file, extension);
   return import_with_assimp(file, extension);
 }

@@ -11,6 +11,7 @@
 #include "daemon/scene/import/common/included_files.h"
 #include "daemon/scene/import/common/mapped_file.h"
 #include "daemon/scene/import/inventor/inventor_reader.h"
+#include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene::inventor {
@@ -24,8 +25,8 @@ int import_inventor_file(const std::string& file) {
   }
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(file, error).parent_path();
-  base::Result<import_record::Record> read =
-      read_inventor(mapped.bytes(), {folder.string(), files_below(file)});
+  base::Result<import_record::Record> read = read_inventor(
+      mesh_readers::without_bom(mapped.bytes()), {folder.string(), files_below(file)});
   if (!read) return import_process::refuse(std::move(read.error));
   return import_process::write_record(*read);
 }
