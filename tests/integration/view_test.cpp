@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <memory>
 #include <regex>
@@ -191,7 +192,15 @@ TEST_F(ViewDaemonTest, SaysThatTheDaemonIsGoneAndBack) {
   EXPECT_FALSE(next_heard(true).contains("closed"));
   daemon().signal(SIGKILL);
   ASSERT_EQ(daemon().wait(), 128 + SIGKILL);
+  const auto timed_plan_s = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(http().post("/v1/plan", request_text("office-graze-door")).code, 503);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  // A silence of 3 s, looked for four times a second; the client itself would repeat for 10 s.
+  EXPECT_LT(timed_plan_s(), 6.0);
   EXPECT_FALSE(next_heard(false).contains("closed"));
+  EXPECT_LT(timed_plan_s(), 1.0);
   const Reached status = http().get("/v1/status");
   EXPECT_EQ(status.code, 503);
   EXPECT_THAT(status.json().at("error").get<std::string>(), HasSubstr("no daemon is heard"));

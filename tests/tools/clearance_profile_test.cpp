@@ -26,7 +26,7 @@ using collision::ClearanceStretch;
 using planning::PlanResult;
 
 constexpr std::uint64_t kProfileSeed = 2107;
-constexpr int kProfileRequests = 200;
+constexpr int kProfileRequests = 60;
 constexpr int kSamplesOfAProfile = 1500;
 constexpr double kFarTime_s = 1.76e9;  // seconds since 1970
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -66,6 +67,8 @@ tools::PlanAnswer to_plan_answer(const PlanResponse& response, const PlanOrder& 
   return answer;
 }
 
+Answer no_daemon() { return failure(code::kNoDaemon, "no daemon is heard"); }
+
 class DaemonJob final : public Job {
  public:
   DaemonJob(Client& client, std::int64_t id) : client_(client), id_(id) {}
@@ -111,7 +114,9 @@ class PlannerDaemon final : public Backend {
  public:
   PlannerDaemon(std::string scene, const ClientOptions& options)
       : scene_(std::move(scene)), client_(std::in_place, options) {
-    if (client_->good()) heartbeats_.emplace(*client_);
+    if (!client_->good()) return;
+    heartbeats_.emplace(*client_);
+    heartbeats_->on_silence([this] { fail_plans(); });
   }
   ~PlannerDaemon() override {
     stop_calls();
@@ -155,6 +160,10 @@ class PlannerDaemon final : public Backend {
   /// Runs a call that waits for the daemon on a thread of its own.
   void call(Done done, std::function<Answer()> ask);
   void stop_calls();
+  /// Returns who is to be told of a plan; null if that was done.
+  std::shared_ptr<Reporter> take_plan(std::uint64_t key);
+  /// Answers plans that are under way: the daemon is silent.
+  void fail_plans();
   [[nodiscard]] Answer planned(const PlanResponse& response, const PlanOrder& order);
   [[nodiscard]] Answer status_answer();
 
@@ -164,6 +173,8 @@ class PlannerDaemon final : public Backend {
   int calls_ = 0;  ///< calls that run
   bool has_stopped_ = false;
   std::shared_ptr<const LastPlan> last_;
+  std::map<std::uint64_t, std::shared_ptr<Reporter>> plans_;  ///< those without an answer
+  std::uint64_t last_plan_ = 0;                               ///< last key of `plans_`
   WorkPool writer_{1};  ///< writes answers, which would take the time of the client's thread
   std::optional<Client> client_;
   std::optional<Heartbeats> heartbeats_;  ///< set unless the client has an error
@@ -181,13 +192,41 @@ std::shared_ptr<Job> PlannerDaemon::plan(PlanOrder order, Tell progress, Done do
     };
   }
   auto reporter = std::make_shared<Reporter>(std::move(done));
+  // The client would repeat the request for seconds.
+  if (heartbeats_->is_silent()) {
+    reporter->report(no_daemon());
+    return nullptr;
+  }
+  std::uint64_t key = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    key = ++last_plan_;
+    plans_.emplace(key, std::move(reporter));
+  }
   auto asked = std::make_shared<const PlanOrder>(std::move(order));
-  handlers.on_answer = [this, asked, reporter](const PlanResponse& response) {
-    writer_.post(
-        [this, asked, reporter, response] { reporter->report(planned(response, *asked)); });
+  handlers.on_answer = [this, asked, key](const PlanResponse& response) {
+    writer_.post([this, asked, key, response] {
+      if (const auto told = take_plan(key)) told->report(planned(response, *asked));
+    });
   };
   const PendingPlan pending = client_->plan_async(request, std::move(handlers));
   return std::make_shared<DaemonJob>(*client_, pending.request_id);
+}
+
+std::shared_ptr<Reporter> PlannerDaemon::take_plan(std::uint64_t key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = plans_.find(key);
+  if (found == plans_.end()) return nullptr;
+  std::shared_ptr<Reporter> reporter = std::move(found->second);
+  plans_.erase(found);
+  return reporter;
+}
+
+void PlannerDaemon::fail_plans() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [key, reporter] : plans_)
+    writer_.post([reporter = std::move(reporter)] { reporter->report(no_daemon()); });
+  plans_.clear();
 }
 
 Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& order) {
@@ -255,7 +294,7 @@ void PlannerDaemon::status(Done done) {
 
 Answer PlannerDaemon::status_answer() {
   const std::optional<DaemonStatus> status = heartbeats_->wait();
-  if (!status) return failure(code::kNoDaemon, "no daemon is heard");
+  if (!status) return no_daemon();
   return {
       code::kOk,
       fmt::format("{{\"planner\": \"daemon\", \"scene\": {}, \"daemon\": {}}}", json_string(scene_),
