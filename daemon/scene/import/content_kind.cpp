@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
-
-#include "daemon/scene/import/readers/tokens.h"
 
 namespace camway::scene {
 namespace {
@@ -38,13 +35,17 @@ constexpr std::array<Content, 13> kContents = {{
 }  // namespace
 
 std::string content_fault(std::string_view extension, std::string_view begin) {
-  begin = mesh_readers::without_bom(begin);
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // that some editors put before UTF-8
+  if (begin.starts_with(kMark)) begin.remove_prefix(kMark.size());
+  std::string lower(extension);
+  std::ranges::transform(lower, lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   for (const Content& content : kContents) {
     if (!begin.starts_with(content.first)) continue;
     if (begin.find(content.word) == std::string_view::npos) continue;
-    const bool fits = std::ranges::any_of(content.extensions, [&](std::string_view each) {
-      return !each.empty() && mesh_readers::equals_ignoring_case(extension, each);
-    });
+    const bool fits = std::ranges::any_of(
+        content.extensions, [&](std::string_view each) { return !each.empty() && each == lower; });
     if (fits) return "";
     return "its content is " + std::string(content.name) + ": name it " +
            std::string(content.extensions[0]);

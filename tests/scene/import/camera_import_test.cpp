@@ -7,50 +7,20 @@
 #include <numbers>
 #include <string>
 
+#include "tests/support/collada_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace camway::scene {
 namespace {
 
+using camway::testing::collada_camera;
 using camway::testing::TemporaryFolder;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 
-/// A camera of 60 degrees across, 2 units in front of an arm that is 10 units up. The camera goes
-/// from there to 4 units in front in 2 s, and turns by 90 degrees to its left. A unit is half a
-/// metre.
-std::string collada(const std::string& target) {
-  return R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit meter="0.5"/><up_axis>Y_UP</up_axis></asset>
-<library_cameras><camera id="lens" name="lens"><optics><technique_common><perspective>
-<xfov>60</xfov><aspect_ratio>1.5</aspect_ratio><znear>0.2</znear><zfar>100</zfar>
-</perspective></technique_common></optics></camera></library_cameras>
-<library_animations><animation id="a">
-<source id="t"><float_array id="ta" count="2">0 2</float_array><technique_common>
-<accessor source="#ta" count="2" stride="1"><param name="TIME" type="float"/></accessor>
-</technique_common></source>
-<source id="m"><float_array id="ma" count="32"> 1 0 0 0 0 1 0 0 0 0 1 -2 0 0 0 1
- 0 0 1 0 0 1 0 0 -1 0 0 -4 0 0 0 1</float_array><technique_common>
-<accessor source="#ma" count="2" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor>
-</technique_common></source>
-<source id="i"><Name_array id="ia" count="2">LINEAR LINEAR</Name_array><technique_common>
-<accessor source="#ia" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor>
-</technique_common></source>
-<sampler id="s"><input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#m"/>
-<input semantic="INTERPOLATION" source="#i"/></sampler>
-<channel source="#s" target=")" +
-         target + R"("/></animation></library_animations>
-<library_visual_scenes><visual_scene id="v">
-<node id="arm" name="arm"><translate>0 10 0</translate>
-<node id="eye" name="eye"><matrix sid="transform"> 1 0 0 0 0 1 0 0 0 0 1 -2 0 0 0 1</matrix>
-<instance_camera url="#lens"/></node></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#v"/></scene></COLLADA>)";
-}
-
 TEST(CameraImport, ReadsCamerasThatHangFromNodes) {
   const TemporaryFolder folder;
-  const auto cameras = import_cameras(folder.write("a.dae", collada("eye/transform")));
+  const auto cameras = import_cameras(folder.write("a.dae", collada_camera("eye/transform")));
   ASSERT_TRUE(cameras) << cameras.error;
   ASSERT_EQ(cameras->size(), 1U);
   const SceneFileCamera& camera = cameras->front();
@@ -70,14 +40,14 @@ TEST(CameraImport, ReadsCamerasThatHangFromNodes) {
 TEST(CameraImport, RefusesChannelsOfSingleAxes) {
   const TemporaryFolder folder;
   for (const char* const target : {"eye/location.X", "eye/transform(3)(0)"}) {
-    EXPECT_THAT(import_cameras(folder.write("a.dae", collada(target))).error,
+    EXPECT_THAT(import_cameras(folder.write("a.dae", collada_camera(target))).error,
                 HasSubstr("a.dae: cannot be read: its animation has channels for single axes"));
   }
 }
 
 TEST(CameraImport, SaysWhatIsMissing) {
   const TemporaryFolder folder;
-  std::string nameless = collada("eye/transform");
+  std::string nameless = collada_camera("eye/transform");
   nameless.replace(nameless.find(" name=\"lens\""), 12, "");
   const auto cameras = import_cameras(folder.write("a.dae", nameless));
   ASSERT_TRUE(cameras) << cameras.error;
