@@ -182,7 +182,7 @@ class Probe {
   std::optional<scene::SweptResult> swept(const motion::Stretch& stretch, double keep_m,
                                           double& rounding_m);
   /// Whether triangle `obstacle` of the scene is surely nearer to the body as it was moved last
-  /// than `margin_m` and the required clearance. False for a body with a tree.
+  /// than `margin_m` and the required clearance. Requires a body without a tree.
   [[nodiscard]] bool is_surely_near(std::uint32_t obstacle, double margin_m);
   /// The linear bound with these values at the eye and at the body's radius.
   [[nodiscard]] scene::RadialBound radial(double at_eye_m, double at_radius_m) const;

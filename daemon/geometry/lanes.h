@@ -42,7 +42,7 @@ CAMWAY_INLINE Vec3 get(const Vectors& v, std::size_t lane) {
 CAMWAY_INLINE Triangle stored(const Vectors& v) { return {get(v, 0), get(v, 1), get(v, 2)}; }
 /// Lane `lane` in every lane.
 CAMWAY_INLINE Vectors repeat(const Vectors& v, std::size_t lane) { return repeat(get(v, lane)); }
-/// Each lane is the next one: edges of a triangle are this less the triangle.
+/// The corners that follow: less the triangle, this is its edges.
 CAMWAY_INLINE Vectors rotated(const Vectors& v) {
   return {__builtin_shufflevector(v.x, v.x, 1, 2, 0, 1),
           __builtin_shufflevector(v.y, v.y, 1, 2, 0, 1),
@@ -66,6 +66,7 @@ CAMWAY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 CAMWAY_INLINE Vectors operator*(double s, const Vectors& v) { return {s * v.x, s * v.y, s * v.z}; }
+/// The largest magnitude of a coordinate.
 CAMWAY_INLINE double largest_coordinate(const Vectors& v) {
   const Numbers x = v.x < 0.0 ? -v.x : v.x;
   const Numbers y = v.y < 0.0 ? -v.y : v.y;

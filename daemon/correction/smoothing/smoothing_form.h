@@ -96,7 +96,7 @@ class FreeCoefficients {
 
   motion::KnotRow knots_;
   std::vector<motion::KnotBump> bumps_;  ///< from `first_` to `last_`
-  std::vector<Eigen::Index> variables_;  ///< the same
+  std::vector<Eigen::Index> variables_;  ///< of these knots, by `variable`
   int first_ = 0;
   int last_ = 0;
   Eigen::Index size_ = 0;

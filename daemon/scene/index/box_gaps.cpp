@@ -155,7 +155,7 @@ struct Steps {
                                     std::numeric_limits<float>::min());
 }
 
-/// `box_gaps` of boxes that were converted already.
+/// The bounds along the axes of the world.
 [[gnu::always_inline]] inline void add_box_gaps(const ByteFrame& frame, const Steps& steps,
                                                 const Sides& boxes, const BoxSides& box,
                                                 double squared_reach_m2, BoxGaps& out) {
@@ -177,7 +177,7 @@ struct Steps {
   keep_near(sum, steps.largest, squared_reach_m2, out);
 }
 
-/// `oblique_gaps` of boxes that were converted already.
+/// Raises the bounds by those along the axes of the body.
 [[gnu::always_inline]] inline void raise_by_oblique_gaps(const ByteFrame& frame, const Steps& steps,
                                                          const Sides& boxes,
                                                          const ObliqueSides& body,

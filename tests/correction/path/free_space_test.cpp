@@ -183,6 +183,7 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
       }
       return least_m - body.ball_radius_m();
     };
+    std::optional<std::uint32_t> met;
     for (int run = 0; run < 300; ++run) {
       const motion::Pose pose = any_pose(random);
       const double margin_m = 0.1 * share(random);
@@ -206,6 +207,8 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
       EXPECT_EQ(space.ball_passes(pose.position, other_W, ball_m),
                 alone.ball_passes(pose.position, other_W, ball_m) &&
                     std::min(bounds.depth_m(pose.position), bounds.depth_m(other_W)) > ball_m);
+      EXPECT_EQ(space.ball_passes(pose.position, other_W, ball_m, met),
+                space.ball_passes(pose.position, other_W, ball_m));
       EXPECT_LE(space.way_gap_m(pose.position, other_W, 1.0), bounds.depth_m(other_W));
       EXPECT_LE(space.way_gap_m(pose.position, other_W, 1.0),
                 alone.way_gap_m(pose.position, other_W, 1.0));
