@@ -25,6 +25,8 @@ bool exercise_door_message(std::span<const std::uint8_t> bytes) {
     static_cast<void>(view::read_check_document(*document));
     static_cast<void>(view::read_added(*document));
     static_cast<void>(view::read_moved(*document));
+    const auto triangles = view::read_triangles(*document);
+    promise(!triangles || triangles->indices.size() <= view::kMostIndices, "few triangles");
   }
   return bad == nullptr;
 }
@@ -49,6 +51,11 @@ std::vector<FuzzBytes> door_message_seeds() {
            R"({"name": "b", "form": {"type": "cylinder", "radius_m": 1, "height_m": 2,
                "chord_error_m": 0.1}, )" +
                pose + "}",
+           R"({"id": 1, "do": "interpolate", "request": )" + request + "}",
+           std::string(R"({"id": 1, "do": "triangles", "scene": "a", "indices": [0, -1, 70000]})"),
+           std::string(R"({"indices": [1, 2, 9007199254740992]})"),
+           std::string(R"({"id": 1, "do": "fields"})"),
+           std::string(R"({"id": 1, "do": "last"})"),
            request,
        }) {
     seeds.push_back(fuzz_bytes(seed));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
 #include "tools/camway/common/browser.h"
@@ -55,15 +56,50 @@ std::string place_name(const std::string& file) {
   return name.empty() ? "scene" : name;
 }
 
+/// The request of the flags.
+struct FirstRequest {
+  RequestFile request;
+  nlohmann::json document;
+};
+
+base::Result<std::optional<FirstRequest>> read_first_request(const std::string& file) {
+  if (file.empty()) return std::optional<FirstRequest>();
+  const base::Result<std::string> text = read_text(file);
+  if (!text) return base::Failure{text.error};
+  base::Result<RequestFile> request = read_request_text(*text, file);
+  if (!request) return base::Failure{request.error};
+  if (const auto fault = planning::validate(*request)) {
+    return base::Failure{source_of(file) + ": " + fault->message};
+  }
+  return std::optional<FirstRequest>({*std::move(request), nlohmann::json::parse(*text)});
+}
+
+/// Returns a request as the door takes it: it names a scene and no file, and has the mesh of its
+/// body.
+std::shared_ptr<const std::string> text_for_door(FirstRequest first, const std::string& scene) {
+  first.document["scene"] = scene;
+  if (first.request.body_file && first.request.body) {
+    const auto& mesh = std::get<motion::MeshShape>(*first.request.body);
+    nlohmann::json vertices = nlohmann::json::array();
+    for (const geometry::Vec3& v : mesh.vertices_C) vertices.push_back({v.x(), v.y(), v.z()});
+    first.document["body"] = {{"type", "mesh"},
+                              {"vertices", std::move(vertices)},
+                              {"triangles", mesh.triangles},
+                              {"solid", mesh.solid}};
+  }
+  return std::make_shared<const std::string>(first.document.dump());
+}
+
 /// Loads the scene of the flags, or that of the request. Returns what plans in it here.
 base::Result<std::unique_ptr<view::Backend>> backend_here(
-    const ViewFlags& flags, const std::optional<RequestFile>& request) {
-  const std::string file = request ? flags.file.file_for(flags.request, *request) : flags.file.file;
+    const ViewFlags& flags, const std::optional<FirstRequest>& first) {
+  const std::string file =
+      first ? flags.file.file_for(flags.request, first->request) : flags.file.file;
   if (file.empty()) {
     return base::Failure{"SCENE names a scene of a daemon, --scene a file to plan in without one"};
   }
   scene::SnapshotOptions options;
-  options.import = flags.file.import_options(request ? request->reading : SceneReading{});
+  options.import = flags.file.import_options(first ? first->request.reading : SceneReading{});
   const scene::SnapshotResult loaded =
       load_timed(place_name(file), file, options, user_cache(flags.file)).result;
   if (!loaded.snapshot) return base::Failure{loaded.error};
@@ -78,30 +114,25 @@ base::Result<std::unique_ptr<view::Backend>> backend_daemon(ViewFlags flags) {
   return view::plan_by_daemon(flags.scene, flags.client);
 }
 
-/// Begins to plan the request of the flags, for the first page.
-void plan_first(view::Backend& backend, const std::string& file, RequestFile request) {
-  backend.plan({backend.scene(), std::move(request)}, nullptr, [file](const view::Answer& answer) {
+/// Begins to plan the request of the flags, for the first page. Returns it as the door takes it.
+std::string plan_first(view::Backend& backend, const std::string& file, FirstRequest first) {
+  const std::string scene = backend.scene();
+  RequestFile request = first.request;
+  const auto text = text_for_door(std::move(first), scene);
+  backend.plan({scene, std::move(request), text}, nullptr, [file](const view::Answer& answer) {
     if (!answer.error.empty()) print_error(file + ": " + answer.error);
   });
-}
-
-base::Result<std::optional<RequestFile>> read_view_request(const std::string& file) {
-  if (file.empty()) return std::optional<RequestFile>();
-  base::Result<RequestFile> request = read_request(file);
-  if (!request) return base::Failure{request.error};
-  if (const auto fault = planning::validate(*request)) {
-    return base::Failure{source_of(file) + ": " + fault->message};
-  }
-  return std::optional<RequestFile>(*std::move(request));
+  return *text;
 }
 
 /// Prints the address and serves until a signal to end comes.
 ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
-                    view::Backend& backend) {
+                    const std::string& first_request, view::Backend& backend) {
   constexpr long kLongLookMs = 900;
   view::DoorOptions options;
   options.port = flags.port;
   options.is_read_only = flags.is_read_only;
+  options.first_request = first_request;
   options.token = view::random_token();
   if (options.token.empty()) {
     print_error("the kernel gives no random bits for the token");
@@ -122,15 +153,16 @@ ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
 }
 
 ExitCode run_view(const ViewFlags& flags) {
-  base::Result<std::optional<RequestFile>> request = read_view_request(flags.request);
-  if (!request) return invalid_view(request.error);
+  base::Result<std::optional<FirstRequest>> first = read_first_request(flags.request);
+  if (!first) return invalid_view(first.error);
   // Before any thread, all of which inherit the signal mask.
   const Interruption interruption;
   const base::Result<std::unique_ptr<view::Backend>> backend =
-      flags.scene.empty() ? backend_here(flags, *request) : backend_daemon(flags);
+      flags.scene.empty() ? backend_here(flags, *first) : backend_daemon(flags);
   if (!backend) return invalid_view(backend.error);
-  if (*request) plan_first(**backend, flags.request, **std::move(request));
-  return serve_door(flags, interruption, **backend);
+  std::string request_text;
+  if (*first) request_text = plan_first(**backend, flags.request, **std::move(first));
+  return serve_door(flags, interruption, request_text, **backend);
 }
 
 constexpr char kViewFooter[] =

@@ -54,7 +54,7 @@ endfunction()
 # computes in fifty digits. Where both they and a room instantiate a template, the linker may keep the copy
 # that is not optimised.
 set(computing_rooms daemon/base daemon/geometry daemon/motion daemon/scene daemon/collision
-    daemon/correction daemon/paper daemon/planning/request tests/bench tests/collision)
+    daemon/correction daemon/paper daemon/planning/request tools/view/display tests/bench tests/collision)
 
 # optimise_little(TARGET): with CAMWAY_LIGHT, compiles a target without optimisation, unless it is part of a
 # room that computes. Sets `precompiled` in the caller to the precompiled header of its flags.

@@ -26,6 +26,10 @@ struct ResponseFormat {
 base::Result<std::string> write_plan_response(const planning::PlanResult& result,
                                               const ResponseFormat& format = {});
 
+/// Returns a path as JSON text, as the smallest path file: `{"segments": [...]}`. Fails as
+/// `write_plan_response` does.
+base::Result<std::string> write_path(const motion::Path& path);
+
 /// Reads a response (`parse_as`, `read_as`) back to the same bits, with three exceptions: of a
 /// witness's feature only the name is written, not the number; the witness of a correction's
 /// collision is only in `collisions`; angles of corrections and measures may be off by a rounding.

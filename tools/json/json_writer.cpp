@@ -177,4 +177,13 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
   return out;
 }
 
+base::Result<std::string> write_path(const motion::Path& path) {
+  std::string out;
+  JsonWriter io(out);
+  io.object(2, [&] { io("segments", path.segments()); });
+  out += '\n';
+  if (!io.error().empty()) return base::Failure{io.error()};
+  return out;
+}
+
 }  // namespace camway::tools

@@ -103,6 +103,8 @@ LC_ALL=C exec awk '
       fault("NATS is for daemon/nats")
     } else if (file ~ /^boost\/(asio|beast)/ && here !~ /^(daemon\/http|tests)$/) {
       fault("Boost.Asio and Boost.Beast are for daemon/http")
+    } else if (file == "meshoptimizer.h" && here !~ /^(tools\/view\/display|tests)$/) {
+      fault("meshoptimizer is for tools/view/display")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {
       fault("spdlog is for daemon/service/log/log.cpp")
     } else {

@@ -26,6 +26,8 @@ kPackages=(
   libocct-data-exchange-dev libtbb-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
+  # meshes for the page of camway view
+  libmeshoptimizer-dev
   # signed messages, digests of what is kept
   libsodium-dev
   # scenes that outlive the daemon

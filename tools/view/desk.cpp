@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "daemon/version/build_info.h"
+#include "tools/answers/interpolation.h"
+#include "tools/json/option_fields.h"
 
 namespace camway::view {
 
@@ -48,6 +50,33 @@ void Desk::status(Done done) const {
     done(std::move(answer));
   });
 }
+
+void Desk::interpolate(PlanOrder order, Done done) {
+  post([order = std::move(order), done = std::move(done)] {
+    base::Result<std::string> text = tools::interpolated_text(order.request);
+    if (!text) return done(failure(code::kInvalid, "the path cannot be written: " + text.error));
+    done({code::kOk, *std::move(text), {}});
+  });
+}
+
+void Desk::triangles(TrianglesOrder order, Done done) {
+  order = in_scene(std::move(order));
+  backend_.triangles(std::move(order.scene), std::move(order.indices), std::move(done));
+}
+
+Answer Desk::last() const {
+  const std::shared_ptr<const LastPlan> plan = backend_.last();
+  if (plan && plan->request_text && plan->answer_text) {
+    return {
+        code::kOk,
+        fmt::format("{{\"request\": {}, \"answer\": {}}}", *plan->request_text, *plan->answer_text),
+        {}};
+  }
+  if (options_.first_request.empty()) return {code::kOk, "{}", {}};
+  return {code::kOk, fmt::format("{{\"request\": {}}}", options_.first_request), {}};
+}
+
+Answer Desk::fields() { return {code::kOk, tools::option_fields_json(), {}}; }
 
 Answer Desk::version() {
   constexpr int kDoorVersion = 1;  // the v1 of the paths

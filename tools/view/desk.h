@@ -5,10 +5,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "daemon/base/token_bucket.h"
 #include "tools/view/backend.h"
 #include "tools/view/door.h"
+#include "tools/view/work_pool.h"
 
 namespace camway::view {
 
@@ -42,8 +44,26 @@ class Desk {
   void status(Done done) const;
   /// Returns the versions of the program and of the door.
   [[nodiscard]] static Answer version();
+  /// Answers with the path of a request as interpolated.
+  void interpolate(PlanOrder order, Done done);
+  /// Answers with triangles of a scene.
+  void triangles(TrianglesOrder order, Done done);
+  /// Returns the last plan: its request and its answer, as far as there are any.
+  [[nodiscard]] Answer last() const;
+  /// Returns the table of the options of requests.
+  [[nodiscard]] static Answer fields();
+
+  /// Runs work that takes time on a thread of the desk. Drops it once the desk was stopped.
+  void post(WorkPool::Work work) { workers_.post(std::move(work)); }
+  /// Waits for the work that runs, and drops the rest. Must come before the end of the desk, which
+  /// its own work may keep.
+  void stop() { workers_.stop(); }
 
  private:
+  /// Bodies are parsed, pictures drawn and paths interpolated on threads of their own, so that
+  /// large ones keep nobody waiting. Two, so that a picture does not keep requests waiting either.
+  static constexpr int kWorkers = 2;
+
   /// Counts a change of a scene. Returns false, and counts nothing, if it comes too soon.
   bool takes_change();
 
@@ -53,6 +73,7 @@ class Desk {
   base::TokenBucket rate_;  ///< of changes of scenes
   /// Plans of all sockets under way. Places keep it, which may outlive the desk.
   const std::shared_ptr<std::atomic<int>> plans_ = std::make_shared<std::atomic<int>>(0);
+  WorkPool workers_{kWorkers};
 };
 
 }  // namespace camway::view

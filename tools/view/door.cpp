@@ -12,65 +12,29 @@
 #include "tools/view/access.h"
 #include "tools/view/desk.h"
 #include "tools/view/http_jobs.h"
+#include "tools/view/mesh_desk.h"
 #include "tools/view/page.h"
+#include "tools/view/responses.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
-#include "tools/view/work_pool.h"
 
 namespace camway::view {
 namespace {
 
-constexpr char kJsonType[] = "application/json";
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
-constexpr char kSvgType[] = "image/svg+xml";
-
-/// Bodies are parsed and pictures drawn on threads of their own, so that large ones keep nobody
-/// waiting. Two, so that a picture does not keep requests waiting either.
-constexpr int kReaders = 2;
-
-constexpr std::string_view kPolicy =
-    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
-    "object-src 'none'";
-
-/// Headers of every response.
-std::vector<std::pair<std::string, std::string>> common_headers() {
-  return {{"Content-Security-Policy", std::string(kPolicy)},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Cache-Control", "no-store"}};
-}
-
-/// The picture has style attributes, which its policy has to allow where it is opened alone.
-http::Response to_picture(std::string picture) {
-  return {code::kOk,
-          kSvgType,
-          std::move(picture),
-          {{"Content-Security-Policy", std::string(kPolicy) + "; style-src 'unsafe-inline'"}}};
-}
-
-http::Response to_response(Answer answer) {
-  http::Response response{answer.code, kJsonType, {}, {}};
-  response.body = answer.code == code::kOk ? std::move(answer.json) : error_json(answer.error);
-  if (!response.body.ends_with('\n')) response.body += '\n';
-  return response;
-}
-
-http::Response refusal(int code, std::string error) {
-  return to_response(failure(code, std::move(error)));
-}
 
 class DoorServer final : public Door {
  public:
   DoorServer(const DoorOptions& options, Backend& backend)
       : lock_{options.port, options.token},
         desk_(std::make_shared<Desk>(options, backend)),
+        meshes_(std::make_shared<MeshDesk>(backend)),
         jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
   ~DoorServer() override {
     jobs_->close();
     server_.reset();
-    readers_.stop();
+    desk_->stop();
   }
   DoorServer(const DoorServer&) = delete;
   DoorServer& operator=(const DoorServer&) = delete;
@@ -91,20 +55,24 @@ class DoorServer final : public Door {
 
   /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
   /// if there is no place, which the reply says.
-  Done begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  http::Reply begin(const http::Reply& reply, HttpJobs::Ticket& ticket);
+  /// Sends the mesh of an object.
+  void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
   /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
-  /// a reader.
+  /// a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
                  Done done);
   void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
+  void interpolate(const nlohmann::json& document, Done done);
+  void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
 
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
+  const std::shared_ptr<MeshDesk> meshes_;
   const std::shared_ptr<HttpJobs> jobs_;
-  WorkPool readers_{kReaders};
   std::unique_ptr<http::Server> server_;
 };
 
@@ -161,6 +129,10 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
       return draw(reply);
     case Place::kVersion:
       return reply(to_response(Desk::version()));
+    case Place::kFields:
+      return reply(to_response(Desk::fields()));
+    case Place::kLast:
+      return reply(to_response(desk_->last()));
     case Place::kSocket:
       return reply(refusal(code::kInvalid, "this place is a WebSocket"));
     default:
@@ -182,30 +154,39 @@ void DoorServer::draw(const http::Reply& reply) {
   if (!last || last->result.path.empty()) {
     return reply(refusal(code::kNotFound, "there is no path to draw"));
   }
-  readers_.post([last, reply] {
+  desk_->post([last, reply] {
     std::string picture = plan_picture(*last);
     if (picture.empty()) return reply(refusal(code::kOurFault, "the path cannot be drawn"));
-    reply(to_picture(std::move(picture)));
+    reply(picture_response(std::move(picture)));
   });
 }
 
-Done DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
+http::Reply DoorServer::begin(const http::Reply& reply, HttpJobs::Ticket& ticket) {
   ticket = jobs_->enter();
   if (ticket == 0) {
     reply(refusal(code::kTooMany, fmt::format("too many at a time: at most {} requests",
                                               desk_->limits().requests)));
     return nullptr;
   }
-  return [jobs = jobs_, ticket, reply](Answer answer) {
+  return [jobs = jobs_, ticket, reply](http::Response response) {
     jobs->leave(ticket);
-    reply(to_response(std::move(answer)));
+    reply(std::move(response));
   };
+}
+
+void DoorServer::send_mesh(const Route& route, const http::Reply& reply) {
+  meshes_->ask(std::string(route.scene), std::string(route.object), [reply](GlbAnswer answer) {
+    if (!answer.glb) return reply(refusal(answer.code, std::move(answer.error)));
+    reply({code::kOk, "model/gltf-binary", *answer.glb, {}});
+  });
 }
 
 void DoorServer::ask(const http::Request& request, const http::Reply& reply, const Route& route) {
   HttpJobs::Ticket ticket = 0;
-  Done done = begin(reply, ticket);
-  if (!done) return;
+  http::Reply send = begin(reply, ticket);
+  if (!send) return;
+  if (route.place == Place::kMesh) return send_mesh(route, send);
+  Done done = [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
   SceneOrder order;
   order.scene = route.scene;
   order.object = route.object;
@@ -225,8 +206,8 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
     return desk_->ask_scene(std::move(order), std::move(done));
   }
   // The route refers to the target of the request, which ends with this call.
-  readers_.post([this, body = request.body, place = route.place, order = std::move(order), ticket,
-                 done = std::move(done)]() mutable {
+  desk_->post([this, body = request.body, place = route.place, order = std::move(order), ticket,
+               done = std::move(done)]() mutable {
     read_body(body, place, std::move(order), ticket, std::move(done));
   });
 }
@@ -240,6 +221,10 @@ void DoorServer::read_body(const std::string& body, Place place, SceneOrder name
       return plan(*document, ticket, std::move(done));
     case Place::kCheck:
       return check(*document, ticket, std::move(done));
+    case Place::kInterpolate:
+      return interpolate(*document, std::move(done));
+    case Place::kTriangles:
+      return triangles(*document, named.scene, std::move(done));
     case Place::kObjects:
       return change(read_added(*document), named, std::move(done));
     default:
@@ -258,6 +243,19 @@ void DoorServer::check(const nlohmann::json& document, HttpJobs::Ticket ticket, 
   base::Result<CheckOrder> order = read_check_document(document);
   if (!order) return done(failure(code::kInvalid, order.error));
   jobs_->set(ticket, desk_->backend().check(desk_->in_scene(*std::move(order)), std::move(done)));
+}
+
+void DoorServer::interpolate(const nlohmann::json& document, Done done) {
+  base::Result<PlanOrder> order = view::read_plan(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  desk_->interpolate(*std::move(order), std::move(done));
+}
+
+void DoorServer::triangles(const nlohmann::json& document, const std::string& scene, Done done) {
+  base::Result<TrianglesOrder> order = read_triangles(document);
+  if (!order) return done(failure(code::kInvalid, order.error));
+  order->scene = scene;
+  desk_->triangles(*std::move(order), std::move(done));
 }
 
 void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named, Done done) {

@@ -29,6 +29,8 @@ struct DoorOptions {
   int port = 0;  ///< 0: any free port
   std::string token = {};
   bool is_read_only = false;  ///< whether changes of scenes are refused
+  /// The request that is planned at first, as JSON, until there is a last plan; empty: none.
+  std::string first_request = {};
   DoorLimits limits = {};
 };
 

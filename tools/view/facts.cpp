@@ -59,4 +59,17 @@ std::string objects_json(const SceneFacts& scene, const std::vector<ObjectFacts>
   return text_of(json);
 }
 
+std::string triangles_json(std::int64_t revision,
+                           const std::map<std::int64_t, geometry::Triangle>& triangles) {
+  OrderedJson members = OrderedJson::object();
+  for (const auto& [index, triangle] : triangles) {
+    OrderedJson corners = OrderedJson::array();
+    for (const geometry::Vec3& corner : triangle) {
+      corners.push_back({corner.x(), corner.y(), corner.z()});
+    }
+    members[std::to_string(index)] = std::move(corners);
+  }
+  return text_of({{"revision", revision}, {"triangles", std::move(members)}});
+}
+
 }  // namespace camway::view

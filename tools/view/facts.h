@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "daemon/geometry/bounds.h"
+#include "daemon/geometry/types.h"
 
 namespace camway::view {
 
@@ -40,5 +42,9 @@ std::string scenes_json(const std::vector<SceneFacts>& scenes);
 /// Returns `{"scene": {...}, "objects": [...], "warnings": ...}`; the last is left out if empty.
 std::string objects_json(const SceneFacts& scene, const std::vector<ObjectFacts>& objects,
                          const std::string& warnings = {});
+
+/// Returns `{"revision": ..., "triangles": {"INDEX": [[x, y, z], ...], ...}}`. [Units: metres]
+std::string triangles_json(std::int64_t revision,
+                           const std::map<std::int64_t, geometry::Triangle>& triangles);
 
 }  // namespace camway::view

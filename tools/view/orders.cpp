@@ -144,6 +144,18 @@ void read_pose(const Field& root, SceneOrder& order) {
   }
 }
 
+void read_indices(const Field& root, TrianglesOrder& order) {
+  const Field indices = root.member("indices");
+  const std::size_t count = indices.size();
+  if (count > kMostIndices) {
+    return indices.fail(fmt::format("has {} numbers, and may have {}", count, kMostIndices));
+  }
+  order.indices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    order.indices.push_back(indices.element(i).integer(-kLargestId, kLargestId));
+  }
+}
+
 void read_addition(const Field& root, std::string_view name, SceneOrder& order) {
   order.kind = SceneOrder::Kind::kAdd;
   order.object = read_name(root.member(name), kLongestObjectName);
@@ -161,10 +173,10 @@ void read_move(const Field& root, SceneOrder& order) {
 
 /// Reads an order of the members of `document`. Errors about the document itself begin with
 /// "the request".
-template <class Read>
-base::Result<SceneOrder> read_order(const Json& document, const Read& read) {
+template <class Order = SceneOrder, class Read>
+base::Result<Order> read_order(const Json& document, const Read& read) {
   DocumentNotes notes;
-  SceneOrder order;
+  Order order;
   read(Field(document, notes), order);
   if (!notes.error.empty()) return base::Failure{notes.error};
   return order;
@@ -205,15 +217,20 @@ class MessageReader {
     kVersion,
     kWatch,
     kUnwatch,
+    kInterpolate,
+    kTriangles,
+    kFields,
+    kLast,
     kSceneList,  // from here in the order of `SceneOrder::Kind`
     kSceneDescribe,
     kSceneAdd,
     kSceneMove,
     kSceneRemove,
   };
-  static constexpr std::array<std::string_view, 12> kVerbs{
-      "plan",    "check",      "cancel",         "status",    "version",    "watch",
-      "unwatch", "scene.list", "scene.describe", "scene.add", "scene.move", "scene.remove"};
+  static constexpr std::array<std::string_view, 16> kVerbs{
+      "plan",           "check",       "cancel",     "status",      "version", "watch",
+      "unwatch",        "interpolate", "triangles",  "fields",      "last",    "scene.list",
+      "scene.describe", "scene.add",   "scene.move", "scene.remove"};
 
   void read_what(Message& message) {
     const auto verb = static_cast<Verb>(tools::named(root_.member("do"), kVerbs));
@@ -233,6 +250,14 @@ class MessageReader {
         return read_watch(message);
       case Verb::kUnwatch:
         return read_bare<Message::Unwatch>(message);
+      case Verb::kInterpolate:
+        return read_interpolate(message);
+      case Verb::kTriangles:
+        return read_triangles_message(message);
+      case Verb::kFields:
+        return read_bare<Message::Fields>(message);
+      case Verb::kLast:
+        return read_bare<Message::Last>(message);
       default:
         break;
     }
@@ -285,6 +310,22 @@ class MessageReader {
     const Json* const path = part("path");
     CheckOrder order;
     if (path == nullptr || !take(read_check(*request, *path), order)) return;
+    message.what = std::move(order);
+  }
+
+  void read_interpolate(Message& message) {
+    root_.allow_only({"id", "do", "request"});
+    const Json* const request = part("request");
+    Message::Interpolate interpolate;
+    if (request == nullptr || !take(read_plan(*request), interpolate.order)) return;
+    message.what = std::move(interpolate);
+  }
+
+  void read_triangles_message(Message& message) {
+    root_.allow_only({"id", "do", "scene", "indices"});
+    TrianglesOrder order;
+    order.scene = read_scene_name(root_);
+    read_indices(root_, order);
     message.what = std::move(order);
   }
 
@@ -341,7 +382,9 @@ base::Result<PlanOrder> read_plan(const Json& document) {
   if (const auto fault = planning::validate(*request)) {
     return base::Failure{"request: " + fault->message};
   }
-  return PlanOrder{scene_of(*request), *std::move(request)};
+  auto text = std::make_shared<const std::string>(
+      document.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return PlanOrder{scene_of(*request), *std::move(request), std::move(text)};
 }
 
 base::Result<CheckOrder> read_check_document(const Json& document) {
@@ -351,6 +394,13 @@ base::Result<CheckOrder> read_check_document(const Json& document) {
   for (const char* const part : {"request", "path"}) static_cast<void>(root.member(part));
   if (root.failed()) return base::Failure{notes.error};
   return read_check(document.at("request"), document.at("path"));
+}
+
+base::Result<TrianglesOrder> read_triangles(const Json& document) {
+  return read_order<TrianglesOrder>(document, [](const Field& root, TrianglesOrder& order) {
+    root.allow_only({"indices"});
+    read_indices(root, order);
+  });
 }
 
 base::Result<SceneOrder> read_added(const Json& document) {

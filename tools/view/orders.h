@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +26,7 @@ namespace camway::view {
 struct PlanOrder {
   std::string scene;  ///< name of the scene
   tools::RequestFile request;
+  std::shared_ptr<const std::string> text;  ///< the request as JSON; never null
 };
 
 /// A path to prove.
@@ -69,6 +73,15 @@ struct SceneOrder {
   [[nodiscard]] bool is_change() const { return kind >= Kind::kAdd; }
 };
 
+/// Most triangles that may be asked for at once. Answers name far less.
+inline constexpr std::size_t kMostIndices = 100'000;
+
+/// A question about triangles of a scene.
+struct TrianglesOrder {
+  std::string scene;                  ///< name of the scene
+  std::vector<std::int64_t> indices;  ///< numbers as in answers, kMostIndices at most
+};
+
 /// Returns the scene that a request names: the name of its file without folder and extension, so
 /// that request files may be sent as they are. Empty if it names none.
 std::string scene_of(const tools::RequestFile& request);
@@ -78,6 +91,9 @@ std::string scene_of(const tools::RequestFile& request);
 base::Result<PlanOrder> read_plan(const nlohmann::json& document);
 /// Reads `{"request": ..., "path": ...}`.
 base::Result<CheckOrder> read_check_document(const nlohmann::json& document);
+
+/// Reads `{"indices": [...]}`. The scene is not set.
+base::Result<TrianglesOrder> read_triangles(const nlohmann::json& document);
 
 /// Reads name, form and pose of an object that is to be added.
 base::Result<SceneOrder> read_added(const nlohmann::json& document);
@@ -89,6 +105,8 @@ struct Message {
   struct Cancel {};
   struct Status {};
   struct Version {};
+  struct Fields {};
+  struct Last {};
   struct Watch {
     std::optional<PlanOrder> order;  ///< nothing: the scenes
   };
@@ -100,9 +118,15 @@ struct Message {
     /// Whether newer requests of its drag wait for its answer, once it is under way.
     bool may_finish = false;
   };
+  /// A path to interpolate alone.
+  struct Interpolate {
+    PlanOrder order;
+  };
 
   std::int64_t id = 0;
-  std::variant<Cancel, Status, Version, Watch, Unwatch, Plan, CheckOrder, SceneOrder> what;
+  std::variant<Cancel, Status, Version, Fields, Last, Watch, Unwatch, Plan, Interpolate, CheckOrder,
+               TrianglesOrder, SceneOrder>
+      what;
 };
 
 /// A message that cannot be read.

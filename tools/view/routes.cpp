@@ -17,7 +17,7 @@ struct FixedPlace {
   std::string_view methods;
 };
 
-constexpr std::array<FixedPlace, 9> kFixedPlaces{{
+constexpr std::array<FixedPlace, 12> kFixedPlaces{{
     {"/", Place::kPage, "GET"},
     {"/page.css", Place::kStyle, "GET"},
     {"/plan.svg", Place::kPicture, "GET"},
@@ -25,6 +25,9 @@ constexpr std::array<FixedPlace, 9> kFixedPlaces{{
     {"/v1/status", Place::kStatus, "GET"},
     {"/v1/plan", Place::kPlan, "POST"},
     {"/v1/check", Place::kCheck, "POST"},
+    {"/v1/interpolate", Place::kInterpolate, "POST"},
+    {"/v1/fields", Place::kFields, "GET"},
+    {"/v1/last", Place::kLast, "GET"},
     {"/v1/socket", Place::kSocket, "GET"},
     {"/v1/scenes", Place::kScenes, "GET"},
 }};
@@ -48,14 +51,21 @@ std::optional<Route> scene_route(std::string_view path) {
   route.place = Place::kScene;
   route.allowed = "GET";
   if (path.empty()) return route;
-  if (next_part(path) != "objects") return std::nullopt;
-  route.place = Place::kObjects;
-  route.allowed = "POST";
-  if (path.empty()) return route;
+  const std::string_view kind = next_part(path);
   route.object = next_part(path);
-  if (!path.empty() || route.object.empty()) return std::nullopt;
-  route.place = Place::kObject;
-  route.allowed = "PATCH, DELETE";
+  if (!path.empty()) return std::nullopt;
+  if (kind == "objects") {
+    route.place = route.object.empty() ? Place::kObjects : Place::kObject;
+    route.allowed = route.object.empty() ? "POST" : "PATCH, DELETE";
+    return route;
+  }
+  if (kind == "triangles" && route.object.empty()) {
+    route.place = Place::kTriangles;
+    route.allowed = "POST";
+    return route;
+  }
+  if (kind != "meshes" || route.object.empty()) return std::nullopt;
+  route.place = Place::kMesh;
   return route;
 }
 

@@ -17,18 +17,23 @@ enum class Place {
   kStatus,
   kPlan,
   kCheck,
+  kInterpolate,
+  kFields,
+  kLast,
   kSocket,
   kScenes,
   kScene,
   kObjects,
   kObject,
+  kMesh,
+  kTriangles,
 };
 
 /// The place that a request leads to, or why it leads nowhere.
 struct Route {
   Place place = Place::kPage;
-  std::string_view scene;    ///< with kScene, kObjects and kObject
-  std::string_view object;   ///< with kObject
+  std::string_view scene;    ///< with kScene and what is below
+  std::string_view object;   ///< with kObject; the digest with kMesh
   int code = code::kOk;      ///< else `code::kNotFound` or `code::kNotAllowed`
   std::string_view allowed;  ///< methods of the place, for the header `Allow`
 };

@@ -56,6 +56,10 @@ class Session : public std::enable_shared_from_this<Session> {
   void take(Id id, Message::Cancel);
   void take(Id id, Message::Status);
   void take(Id id, Message::Version);
+  void take(Id id, Message::Fields);
+  void take(Id id, Message::Last);
+  void take(Id id, Message::Interpolate interpolate);
+  void take(Id id, TrianglesOrder order);
 
   /// Has the backend plan. Requires that the id was entered.
   void ask(Id id, Message::Plan plan);
@@ -279,6 +283,25 @@ void Session::take(Id id, Message::Status) {
 void Session::take(Id id, Message::Version) {
   const std::lock_guard lock(mutex_);
   send_answer(id, Desk::version());
+}
+
+void Session::take(Id id, Message::Fields) {
+  const std::lock_guard lock(mutex_);
+  send_answer(id, Desk::fields());
+}
+
+void Session::take(Id id, Message::Last) {
+  const std::lock_guard lock(mutex_);
+  send_answer(id, desk_->last());
+}
+
+void Session::take(Id id, Message::Interpolate interpolate) {
+  if (!open(id, /*is_plan=*/true)) return;
+  desk_->interpolate(std::move(interpolate.order), answer_to(id));
+}
+
+void Session::take(Id id, TrianglesOrder order) {
+  if (open(id)) desk_->triangles(std::move(order), answer_to(id));
 }
 
 void Session::take(Id id, Message::Watch watch) {

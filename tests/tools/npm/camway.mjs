@@ -6,8 +6,9 @@ import {createRequire} from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
 
-const scenes = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname),
-                            '../../../scenes');
+/// The folder of scenes.
+export const scenes = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname),
+                                   '../../../scenes');
 
 /// Loads a package of package-lock.json.
 export const load = createRequire(path.join(process.env.CAMWAY_NPM, 'package.json'));

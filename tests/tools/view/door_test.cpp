@@ -53,6 +53,16 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/v1/scenes/a/objects/b", 405},
            {"DELETE", "/v1/scenes/a/objects/", 404},
            {"DELETE", "/v1/scenes/a/objects/b/c", 404},
+           {"GET", "/v1/scenes/a/meshes/b", 200},
+           {"HEAD", "/v1/scenes/a/meshes/b", 200},
+           {"GET", "/v1/scenes/a/meshes", 404},
+           {"POST", "/v1/scenes/a/triangles", 200},
+           {"GET", "/v1/scenes/a/triangles", 405},
+           {"POST", "/v1/scenes/a/triangles/1", 404},
+           {"POST", "/v1/interpolate", 200},
+           {"GET", "/v1/fields", 200},
+           {"GET", "/v1/last", 200},
+           {"POST", "/v1/last", 405},
            {"GET", "/v2/plan", 404},
        }) {
     EXPECT_EQ(route_of(each.method, each.target).code, each.code)
@@ -121,6 +131,15 @@ TEST_F(ViewDoor, NamesTheMemberThatIsWrong) {
   std::string file = kSmallRequest;
   file.insert(1, R"("body": {"type": "mesh", "file": "/etc/passwd"}, )");
   EXPECT_THAT(error("/v1/plan", file), HasSubstr("body.file: is a file"));
+  EXPECT_THAT(error("/v1/interpolate", one), HasSubstr("request: camera.near"));
+  const std::string triangles = "/v1/scenes/office/triangles";
+  EXPECT_EQ(error(triangles, "{}"), "indices: is missing");
+  EXPECT_THAT(error(triangles, R"({"indices": 7})"), HasSubstr("indices: must be an array"));
+  EXPECT_THAT(error(triangles, R"({"indices": [1.5]})"), HasSubstr("indices[0]: is 1.5; it must"));
+  EXPECT_THAT(error(triangles, R"({"indices": [0, 1e300]})"), HasSubstr("indices[1]: "));
+  EXPECT_THAT(error(triangles, R"({"indices": [], "scene": "x"})"), HasSubstr("scene: "));
+  json many = {{"indices", std::vector<int>(kMostIndices + 1)}};
+  EXPECT_THAT(error(triangles, many.dump()), HasSubstr("has 100001 numbers, and may have 100000"));
   EXPECT_EQ(error("/v1/check", "{}"), "request: is missing");
   EXPECT_THAT(error("/v1/check", std::string(R"({"path": {}, "request": )") + kSmallRequest + "}"),
               HasSubstr("path: segments: is missing"));
@@ -164,12 +183,61 @@ TEST_F(ViewDoor, AnswersEveryPlace) {
       std::string(R"({"path": {"segments": []}, "request": )") + kSmallRequest + "}";
   EXPECT_EQ(client_->post("/v1/check", check).json().at("verdict"), "free");
   EXPECT_EQ(client_->get("/v1/socket").code, 400);
+  EXPECT_EQ(client_->post("/v1/scenes/hall/triangles", R"({"indices": [7, 5]})").json(),
+            json::parse(R"({"revision": 1, "triangles": {"5": [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+                                                         "7": [[0, 0, 0], [0, 0, 0], [0, 0, 0]]}})"));
+  EXPECT_EQ(client_->post("/v1/interpolate", kSmallRequest).json().at("segments").size(), 1U);
+  EXPECT_GT(client_->get("/v1/fields").json().at("fields").size(), 10U);
   const auto orders = backend_.orders();
   ASSERT_EQ(orders.size(), 5U);
   for (std::size_t i = 2; i < orders.size(); ++i) {
     EXPECT_EQ(orders[i].scene, "hall");
     EXPECT_EQ(orders[i].object, "crate");
     EXPECT_TRUE(orders[i].is_change());
+  }
+}
+
+TEST_F(ViewDoor, TellsOfTheLastPlan) {
+  DoorOptions options{.token = kSecret};
+  const auto last = [&] {
+    const auto door = Door::open(options, backend_);
+    return HttpClient((*door)->port(), kSecret).get("/v1/last").json();
+  };
+  EXPECT_EQ(last(), json::object());
+  options.first_request = R"({"a": 1})";
+  EXPECT_EQ(last(), json::parse(R"({"request": {"a": 1}})"));
+  LastPlan plan;
+  plan.request_text = std::make_shared<const std::string>(R"({"b": 2})");
+  plan.answer_text = std::make_shared<const std::string>("{\"status\": \"ok\"}\n");
+  backend_.last_plan = std::make_shared<const LastPlan>(plan);
+  EXPECT_EQ(last(), json::parse(R"({"request": {"b": 2}, "answer": {"status": "ok"}})"));
+}
+
+TEST_F(ViewDoor, SendsMeshesForPages) {
+  scene::Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  backend_.display_mesh = std::make_shared<const scene::Mesh>(mesh);
+  open();
+  for (int time = 0; time < 2; ++time) {
+    const Reached got = client_->get("/v1/scenes/hall/meshes/0123abc");
+    EXPECT_EQ(got.code, 200);
+    EXPECT_EQ(got.type, "model/gltf-binary");
+    EXPECT_EQ(got.body.substr(0, 4), "glTF");
+  }
+  EXPECT_EQ(client_->send("HEAD", "/v1/scenes/hall/meshes/0123abc").code, 200);
+  EXPECT_EQ(client_->post("/v1/scenes/hall/meshes/0123abc", "{}").code, 405);
+}
+
+TEST_F(ViewDoor, SaysWhyThereIsNoMesh) {
+  open();
+  const Reached got = client_->get("/v1/scenes/hall/meshes/%00..%2f");
+  EXPECT_EQ(got.code, 404);
+  EXPECT_EQ(error_of(got), "no object %00..%2f");
+  for (const char* const nowhere :
+       {"/v1/scenes/hall/meshes", "/v1/scenes/hall/meshes/", "/v1/scenes/hall/meshes/a/b",
+        "/v1/scenes//meshes/a", "/v1/scenes/hall/mesh/a"}) {
+    EXPECT_EQ(client_->get(nowhere).code, 404) << nowhere;
   }
 }
 

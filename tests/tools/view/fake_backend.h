@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -10,8 +11,10 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tools/view/backend.h"
+#include "tools/view/facts.h"
 
 namespace camway::view {
 
@@ -46,6 +49,17 @@ class FakeBackend final : public Backend {
     }
     done({code::kOk, R"({"scene": )" + json_string(order.scene) + "}", {}});
   }
+  void mesh(std::string, std::string digest, MeshDone done) override {
+    done({display_mesh, 1, display_mesh ? code::kOk : code::kNotFound,
+          display_mesh ? "" : "no object " + digest});
+  }
+  void triangles(std::string, std::vector<std::int64_t> indices, Done done) override {
+    std::map<std::int64_t, geometry::Triangle> found;
+    for (const std::int64_t index : indices) {
+      found[index].fill(geometry::Vec3::Zero());
+    }
+    done({code::kOk, triangles_json(1, found), {}});
+  }
   void status(Done done) override { done({code::kOk, R"({"planner": "fake"})", {}}); }
   std::unique_ptr<Watch> watch_scenes(Tell event) override {
     event(R"({"kind": "scenes"})");
@@ -77,7 +91,8 @@ class FakeBackend final : public Backend {
     return orders_;
   }
 
-  std::shared_ptr<const LastPlan> last_plan;  ///< set before the door is opened
+  std::shared_ptr<const scene::Mesh> display_mesh;  ///< of all objects; null: there is none
+  std::shared_ptr<const LastPlan> last_plan;        ///< set before the door is opened
 
  private:
   class FakeJob final : public Job {

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <regex>
@@ -277,6 +279,113 @@ TEST_F(ViewHere, DrawsTheLastPlan) {
   EXPECT_EQ(picture.type, "image/svg+xml");
   EXPECT_THAT(picture.body, HasSubstr("<svg"));
   EXPECT_THAT(http().get("/").body, HasSubstr("proved free of collision"));
+}
+
+TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
+  open();
+  SocketClient socket(door_->port(), kSecret);
+  for (const std::string name : {"office-free-straight", "office-free-timed", "office-free-stairs",
+                                 "office-free-atrium", "office-free-turn"}) {
+    const std::string request = request_text(name);
+    const json answer = http().post("/v1/plan", request).json();
+    ASSERT_TRUE(answer.at("collisions").empty()) << name;
+    const Reached before = http().post("/v1/interpolate", request);
+    ASSERT_EQ(before.code, 200) << before.body;
+    EXPECT_EQ(before.json().size(), 1U);
+    // Bit for bit: both are the shortest decimals of their doubles.
+    EXPECT_EQ(before.json().at("segments"), answer.at("segments")) << name;
+    socket.send(R"({"id": 1, "do": "interpolate", "request": )" + request + "}");
+    EXPECT_EQ(socket.next().at("answer"), before.json());
+    // An answer with a frame is interpolated to the same path.
+    json again = json::parse(request);
+    again["keyframes"] = answer.at("keyframes");
+    if (!answer.contains("frame")) continue;
+    again["frame"] = answer.at("frame");
+    const json edited = http().post("/v1/interpolate", again.dump()).json();
+    EXPECT_EQ(edited.at("segments").size(), answer.at("segments").size()) << name;
+  }
+}
+
+TEST_F(ViewHere, APathIsInterpolatedThroughWhatIsInTheWay) {
+  open();
+  const std::string request = request_text("office-graze-column");
+  const json answer = http().post("/v1/plan", request).json();
+  ASSERT_FALSE(answer.at("collisions").empty());
+  const json before = http().post("/v1/interpolate", request).json();
+  EXPECT_NE(before.at("segments"), answer.at("segments"));
+  EXPECT_EQ(before.at("segments").front().at("t0"), answer.at("segments").front().at("t0"));
+  EXPECT_EQ(before.at("segments").back().at("t1"), answer.at("segments").back().at("t1"));
+}
+
+TEST_F(ViewHere, RemembersTheLastPlan) {
+  open();
+  EXPECT_EQ(http().get("/v1/last").json(), json::object());
+  const std::string request = request_text("office-graze-door");
+  const json answer = http().post("/v1/plan", request).json();
+  const json last = http().get("/v1/last").json();
+  EXPECT_EQ(last.at("request"), json::parse(request));
+  EXPECT_EQ(last.at("answer"), answer);
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 3, "do": "last"})");
+  EXPECT_EQ(socket.next().at("answer"), last);
+  socket.send(R"({"id": 4, "do": "fields"})");
+  EXPECT_EQ(socket.next().at("answer"), http().get("/v1/fields").json());
+  socket.send(R"({"id": 5, "do": "triangles", "indices": [3]})");
+  EXPECT_EQ(socket.next().at("answer"),
+            http().post("/v1/scenes/office/triangles", R"({"indices": [3]})").json());
+}
+
+/// Asks a backend for a mesh and waits for it.
+MeshAnswer mesh_of(Backend& backend, const std::string& scene, const std::string& digest) {
+  auto promise = std::make_shared<std::promise<MeshAnswer>>();
+  backend.mesh(scene, digest, [promise](MeshAnswer mesh) { promise->set_value(std::move(mesh)); });
+  return promise->get_future().get();
+}
+
+Answer triangles_of(Backend& backend, const std::vector<std::int64_t>& indices) {
+  auto promise = std::make_shared<std::promise<Answer>>();
+  backend.triangles(backend.scene(), indices,
+                    [promise](Answer answer) { promise->set_value(std::move(answer)); });
+  return promise->get_future().get();
+}
+
+TEST_F(ViewHere, MeshesAreThoseOfObjectsInTheirOwnFrames) {
+  open();
+  const std::string crate =
+      R"({"name": "crate", "form": {"type": "box", "size": [0.5, 0.6, 0.7]},
+          "position": [9, 1.5, 9], "orientation": [0.5, 0.5, 0.5, 0.5]})";
+  const json added = json::parse(http().post("/v1/scenes/office/objects", crate).body);
+  const auto digest = added["objects"][0]["digest"].get<std::string>();
+  const MeshAnswer box = mesh_of(*backend_, "office", digest);
+  ASSERT_TRUE(box.mesh) << box.error;
+  EXPECT_EQ(box.code, 200);
+  EXPECT_EQ(box.mesh->bounds().min(), geometry::Vec3(-0.25, -0.3, -0.35));
+  EXPECT_EQ(box.mesh->bounds().max(), geometry::Vec3(0.25, 0.3, 0.35));
+  EXPECT_EQ(box.scene_triangles, added["scene"]["triangles"]);
+  const MeshAnswer none = mesh_of(*backend_, "office", std::string(32, '0'));
+  EXPECT_FALSE(none.mesh);
+  EXPECT_EQ(none.code, 404);
+  EXPECT_THAT(none.error, HasSubstr("no object of this digest"));
+  EXPECT_EQ(mesh_of(*backend_, "mars", digest).code, 404);
+}
+
+TEST_F(ViewHere, TrianglesAreThoseOfTheSceneByNumber) {
+  open();
+  const auto scene = scene::load_snapshot("office", kScenes / "office.obj").snapshot;
+  const auto last = static_cast<std::int64_t>(scene->index.size()) - 1;
+  const Answer answer = triangles_of(*backend_, {0, last, last + 1, -1, 0, INT64_MAX, INT64_MIN});
+  const json got = json::parse(answer.json);
+  EXPECT_EQ(got["revision"], 1);
+  ASSERT_EQ(got["triangles"].size(), 2) << answer.json;
+  for (const std::int64_t index : {std::int64_t{0}, last}) {
+    const geometry::Triangle expected = scene->index.triangle(static_cast<std::size_t>(index));
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(got["triangles"][std::to_string(index)][corner][axis],
+                  expected.at(corner)[static_cast<Eigen::Index>(axis)]);
+      }
+    }
+  }
 }
 
 }  // namespace

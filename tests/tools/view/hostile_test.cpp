@@ -71,7 +71,11 @@ std::vector<std::string> messages() {
       R"({"id": 7, "do": "scene.move", "object": "x", "position": [9, 9, 8]})",
       R"({"id": 8, "do": "scene.remove", "object": "x"})",
       R"({"id": 9, "do": "scene.describe", "scene": "office"})",
-      R"({"id": 10, "do": "status"})"};
+      R"({"id": 10, "do": "status"})",
+      R"({"id": 11, "do": "interpolate", "request": )" + request + "}",
+      R"({"id": 12, "do": "triangles", "scene": "office", "indices": [0, 1, -3]})",
+      R"({"id": 13, "do": "fields"})",
+      R"({"id": 14, "do": "last"})"};
 }
 
 class ViewHostile : public ::testing::Test {

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "daemon/base/base64.h"
+#include "tools/cameras/formats/glb_file.h"
 #include "tools/cameras/formats/gltf_formats.h"
 
 namespace camway::tools {
@@ -18,21 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
-
 constexpr int kFloatType = 5126;
-
-void append(std::string& bytes, std::uint32_t number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-/// A chunk of a `.glb`, filled up to four bytes.
-void append_chunk(std::string& bytes, std::string content, std::string_view kind, char filler) {
-  while (content.size() % 4 != 0) content += filler;
-  append(bytes, static_cast<std::uint32_t>(content.size()));
-  bytes.append(kind);
-  bytes += content;
-}
 
 /// Arrays of floats in one buffer, an accessor for each.
 class FloatBuffer {
@@ -148,14 +132,7 @@ base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWrite
         "data:application/octet-stream;base64," + base::encode_base64(buffer.bytes());
     return document.dump() + "\n";
   }
-  std::string chunks;
-  append_chunk(chunks, document.dump(), "JSON", ' ');
-  append_chunk(chunks, buffer.bytes(), std::string_view("BIN\0", 4), '\0');
-  constexpr std::uint32_t kHeaderBytes = 12;
-  std::string file = "glTF";
-  append(file, 2);
-  append(file, kHeaderBytes + static_cast<std::uint32_t>(chunks.size()));
-  return file + chunks;
+  return glb_file(document.dump(), buffer.bytes());
 }
 
 }  // namespace camway::tools

@@ -39,7 +39,13 @@ base::Result<motion::MeshShape> read_mesh(const std::filesystem::path& file, con
 }  // namespace
 
 base::Result<RequestFile> read_request(const std::string& file) {
-  base::Result<RequestFile> request = read_as<RequestFile>(file);
+  const base::Result<std::string> text = read_text(file);
+  if (!text) return base::Failure{text.error};
+  return read_request_text(*text, file);
+}
+
+base::Result<RequestFile> read_request_text(const std::string& text, const std::string& file) {
+  base::Result<RequestFile> request = parse_as<RequestFile>(text, source_of(file));
   if (!request || !request->body_file) return request;
   const std::filesystem::path folder =
       file == "-" ? std::filesystem::path() : std::filesystem::path(file).parent_path();

@@ -13,4 +13,7 @@ namespace camway::tools {
 /// member.
 base::Result<RequestFile> read_request(const std::string& file);
 
+/// Reads a request as `read_request` does, from the text of `file`.
+base::Result<RequestFile> read_request_text(const std::string& text, const std::string& file);
+
 }  // namespace camway::tools

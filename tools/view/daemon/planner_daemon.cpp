@@ -27,6 +27,10 @@ namespace {
 /// Calls about scenes wait for the daemon; so many of them wait at a time.
 constexpr int kCallers = 4;
 
+constexpr char kNoTriangles[] =
+    "triangles are not shown here, since a daemon does not send them; camway view --scene FILE "
+    "does";
+
 std::string_view name_of(PlanProgress::Stage stage) {
   switch (stage) {
     case PlanProgress::Stage::kWaiting:
@@ -130,6 +134,12 @@ class PlannerDaemon final : public Backend {
   }
   void ask_scene(SceneOrder order, Done done) override;
   void status(Done done) override;
+  void mesh(std::string, std::string, MeshDone done) override {
+    done({nullptr, 0, code::kNotOffered, kNoTriangles});
+  }
+  void triangles(std::string, std::vector<std::int64_t>, Done done) override {
+    done(failure(code::kNotOffered, kNoTriangles));
+  }
   std::unique_ptr<Watch> watch_scenes(Tell event) override {
     return heartbeats_->watch(std::move(event));
   }
@@ -185,8 +195,9 @@ Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& ord
   tools::PlanAnswer answer = to_plan_answer(response, order);
   const base::Result<std::string> text = tools::answer_text(answer);
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
-  auto last =
-      std::make_shared<const LastPlan>(LastPlan{order.request, std::move(answer.result), nullptr});
+  auto last = std::make_shared<const LastPlan>(
+      LastPlan{order.request, std::move(answer.result), nullptr, order.text,
+               std::make_shared<const std::string>(*text)});
   const std::lock_guard lock(mutex_);
   last_.swap(last);
   return {code::kOk, *text, {}};

@@ -23,6 +23,7 @@
 #include "tools/view/facts.h"
 #include "tools/view/here/object_source.h"
 #include "tools/view/here/progress_ticker.h"
+#include "tools/view/here/scene_parts.h"
 #include "tools/view/reporter.h"
 #include "tools/view/work_pool.h"
 
@@ -154,6 +155,8 @@ class PlannerHere final : public Backend {
   std::shared_ptr<Job> check(CheckOrder order, Done done) override;
   void ask_scene(SceneOrder order, Done done) override;
   void status(Done done) override;
+  void mesh(std::string scene, std::string digest, MeshDone done) override;
+  void triangles(std::string scene, std::vector<std::int64_t> indices, Done done) override;
   std::unique_ptr<Watch> watch_scenes(Tell event) override;
   std::unique_ptr<Watch> watch_path(PlanOrder, Tell) override { return nullptr; }
   [[nodiscard]] std::shared_ptr<const LastPlan> last() const override {
@@ -229,7 +232,8 @@ Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const 
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
   {
     auto last = std::make_shared<const LastPlan>(
-        LastPlan{order.request, std::move(answer.result), snapshot->mesh.share()});
+        LastPlan{order.request, std::move(answer.result), snapshot->mesh.share(), order.text,
+                 std::make_shared<const std::string>(*text)});
     const std::lock_guard lock(mutex_);
     last_.swap(last);
   }
@@ -329,6 +333,28 @@ void PlannerHere::status(Done done) {
         fmt::format("{{\"planner\": \"here\", \"scene\": {}, \"running\": {}, \"state\": {}}}",
                     json_string(name_), running_.load(), scenes_json(all_facts())),
         {}});
+}
+
+void PlannerHere::mesh(std::string scene, std::string digest, MeshDone done) {
+  auto found = std::make_shared<MeshAnswer>();
+  const auto report = [found, done = std::move(done)](Answer answer) {
+    found->code = answer.code;
+    found->error = std::move(answer.error);
+    done(std::move(*found));
+  };
+  post(report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
+    const std::shared_ptr<const scene::Snapshot> snapshot = store_.find(scene);
+    if (!snapshot) return unknown_scene(scene);
+    *found = object_mesh(*snapshot, digest);
+    return Answer{found->code, {}, found->error};
+  });
+}
+
+void PlannerHere::triangles(std::string scene, std::vector<std::int64_t> indices, Done done) {
+  post(std::move(done), [this, scene = std::move(scene), indices = std::move(indices)] {
+    const std::shared_ptr<const scene::Snapshot> snapshot = store_.find(scene);
+    return snapshot ? scene_triangles(*snapshot, indices) : unknown_scene(scene);
+  });
 }
 
 std::unique_ptr<Watch> PlannerHere::watch_scenes(Tell event) {

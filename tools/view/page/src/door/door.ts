@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The door of `camway view`, behind the page.
+
+import type { PlanRequest } from '../contract/request.js';
+import type { Store } from '../model/store.js';
+import type { Backing, PageParts } from '../page.js';
+import { kDefaultCamera } from '../viewport/bodies.js';
+import { PathWatch, SceneWatch } from './live.js';
+import {
+  describeScene,
+  fetchExport,
+  fetchFields,
+  fetchLast,
+  fetchMesh,
+  fetchReview,
+  fetchStatus,
+  fetchTriangles,
+  listScenes,
+} from './places.js';
+import { completed, Planner } from './planner.js';
+import { SceneEditor } from './scene_editor.js';
+import { DoorSocket } from './socket.js';
+
+/** The name of the scene that a request means: a path is cut to its file's stem, as the door does. */
+function sceneStem(scene: string | undefined): string | undefined {
+  return scene?.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '');
+}
+
+export function openDoor(store: Store, page: PageParts): Backing {
+  let sceneName: string | undefined;
+  const nameNow = (): string | undefined => sceneName;
+  const onError = (message: string): void => store.set({ message });
+  let stateBefore: boolean | undefined;
+  const socket = new DoorSocket(`ws://${location.host}/v1/socket`, (isOpen) => {
+    const isBack = isOpen && stateBefore === false;
+    stateBefore = isOpen;
+    store.set({
+      connection: isOpen ? 'open' : 'lost',
+      isPending: false,
+      ...(isOpen ? {} : { watched: 'off', message: 'The connection to camway is lost. The page goes on when it is back.' }),
+    });
+    if (!isOpen) return;
+    scenes.start();
+    if (isBack) {
+      store.set({ message: 'Connected again.' });
+      void scenes.refresh();
+    }
+    const { request, answer } = store.now;
+    if (request && (isBack || !answer)) planner.plan(request, 'full');
+  });
+  const planner = new Planner(socket, store, () => undefined);
+  const scenes = new SceneWatch(socket, store, nameNow, () => {
+    // A changed scene makes the answer one of another scene: plan anew, unless a daemon does so for the watched path.
+    const { request, watched } = store.now;
+    if (request && watched === 'off') planner.plan(request, 'full');
+  });
+  const watch = new PathWatch(socket, store);
+
+  async function start(): Promise<void> {
+    const [status, list, last] = await Promise.all([fetchStatus(), listScenes(), fetchLast().catch(() => ({}) as never)]);
+    sceneName = status.backend?.scene ?? sceneStem(last.request?.scene) ?? list[0]?.name;
+    store.set({ isReadOnly: status.read_only === true });
+    page.setFacts({ status: status as Record<string, unknown> });
+    void fetchFields().then((fields) => page.setFacts({ fields }), () => undefined);
+    if (sceneName) store.set({ scene: await describeScene(sceneName) });
+    const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
+    page.load(request);
+    if (last.answer) {
+      store.set({ answer: completed(last.answer) });
+      planner.interpolate(request);
+    }
+    socket.open();
+  }
+
+  return {
+    sources: {
+      mesh: (digest) => fetchMesh(sceneName ?? '', digest),
+      triangles: (indices) => fetchTriangles(sceneName ?? '', indices),
+    },
+    request: undefined,
+    facts: { fields: [], exports: ['csv'], status: undefined },
+    plan: (request, kind) => planner.plan(request, kind),
+    cancelPlan: () => planner.cancel(),
+    watchPath: (request) => (request ? watch.start(request) : watch.stop()),
+    review: fetchReview,
+    exported: fetchExport,
+    sceneEditor: new SceneEditor(nameNow, () => void scenes.refresh(), onError),
+    start: () => void start().catch((error: Error) => onError(error.message)),
+  };
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What happens at the door while the page is open: scenes that change, daemons that come and go, and a watched path.
+
+import type { Answer } from '../contract/answer.js';
+import type { SceneFacts } from '../contract/door.js';
+import type { PlanRequest } from '../contract/request.js';
+import type { Store } from '../model/store.js';
+import { describeScene } from './places.js';
+import { completed } from './planner.js';
+import type { DoorSocket } from './socket.js';
+
+interface SceneEvent {
+  kind?: string;
+  state?: { scenes?: SceneFacts[] };
+  heard?: boolean;
+}
+
+interface PathEvent {
+  kind?: string;
+  answer?: Answer;
+  error?: string;
+}
+
+/** Follows the scene that the page shows. Several changes at a time are fetched as one. */
+export class SceneWatch {
+  private isFetching = false;
+  private isStale = false;
+
+  constructor(
+    private readonly socket: DoorSocket,
+    private readonly store: Store,
+    /** The scene that is shown; undefined for the first that there is. */
+    private readonly sceneName: () => string | undefined,
+    private readonly onScene: () => void,
+  ) {}
+
+  start(): void {
+    const { answer } = this.socket.ask({ do: 'watch' }, ({ event }) => this.hear(event as SceneEvent));
+    answer.catch(() => undefined); // the connection says when it is back
+  }
+
+  private hear(event: SceneEvent): void {
+    if (event.kind === 'daemon') {
+      this.store.set(
+        event.heard
+          ? { connection: 'open', message: '' }
+          : { connection: 'lost', message: 'The daemon is not heard. The page goes on when it is back.' },
+      );
+      if (event.heard) void this.refresh();
+      return;
+    }
+    const scenes = event.state?.scenes ?? [];
+    const name = this.sceneName() ?? scenes[0]?.name;
+    const facts = scenes.find((scene) => scene.name === name);
+    const shown = this.store.now.scene?.scene;
+    if (!facts) return;
+    if (!shown || shown.name !== facts.name || shown.revision !== facts.revision || shown.digest !== facts.digest) void this.refresh();
+  }
+
+  /** Fetches the description of the scene anew. */
+  async refresh(): Promise<void> {
+    this.isStale = true;
+    if (this.isFetching) return;
+    this.isFetching = true;
+    while (this.isStale) {
+      this.isStale = false;
+      const name = this.sceneName();
+      if (!name) break;
+      try {
+        const scene = await describeScene(name);
+        const isChanged = this.store.now.scene !== undefined && this.store.now.scene.scene.digest !== scene.scene.digest;
+        this.store.set({ scene });
+        if (isChanged) this.onScene();
+      } catch (error) {
+        this.store.set({ message: (error as Error).message });
+      }
+    }
+    this.isFetching = false;
+  }
+}
+
+/** Has a daemon watch the path of a request. */
+export class PathWatch {
+  private id: number | undefined;
+
+  constructor(
+    private readonly socket: DoorSocket,
+    private readonly store: Store,
+  ) {}
+
+  get isOn(): boolean {
+    return this.id !== undefined;
+  }
+
+  start(request: PlanRequest): void {
+    this.stop();
+    const { id, answer } = this.socket.ask({ do: 'watch', request }, ({ event }) => {
+      if (this.id === id) this.hear(event as PathEvent);
+    });
+    this.id = id;
+    this.store.set({ watched: 'replanning' });
+    answer.then(
+      () => this.ended(id, ''),
+      (error: Error) => this.ended(id, error.message),
+    );
+  }
+
+  stop(): void {
+    if (this.id !== undefined) this.socket.tell(this.id, 'unwatch');
+    this.id = undefined;
+    this.store.set({ watched: 'off' });
+  }
+
+  private ended(id: number, message: string): void {
+    if (this.id !== id) return;
+    this.id = undefined;
+    this.store.set({ watched: 'off', ...(message ? { message } : {}) });
+  }
+
+  private hear(event: PathEvent): void {
+    const name = event.kind;
+    if (event.answer) {
+      const answer = completed(event.answer);
+      const isBetter = name === 'better'; // it is offered, and the path that is followed stays
+      this.store.set({
+        ...(isBetter ? {} : { answer, isDraft: false, isPending: false }),
+        watched: answer.status === 'ok' ? 'ok' : 'broken',
+        message: isBetter ? 'A better path is possible now: plan again to take it.' : answer.message,
+      });
+    } else if (name === 'broken') {
+      this.store.set({ watched: 'broken', message: 'The scene changed, and the path is broken.' });
+    } else if (name === 'free') {
+      this.store.set({ watched: 'ok', message: 'The path is free again.' });
+    } else if (event.error) {
+      this.store.set({ message: event.error });
+    }
+  }
+}

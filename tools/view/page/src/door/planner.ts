@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Plans requests over the socket. Of a drag the latest request wins; answers that come late are dropped.
+
+import type { Answer, Segment } from '../contract/answer.js';
+import type { PlanRequest } from '../contract/request.js';
+import type { PlanKind } from '../model/actions.js';
+import { kLeastKeyframes } from '../model/edits.js';
+import type { Store } from '../model/store.js';
+import { interpolate } from './places.js';
+import { DoorLost, Superseded } from './socket.js';
+import type { DoorSocket } from './socket.js';
+
+const kDrag = 'page';
+/** A frame of a drag that takes longer is answered as far as it came: the hand does not wait. */
+const kDraftDeadline_s = 0.2;
+const kDefaultDeadline_s = 10;
+
+/** An answer in which the members that the page relies on are there; an invalid one has few. */
+export function completed(answer: Answer): Answer {
+  return {
+    ...answer,
+    segments: answer.segments ?? [],
+    keyframes: answer.keyframes ?? [],
+    collisions: answer.collisions ?? [],
+    remaining_collisions: answer.remaining_collisions ?? [],
+  };
+}
+
+function draftOf(request: PlanRequest): PlanRequest {
+  const asked = request.options?.['deadline_s'];
+  const deadline_s = Math.min(typeof asked === 'number' ? asked : kDefaultDeadline_s, kDraftDeadline_s);
+  return { ...request, options: { ...request.options, deadline_s } };
+}
+
+/** The path before, in steps: one question is under way, and the newest one waits. */
+class Interpolation {
+  private next: PlanRequest | undefined;
+  private isAsking = false;
+
+  constructor(private readonly onPath: (request: PlanRequest, path: readonly Segment[]) => void) {}
+
+  ask(request: PlanRequest): void {
+    this.next = request;
+    if (!this.isAsking) void this.run();
+  }
+
+  private async run(): Promise<void> {
+    this.isAsking = true;
+    for (let request = this.next; request; request = this.next) {
+      this.next = undefined;
+      try {
+        this.onPath(request, await interpolate(request));
+      } catch {
+        this.onPath(request, []); // the answer to the request says what is wrong
+      }
+    }
+    this.isAsking = false;
+  }
+}
+
+export class Planner {
+  private asked = 0;
+  private shown = 0;
+  private running: number | undefined;
+  private readonly interpolation: Interpolation;
+
+  constructor(
+    private readonly socket: DoorSocket,
+    private readonly store: Store,
+    /** Hears of the full answers. */
+    private readonly onAnswer: (request: PlanRequest, answer: Answer) => void,
+  ) {
+    this.interpolation = new Interpolation((request, before) => {
+      if (store.now.request === request) store.set({ before });
+    });
+  }
+
+  /** Asks for the path before alone: the answer is there already. */
+  interpolate(request: PlanRequest): void {
+    this.interpolation.ask(request);
+  }
+
+  plan(request: PlanRequest, kind: PlanKind): void {
+    const asked = ++this.asked;
+    if (request.keyframes.length < kLeastKeyframes) {
+      this.shown = asked;
+      this.store.set({ answer: undefined, before: [], isPending: false, isDraft: false });
+      return;
+    }
+    this.interpolation.ask(request);
+    this.store.set({ isPending: true, isDraft: kind === 'draft' });
+    void this.run(asked, request, kind);
+  }
+
+  cancel(): void {
+    if (this.running === undefined) return;
+    this.socket.tell(this.running, 'cancel');
+    this.asked += 1; // whatever comes now is not wanted
+    this.store.set({ isPending: false, isDraft: false, message: 'Planning was cancelled.' });
+  }
+
+  private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
+    const isDraft = kind === 'draft';
+    const question = isDraft
+      ? { do: 'plan', drag: kDrag, finish: true, clearance_profile: true, request: draftOf(request) }
+      : { do: 'plan', drag: kDrag, progress: true, clearance_profile: true, request };
+    const { id, answer } = this.socket.ask(question, (part) => this.showProgress(asked, part['progress']));
+    this.running = id;
+    try {
+      const message = await answer;
+      if (asked < this.shown || message['cancelled'] === true) return;
+      this.shown = asked;
+      this.show(completed(message['answer'] as Answer), request, isDraft, asked === this.asked);
+    } catch (error) {
+      if (asked !== this.asked || error instanceof Superseded) return;
+      const message = error instanceof DoorLost ? 'The connection is lost; this will be planned when it is back.' : (error as Error).message;
+      this.store.set({ isPending: false, isDraft: false, message });
+    } finally {
+      if (this.running === id) this.running = undefined;
+    }
+  }
+
+  private show(answer: Answer, request: PlanRequest, isDraft: boolean, isLast: boolean): void {
+    this.store.set({
+      answer,
+      isDraft: isDraft || !isLast,
+      isPending: !isLast,
+      ...(isLast && !isDraft ? { message: '' } : {}),
+    });
+    if (!isDraft && isLast) this.onAnswer(request, answer);
+  }
+
+  private showProgress(asked: number, progress: unknown): void {
+    if (asked !== this.asked || typeof progress !== 'object' || progress === null) return;
+    const { stage, collisions, corrected, elapsed_s } = progress as Record<string, unknown>;
+    const count = typeof collisions === 'number' && collisions > 0 ? `, ${String(corrected ?? 0)} of ${collisions} corrected` : '';
+    const seconds = typeof elapsed_s === 'number' ? `, ${elapsed_s.toFixed(1)} s` : '';
+    this.store.set({ message: `${String(stage)}${count}${seconds}` });
+  }
+}

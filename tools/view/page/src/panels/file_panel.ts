@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+import type { Actions, DocumentFacts, ExportFormat, Facts } from '../model/actions.js';
+import type { State, Store } from '../model/store.js';
+import { make, makeButton, setText } from './dom.js';
+import { isEditable } from './render.js';
+
+export interface FilePanel {
+  setFacts(facts: Facts): void;
+  setDocument(facts: DocumentFacts): void;
+}
+
+const kFormats: Readonly<Record<string, string>> = {
+  gltf: 'glTF 2.0 (gltf)',
+  blender: 'Blender script (blender)',
+  mcap: 'MCAP for Foxglove (mcap)',
+  chan: 'Nuke (chan)',
+  nerfstudio: 'nerfstudio',
+  transforms: 'transforms.json (transforms)',
+  colmap: 'COLMAP (colmap)',
+  tum: 'TUM (tum)',
+  kitti: 'KITTI (kitti)',
+  csv: 'table (csv)',
+};
+
+/** Makes the panel that opens and saves. In a review nothing is opened, and nothing is asked of a door. */
+export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions): FilePanel {
+  const name = make('strong', { text: 'No request' });
+  const dirty = make('span', { class: 'cw-changed' });
+  const open = makeButton('Open…', () => actions.open());
+  const save = makeButton('Save', () => actions.save());
+  const saveAnswer = makeButton('Save the answer', () => actions.saveAnswer());
+  const edit = makeButton('Edit on from the answer', () => actions.editAnswer(), { title: 'Takes the keyframes of the answer, inserted ones too, as those of the request' });
+  const format = make('select', { 'aria-label': 'Format' });
+  const exportButton = makeButton('Export', () => actions.exportAs(format.value));
+  const review = makeButton('Save as a page', () => actions.saveReview());
+  const exporting = section('Export', 'Writes a pose for each frame, for another program.', format, exportButton);
+  const reviewing = section('Review', 'One HTML file with the scene, the request and the answer. It opens in any browser, without Camway.', review);
+  host.append(
+    make('section', {}, make('h3', { text: 'Request' }), make('p', {}, name, ' ', dirty), make('div', { class: 'cw-row' }, open, save)),
+    section('Answer', 'The answer as JSON, for camway check, draw and export.', saveAnswer, edit),
+    exporting,
+    reviewing,
+  );
+
+  const update = (now: State): void => {
+    const hasPath = (now.answer?.segments?.length ?? 0) > 0;
+    open.hidden = !isEditable(now);
+    edit.hidden = !isEditable(now);
+    reviewing.hidden = now.connection === 'review';
+    exporting.hidden = now.connection === 'review' || format.options.length === 0;
+    save.disabled = now.request === undefined;
+    saveAnswer.disabled = now.answer === undefined || now.isDraft;
+    edit.disabled = !hasPath || now.isDraft;
+    exportButton.disabled = !hasPath || now.isDraft || now.connection !== 'open';
+    review.disabled = now.answer === undefined || now.isDraft || now.connection !== 'open';
+  };
+  store.listen(update);
+  update(store.now);
+  return {
+    setFacts(facts) {
+      setFormats(format, facts.exports);
+      update(store.now);
+    },
+    setDocument(facts) {
+      setText(name, facts.name || 'new request');
+      setText(dirty, facts.isDirty ? 'not saved' : '');
+    },
+  };
+}
+
+function setFormats(select: HTMLSelectElement, formats: readonly ExportFormat[]): void {
+  const kept = select.value;
+  select.replaceChildren(...formats.map((format) => new Option(kFormats[format] ?? format, format)));
+  if (formats.includes(kept)) select.value = kept;
+}
+
+function section(title: string, help: string, ...children: HTMLElement[]): HTMLElement {
+  return make('section', {}, make('h3', { text: title }), make('p', { class: 'cw-help', text: help }), make('div', { class: 'cw-row' }, ...children));
+}

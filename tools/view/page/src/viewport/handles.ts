@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Handles that move and turn what is selected, a keyframe or an object.
+
+import { Object3D, Quaternion, Vector3 } from 'three';
+import type { Camera, Scene } from 'three';
+import { TransformControls } from 'three/addons/controls/TransformControls.js';
+
+export type HandleMode = 'translate' | 'rotate';
+
+export interface HandleTarget {
+  /** Tells targets apart: handles stay in the hand while the same target changes. */
+  key: string;
+  position: Vector3;
+  orientation: Quaternion;
+}
+
+export interface HandleEvents {
+  onDrag: (position: Vector3, orientation: Quaternion) => void;
+  onRelease: (position: Vector3, orientation: Quaternion) => void;
+  onBusy: (isBusy: boolean) => void;
+  onChange: () => void;
+}
+
+export class Handles {
+  private readonly proxy = new Object3D();
+  private readonly controls: TransformControls;
+  private target: HandleTarget | undefined;
+  private moved = false;
+
+  constructor(camera: Camera, element: HTMLElement, scene: Scene, events: HandleEvents) {
+    this.controls = new TransformControls(camera, element);
+    this.controls.setSize(0.75);
+    this.controls.setMode('translate');
+    scene.add(this.proxy, this.controls.getHelper());
+    this.controls.addEventListener('change', events.onChange);
+    this.controls.addEventListener('objectChange', () => {
+      this.moved = true;
+      events.onDrag(this.proxy.position.clone(), this.proxy.quaternion.clone());
+    });
+    this.controls.addEventListener('dragging-changed', ({ value }) => {
+      events.onBusy(value === true);
+      if (value !== true && this.moved) events.onRelease(this.proxy.position.clone(), this.proxy.quaternion.clone());
+      this.moved = false;
+    });
+  }
+
+  /** Whether the mouse is over a handle, or has one. */
+  get isHot(): boolean {
+    return this.target !== undefined && this.controls.axis !== null;
+  }
+
+  get isDragging(): boolean {
+    return this.controls.dragging;
+  }
+
+  get mode(): HandleMode {
+    return this.controls.mode as HandleMode;
+  }
+
+  set mode(mode: HandleMode) {
+    this.controls.setMode(mode);
+    this.controls.setSpace(mode === 'rotate' ? 'local' : 'world');
+  }
+
+  show(target: HandleTarget | undefined): void {
+    if (this.isDragging && target?.key === this.target?.key) return;
+    this.target = target;
+    if (!target) {
+      this.controls.detach();
+      return;
+    }
+    this.proxy.position.copy(target.position);
+    this.proxy.quaternion.copy(target.orientation);
+    this.proxy.updateMatrixWorld();
+    this.controls.attach(this.proxy);
+  }
+
+  set visible(isVisible: boolean) {
+    this.controls.getHelper().visible = isVisible && this.target !== undefined;
+  }
+}

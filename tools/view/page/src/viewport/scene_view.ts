@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The objects of the scene. A new description fetches the meshes with new digests alone, and moves the others.
+
+import { Group, LineSegments, Mesh, Raycaster, ShaderMaterial, Vector3 } from 'three';
+import type { BufferGeometry, Ray } from 'three';
+import { acceleratedRaycast } from 'three-mesh-bvh';
+import type { ObjectFacts, SceneDescription } from '../contract/door.js';
+import { toQuaternion } from './frame.js';
+import type { Frame } from './frame.js';
+import { disposeShape, makeEdges, makeTree, readShape } from './shapes.js';
+import type { Shape } from './shapes.js';
+import { makeEdgeMaterial, makeSurfaceMaterial, tint } from './surfaces.js';
+import type { SurfaceLook } from './surfaces.js';
+import type { Rgb } from './tubes.js';
+
+export type MeshSource = (digest: string) => Promise<ArrayBuffer>;
+
+interface Item {
+  facts: ObjectFacts;
+  shape: Shape;
+  mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  lines: LineSegments | undefined;
+}
+
+export interface Hit {
+  name: string;
+  point: Vector3;
+  /** Unit normal of the surface there, towards the ray's begin. */
+  normal: Vector3;
+}
+
+/** Meshes that are fetched at a time: browsers have six connections to a host. */
+const kMostFetches = 5;
+
+export class SceneView {
+  readonly group = new Group();
+  private readonly items = new Map<string, Item>();
+  private readonly shapes = new Map<string, Promise<Shape>>();
+  private readonly edgeMaterial: ShaderMaterial;
+  private update = 0;
+  private frame: Frame | undefined;
+  private edgeWork: Item[] = [];
+
+  constructor(
+    private readonly look: SurfaceLook,
+    private readonly source: MeshSource,
+    /** Hears that something to draw has changed. */
+    private readonly onChange: () => void,
+    private readonly onError: (sentence: string) => void,
+  ) {
+    this.edgeMaterial = makeEdgeMaterial(look);
+  }
+
+  /** Shows a scene. A later call replaces an earlier one, even if its meshes are not there yet. */
+  async show(description: SceneDescription, frame: Frame): Promise<void> {
+    const update = ++this.update;
+    this.frame = frame;
+    for (const facts of description.objects) this.place(facts);
+    const names = new Set(description.objects.map(({ name }) => name));
+    for (const name of this.items.keys()) if (!names.has(name)) this.remove(name);
+    const wanted = description.objects.filter(({ name, digest }) => this.items.get(name)?.facts.digest !== digest);
+    const queue = [...wanted];
+    const fetchNext = async (): Promise<void> => {
+      for (let facts = queue.shift(); facts && update === this.update; facts = queue.shift()) {
+        try {
+          const shape = await this.shapeOf(facts.digest);
+          if (update === this.update) this.add(facts, shape);
+        } catch (error) {
+          this.shapes.delete(facts.digest);
+          this.onError(error instanceof Error ? error.message : String(error));
+        }
+      }
+    };
+    await Promise.all(Array.from({ length: kMostFetches }, fetchNext));
+    if (update === this.update) this.dropUnused(description);
+    this.onChange();
+  }
+
+  /** Moves what is drawn of an object, while it is dragged and before the scene knows. */
+  preview(name: string, position: Vector3, orientation: readonly number[]): void {
+    const item = this.items.get(name);
+    if (item && this.frame) this.setPose(item, this.frame.toWorld(position), orientation);
+  }
+
+  factsOf(name: string): ObjectFacts | undefined {
+    return this.items.get(name)?.facts;
+  }
+
+  get shapesShown(): { shape: Shape; mesh: Mesh }[] {
+    return [...this.items.values()].map(({ shape, mesh }) => ({ shape, mesh }));
+  }
+
+  get count(): { shown: number; triangles: number; error_m: number } {
+    let shown = 0;
+    let triangles = 0;
+    let error_m = 0;
+    for (const { shape } of this.items.values()) {
+      shown += shape.shown;
+      triangles += shape.triangles;
+      error_m = Math.max(error_m, shape.error_m);
+    }
+    return { shown, triangles, error_m };
+  }
+
+  highlight(name: string | undefined, colour: Rgb): void {
+    for (const [itemName, item] of this.items) tint(item.mesh.material, itemName === name ? colour : undefined);
+    this.onChange();
+  }
+
+  /** The first surface that a ray meets on the side of the section plane that is drawn. */
+  pick(ray: Ray, far = Infinity): Hit | undefined {
+    const caster = new Raycaster(ray.origin, ray.direction, ...this.drawnPart(ray, far));
+    caster.firstHitOnly = true;
+    const meshes = [...this.items.values()].map(({ shape, mesh }) => {
+      makeTree(shape);
+      return mesh;
+    });
+    const hit = caster.intersectObjects(meshes, false)[0];
+    if (!hit) return undefined;
+    const normal = (hit.face?.normal ?? new Vector3(0, 1, 0)).clone().transformDirection(hit.object.matrixWorld);
+    if (normal.dot(ray.direction) > 0) normal.negate();
+    return { name: hit.object.name, point: hit.point, normal };
+  }
+
+  /** The interval of a ray that lies on the near side of the section plane. */
+  private drawnPart(ray: Ray, far: number): [number, number] {
+    const plane = this.look.section.value;
+    const normal = new Vector3(plane.x, plane.y, plane.z);
+    if (normal.lengthSq() === 0) return [0, far];
+    const rate = normal.dot(ray.direction);
+    const excess = normal.dot(ray.origin) - plane.w;
+    if (Math.abs(rate) < 1e-12) return excess > 0 ? [0, 0] : [0, far];
+    const crossing = -excess / rate;
+    if (excess > 0) return crossing > 0 ? [Math.min(crossing, far), far] : [0, 0];
+    return crossing > 0 ? [0, Math.min(crossing, far)] : [0, far];
+  }
+
+  private shapeOf(digest: string): Promise<Shape> {
+    let shape = this.shapes.get(digest);
+    if (!shape) {
+      shape = this.source(digest).then(readShape);
+      this.shapes.set(digest, shape);
+    }
+    return shape;
+  }
+
+  private add(facts: ObjectFacts, shape: Shape): void {
+    this.remove(facts.name);
+    const mesh = new Mesh(shape.geometry, makeSurfaceMaterial(this.look, shape.isSolid));
+    mesh.name = facts.name;
+    mesh.raycast = acceleratedRaycast;
+    const item: Item = { facts, shape, mesh, lines: undefined };
+    this.items.set(facts.name, item);
+    this.group.add(mesh);
+    this.setPose(item, facts.position, facts.orientation);
+    if (this.edgeWork.push(item) === 1) setTimeout(() => this.makeNextEdges(), 0);
+    this.onChange();
+  }
+
+  /** Edges come object by object, between frames: the scene is there before all of its lines are. */
+  private makeNextEdges(): void {
+    const item = this.edgeWork[0];
+    if (!item) return;
+    const edges = makeEdges(item.shape);
+    if (edges) {
+      item.lines = new LineSegments(edges, this.edgeMaterial);
+      item.lines.renderOrder = 1;
+      item.mesh.add(item.lines);
+      this.onChange();
+    }
+    this.edgeWork.shift();
+    if (this.edgeWork.length > 0) setTimeout(() => this.makeNextEdges(), 0);
+  }
+
+  private place(facts: ObjectFacts): void {
+    const item = this.items.get(facts.name);
+    if (!item || item.facts.digest !== facts.digest) return;
+    item.facts = facts;
+    this.setPose(item, facts.position, facts.orientation);
+    this.onChange();
+  }
+
+  private setPose(item: Item, position: readonly number[], orientation: readonly number[]): void {
+    if (!this.frame) return;
+    const { mesh, shape } = item;
+    mesh.quaternion.copy(toQuaternion(orientation));
+    const center = shape.center.clone().applyQuaternion(mesh.quaternion);
+    const at = [(position[0] ?? 0) + center.x, (position[1] ?? 0) + center.y, (position[2] ?? 0) + center.z];
+    mesh.position.copy(this.frame.toLocal(at));
+    mesh.updateMatrixWorld();
+  }
+
+  private remove(name: string): void {
+    const item = this.items.get(name);
+    if (!item) return;
+    item.mesh.removeFromParent();
+    item.mesh.material.dispose();
+    this.items.delete(name);
+    this.edgeWork = this.edgeWork.filter((other, i) => i === 0 || other !== item);
+  }
+
+  private dropUnused(description: SceneDescription): void {
+    const used = new Set(description.objects.map(({ digest }) => digest));
+    for (const [digest, shape] of this.shapes) {
+      if (used.has(digest)) continue;
+      this.shapes.delete(digest);
+      shape.then(disposeShape, () => undefined);
+    }
+  }
+}

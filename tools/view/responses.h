@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "daemon/http/server.h"
+#include "tools/view/answer.h"
+
+/// Responses of the door over HTTP.
+namespace camway::view {
+
+/// The policy of pages, which load nothing from elsewhere.
+inline constexpr std::string_view kPolicy =
+    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+    "object-src 'none'";
+
+/// Returns the headers of every response.
+std::vector<std::pair<std::string, std::string>> common_headers();
+
+/// Returns the response of an answer: its JSON, or the reason that there is none.
+http::Response to_response(Answer answer);
+/// Returns the response of a reason. [Limit: code != code::kOk]
+http::Response refusal(int code, std::string error);
+/// Returns a picture in SVG.
+http::Response picture_response(std::string picture);
+
+}  // namespace camway::view
