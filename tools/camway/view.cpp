@@ -22,6 +22,7 @@
 #include "tools/view/daemon/planner_daemon.h"
 #include "tools/view/door.h"
 #include "tools/view/here/planner_here.h"
+#include "tools/view/page/embed/embedded_page.h"
 #include "tools/view/token.h"
 
 namespace camway::tools {
@@ -133,6 +134,7 @@ ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
   options.port = flags.port;
   options.is_read_only = flags.is_read_only;
   options.first_request = first_request;
+  options.page = view::embedded_page();
   options.token = view::random_token();
   if (options.token.empty()) {
     print_error("the kernel gives no random bits for the token");

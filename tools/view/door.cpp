@@ -13,7 +13,7 @@
 #include "tools/view/desk.h"
 #include "tools/view/http_jobs.h"
 #include "tools/view/mesh_desk.h"
-#include "tools/view/page.h"
+#include "tools/view/plan_picture.h"
 #include "tools/view/responses.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
@@ -23,11 +23,13 @@ namespace {
 
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
+constexpr char kScriptType[] = "text/javascript; charset=utf-8";
 
 class DoorServer final : public Door {
  public:
   DoorServer(const DoorOptions& options, Backend& backend)
-      : lock_{options.port, options.token},
+      : page_(options.page),
+        lock_{options.port, options.token},
         desk_(std::make_shared<Desk>(options, backend)),
         meshes_(std::make_shared<MeshDesk>(backend)),
         jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
@@ -51,7 +53,8 @@ class DoorServer final : public Door {
   [[nodiscard]] std::optional<http::Response> refuse(const http::Request& request) const;
   void answer(const http::Request& request, const http::Reply& reply);
   void draw(const http::Reply& reply);
-  [[nodiscard]] http::Response page(const http::Request& request) const;
+  /// Returns a file of the page.
+  [[nodiscard]] http::Response page(const http::Request& request, Place place) const;
 
   /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
   /// if there is no place, which the reply says.
@@ -69,6 +72,7 @@ class DoorServer final : public Door {
   void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
 
+  const PageFiles page_;
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
   const std::shared_ptr<MeshDesk> meshes_;
@@ -122,9 +126,9 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
   switch (route.place) {
     case Place::kPage:
-      return reply(page(request));
+    case Place::kScript:
     case Place::kStyle:
-      return reply({code::kOk, kCssType, std::string(page_style())});
+      return reply(page(request, route.place));
     case Place::kPicture:
       return draw(reply);
     case Place::kVersion:
@@ -140,12 +144,18 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
 }
 
-http::Response DoorServer::page(const http::Request& request) const {
-  const std::shared_ptr<const LastPlan> last = desk_->backend().last();
-  http::Response response{
-      code::kOk, kHtmlType, first_page(desk_->backend().scene(), last.get()), {}};
+http::Response DoorServer::page(const http::Request& request, Place place) const {
+  const auto [file, type] = place == Place::kPage     ? std::pair(page_.html, kHtmlType)
+                            : place == Place::kScript ? std::pair(page_.script, kScriptType)
+                                                      : std::pair(page_.style, kCssType);
+  if (file.text.empty()) {
+    return refusal(code::kNotFound, "this program was built without its page");
+  }
+  http::Response response = file_response(file, type, lock_.port, request);
   // A browser that came by the printed address gets a cookie, so that pages need no token.
-  if (request.target.size() > 1) response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  if (place == Place::kPage && request.target.size() > 1) {
+    response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  }
   return response;
 }
 

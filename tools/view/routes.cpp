@@ -17,8 +17,9 @@ struct FixedPlace {
   std::string_view methods;
 };
 
-constexpr std::array<FixedPlace, 12> kFixedPlaces{{
+constexpr std::array<FixedPlace, 13> kFixedPlaces{{
     {"/", Place::kPage, "GET"},
+    {"/page.js", Place::kScript, "GET"},
     {"/page.css", Place::kStyle, "GET"},
     {"/plan.svg", Place::kPicture, "GET"},
     {"/v1/version", Place::kVersion, "GET"},

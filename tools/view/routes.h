@@ -11,6 +11,7 @@ namespace camway::view {
 /// A place of the door.
 enum class Place {
   kPage,
+  kScript,
   kStyle,
   kPicture,
   kVersion,
