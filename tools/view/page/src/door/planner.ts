@@ -102,8 +102,8 @@ export class Planner {
   private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
     const isDraft = kind === 'draft';
     const question = isDraft
-      ? { do: 'plan', drag: kDrag, finish: true, clearance_profile: true, request: draftOf(request) }
-      : { do: 'plan', drag: kDrag, progress: true, clearance_profile: true, request };
+      ? { do: 'plan', drag: kDrag, finish: true, request: draftOf(request) }
+      : { do: 'plan', drag: kDrag, progress: true, request };
     const { id, answer } = this.socket.ask(question, (part) => this.showProgress(asked, part['progress']));
     this.running = id;
     try {

@@ -119,14 +119,15 @@ function collisionsOf(state: State, answer: Answer, actions: Actions): Node[] {
   const begin_s = beginOf(pathOf(state));
   const row = (collision: Collision, detail: string, key: string): HTMLElement => {
     const { object, time, depth_m } = collision.witness;
-    const times = `${timeText(collision.t_begin, begin_s)}–${timeText(collision.t_end, begin_s)} s`;
-    const depth = depth_m > 0 ? `, ${withUnit(depth_m, 'm')} deep` : '';
+    const [from, to] = [timeText(collision.t_begin, begin_s), timeText(collision.t_end, begin_s)];
+    const times = from === to ? `${from} s` : `${from}–${to} s`;
+    const depth = depth_m > 0 ? `${withUnit(depth_m, 'm')} deep` : '';
     const button = makeButton('', () => actions.seek(time), { class: 'cw-item', title: 'Go there' });
     button.dataset['key'] = key;
     button.append(
       make('span', { class: 'cw-item-time', text: times }),
-      make('span', { class: 'cw-item-name', text: `${object}${depth}` }),
-      make('span', { class: 'cw-item-detail', text: detail }),
+      make('span', { class: 'cw-item-name', text: object }),
+      make('span', { class: 'cw-item-detail', text: [depth, detail].filter((words) => words !== '').join('; ') }),
     );
     return make('li', {}, button);
   };
@@ -141,16 +142,17 @@ function collisionsOf(state: State, answer: Answer, actions: Actions): Node[] {
     const rows = remaining.map((collision, i) => row(collision, detailOf(collision), `remaining ${i}`));
     sections.push(section(`Remaining collisions: ${remaining.length}`, listOf(rows, 'cw-remaining')));
   }
-  const before = answer.collisions ?? [];
+  const before = (answer.collisions ?? []).filter((collision) => !remaining.some((left) => isOf(left, collision)));
   if (before.length > 0) {
     const rows = before.map((collision, i) => row(collision, detailOf(collision), `collision ${i}`));
-    sections.push(section(`Collisions before: ${before.length}`, listOf(rows, 'cw-before')));
+    const title = remaining.length > 0 ? 'Corrected collisions' : 'Collisions before';
+    sections.push(section(`${title}: ${before.length}`, listOf(rows, 'cw-before')));
   }
   return sections;
 }
 
-function isOf(correction: Correction, collision: Collision): boolean {
-  return correction.t_begin === collision.t_begin && correction.t_end === collision.t_end;
+function isOf(other: Correction | Collision, collision: Collision): boolean {
+  return other.t_begin === collision.t_begin && other.t_end === collision.t_end;
 }
 
 function listOf(rows: readonly HTMLElement[], name: string): HTMLElement {

@@ -162,16 +162,15 @@ export interface StageTime {
 }
 
 const kStages: Readonly<Record<string, string>> = {
-  load_scene: 'read the scene',
   motion: 'interpolate',
   detect: 'find collisions',
   correct: 'correct',
   certify: 'prove',
 };
 
-/** The stages of planning without the total, in their order; reading the scene only if it was read. */
+/** The stages that the total time of planning has, in their order. Reading the scene is none of them. */
 export function stageTimes(answer: Answer | undefined): StageTime[] {
   return Object.entries(answer?.timing_ms ?? {})
-    .filter(([name, milliseconds]) => name !== 'total' && milliseconds > 0)
+    .filter(([name, milliseconds]) => name !== 'total' && name !== 'load_scene' && milliseconds > 0)
     .map(([name, milliseconds]) => ({ stage: kStages[name] ?? name.replaceAll('_', ' '), milliseconds }));
 }

@@ -19,8 +19,10 @@ export interface OptionField {
   help: string;
   unit: string;
   range: Range | undefined;
-  /** Words about range and default. */
+  /** Words about the range. */
   rule: string;
+  /** What holds where the option is not set. */
+  unset: string;
   choices: readonly string[];
   /** Shown only where this holds of the request. */
   isUsed: (request: PlanRequest | undefined) => boolean;
@@ -101,7 +103,8 @@ function fieldsOf(field: Field): OptionField[] {
         help: '',
         unit: field.unit ?? unitOf(field.name),
         range: rangeOf(field.range),
-        rule: ruleOf(field.range, field.default),
+        rule: field.range ?? '',
+        unset: unsetOf(field.default),
         choices: field.choices ?? [],
         isUsed: () => true,
       },
@@ -113,17 +116,15 @@ function fieldsOf(field: Field): OptionField[] {
     help: member.help,
     unit: unitOf(member.name),
     range: rangeOf(member.range),
-    rule: ruleOf(member.range, member.unset),
+    rule: member.range ?? '',
+    unset: member.unset,
     choices: member.choices ?? [],
     isUsed: (request) => member.isUsed?.(optionAt(request, ['orientation', 'policy'])) ?? true,
   }));
 }
 
-function ruleOf(range: string | undefined, unset: unknown): string {
-  const text = typeof unset === 'object' && unset !== null ? JSON.stringify(unset) : String(unset ?? '');
-  const isValue = /^[-0-9`]|^(true|false|free|ladder|closest)$/.test(text);
-  const words = text === '' ? '' : isValue ? `default ${plain(text)}` : plain(text);
-  return [range, words].filter((part) => part).join('; ');
+function unsetOf(unset: unknown): string {
+  return typeof unset === 'object' && unset !== null ? JSON.stringify(unset) : plain(String(unset ?? ''));
 }
 
 const kUnits: readonly (readonly [suffix: string, unit: string])[] = [

@@ -4,7 +4,7 @@
 
 export const kLeft = 104;
 export const kRight = 84;
-export const kRulerHeight = 22;
+export const kRulerHeight = 27;
 export const kMarksHeight = 22;
 export const kBandHeight = 14;
 export const kLaneHeight = 40;

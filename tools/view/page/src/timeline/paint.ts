@@ -77,10 +77,10 @@ function paintRuler(context: Context, { layout, theme }: Picture): void {
     context.strokeStyle = theme.line;
     verticalLine(context, x, kRulerHeight - 4, layout.height);
     context.fillStyle = theme.muted;
-    context.fillText(timeText(origin_s + offset_s, layout.t0, ticks.decimals), x, 9);
+    context.fillText(timeText(origin_s + offset_s, layout.t0, ticks.decimals), x, 7);
   }
   context.textAlign = 'right';
-  context.fillText('time, s', layout.x0 - 12, 9);
+  context.fillText('time, s', layout.x0 - 12, 7);
 }
 
 function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }: Picture): void {
@@ -208,13 +208,15 @@ function paintLane(context: Context, { layout, theme }: Picture, lane: Lane, top
   const yOf = (value: number): number => low - (Math.min(value, most) / most) * (low - high);
   paintCurve(context, layout, curve, yOf, low, theme);
   context.textAlign = 'left';
-  if (curve.limit !== undefined) paintLimit(context, layout, lane, curve.limit, yOf(curve.limit));
+  if (curve.limit !== undefined) paintLimit(context, theme, layout, lane, curve.limit, yOf(curve.limit));
   context.fillStyle = theme.muted;
-  context.fillText(`max ${numberText(curve.largest)}`, layout.x1 + 8, curve.limit === undefined ? (low + high) / 2 : low - 5);
+  // Below the limit's words, or above them where the limit is low.
+  const y = curve.limit === undefined ? (low + high) / 2 : yOf(curve.limit) < (low + high) / 2 ? low - 5 : high + 1;
+  context.fillText(`max ${numberText(curve.largest)}`, layout.x1 + 8, y);
 }
 
 /** A limit as a dashed line with a word: an upper one, or for the clearance a lower one. */
-function paintLimit(context: Context, layout: Layout, lane: Lane, limit: number, y: number): void {
+function paintLimit(context: Context, theme: Theme, layout: Layout, lane: Lane, limit: number, y: number): void {
   context.strokeStyle = kPalette.collision;
   context.setLineDash([6, 4]);
   context.beginPath();
@@ -222,9 +224,8 @@ function paintLimit(context: Context, layout: Layout, lane: Lane, limit: number,
   context.lineTo(layout.x1, Math.round(y) + 0.5);
   context.stroke();
   context.setLineDash([]);
-  context.fillStyle = kPalette.collision;
-  const middle = layout.lanesTop;
-  context.fillText(`${lane.kind.name === 'clearance' ? 'least' : 'limit'} ${numberText(limit)}`, layout.x1 + 8, Math.max(y, middle));
+  context.fillStyle = theme.text;
+  context.fillText(`${lane.kind.name === 'clearance' ? 'least' : 'limit'} ${numberText(limit)}`, layout.x1 + 8, y);
 }
 
 /** Draws a curve with at most some points for each pixel: of those in one pixel, the lowest and the highest. */
