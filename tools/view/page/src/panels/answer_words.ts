@@ -41,11 +41,11 @@ export function correctionText(correction: Correction): string {
     const tried = triedWords(correction.tried);
     return tried ? `not corrected; tried ${tried}` : 'not corrected';
   }
-  const parts = [correctionWords(correction)];
-  if (correction.moved_m > 0) parts.push(`by up to ${withUnit(correction.moved_m, 'm')}`);
-  if (correction.turned_deg > 0) parts.push(`turned by up to ${withUnit(correction.turned_deg, '°')}`);
-  parts.push(`shift up to ${withUnit(correction.largest_shift_deg, '°')}`);
-  return parts.join(', ').replace(', by', ' by');
+  const sizes: string[] = [];
+  if (correction.moved_m > 0) sizes.push(withUnit(correction.moved_m, 'm'));
+  if (correction.turned_deg > 0) sizes.push(withUnit(correction.turned_deg, '°'));
+  const most = sizes.length > 0 ? `, at most ${sizes.join(' and ')}` : '';
+  return `${correctionWords(correction)}${most}; shift up to ${withUnit(correction.largest_shift_deg, '°')}`;
 }
 
 const kTried: readonly (readonly [name: string, noun: string])[] = [

@@ -102,12 +102,17 @@ function fieldRow(state: State, field: OptionField, helpId: string, actions: Act
   const isMember = field.path.length > 1;
   const control = controlOf(field, value, `${helpId} ${rule.id}`, (next) => actions.setOption(field.path, next));
   if (control instanceof HTMLInputElement && control.type === 'checkbox') {
-    return make('div', { class: 'cw-option-field' }, make('label', { class: 'cw-check', title: field.help }, control, isMember ? name : 'on'), rule);
+    const label = make('label', { class: 'cw-check' }, control, isMember ? memberOf(name, field.help) : 'on');
+    return make('div', { class: 'cw-option-field' }, label, rule);
   }
   control.setAttribute('aria-label', isMember ? `${field.path[0]}, ${name}` : name);
-  const words = isMember ? make('span', { class: 'cw-member', text: name, title: field.help }) : undefined;
+  const words = isMember ? memberOf(name, field.help) : undefined;
   const unit = field.unit ? make('span', { class: 'cw-unit', text: field.unit }) : undefined;
   return make('div', { class: 'cw-option-field' }, words, control, unit, rule);
+}
+
+function memberOf(name: string, help: string): HTMLElement {
+  return make('span', { class: 'cw-member' }, name, help ? make('span', { class: 'cw-rule', text: help }) : undefined);
 }
 
 function controlOf(field: OptionField, value: unknown, describedBy: string, changed: (value: unknown) => void): HTMLElement {

@@ -59,11 +59,12 @@ export function makePanels(host: HTMLElement, store: Store, actions: Actions): P
   makeAnswerPanel(panelOf('answer'), store, actions);
   const keyframes = makeKeyframePanel(panelOf('keyframes'), store, actions);
   const options = makeOptionPanel(panelOf('options'), store, actions);
-  makeScenePanel(panelOf('scene'), store, actions);
+  const scene = makeScenePanel(panelOf('scene'), store, actions);
   const file = makeFilePanel(panelOf('file'), store, actions);
   return {
     setFacts(facts) {
       options.setFacts(facts);
+      scene.setFacts(facts);
       file.setFacts(facts);
     },
     setDocument(facts) {
