@@ -7,7 +7,7 @@ import path from 'node:path';
 
 export const kRoot = path.resolve(path.dirname(new URL(import.meta.url).pathname), '../../../..');
 /// Time after which a wait counts as failed. Every wait ends as soon as its condition holds.
-export const kPatience_ms = 10000;
+export const kPatience_ms = 60000;
 const kNotRun = 77;
 
 export const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'camway-page-'));
