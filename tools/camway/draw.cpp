@@ -16,6 +16,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/review_file.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/side_by_side.h"
 #include "tools/json/json_request.h"
@@ -95,6 +96,11 @@ ExitCode run_draw(const DrawFlags& flags) {
       load_timed(scene_file, scene_file, options, user_cache(flags.scene)).result;
   if (!loaded.snapshot) return invalid(loaded.error);
   warn_of_another_scene(flags, *loaded.snapshot);
+  if (std::filesystem::path(flags.picture).extension() == ".html") {
+    const std::string error =
+        write_review(*loaded.snapshot, flags.request, flags.response, flags.picture);
+    return error.empty() ? ExitCode::kSuccess : invalid(error);
+  }
   const std::filesystem::path picture(flags.picture);
   draw::PictureFiles files;
   (picture.extension() == ".svg" ? files.svg : files.png) = picture;
@@ -116,13 +122,15 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--response", flags->response, "Response file of that request")
       ->required()
       ->type_name("FILE");
-  command->add_option("--picture", flags->picture, "Picture to write: .svg or .png")
+  command
+      ->add_option("--picture", flags->picture,
+                   "Picture to write: .svg or .png; or .html, a page to look around in")
       ->required()
       ->type_name("FILE")
       ->check([](const std::string& file) {
         const std::filesystem::path extension = std::filesystem::path(file).extension();
-        return extension == ".svg" || extension == ".png" ? std::string()
-                                                          : file + ": is neither .svg nor .png";
+        const bool is_known = extension == ".svg" || extension == ".png" || extension == ".html";
+        return is_known ? std::string() : file + ": is neither .svg nor .png nor .html";
       });
   static constexpr std::array<std::pair<std::string_view, draw::SceneUp>, 2> kVerticals{
       {{"y", draw::SceneUp::kY}, {"z", draw::SceneUp::kZ}}};

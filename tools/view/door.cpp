@@ -15,6 +15,7 @@
 #include "tools/view/mesh_desk.h"
 #include "tools/view/plan_picture.h"
 #include "tools/view/responses.h"
+#include "tools/view/review.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
 
@@ -24,6 +25,11 @@ namespace {
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
 constexpr char kScriptType[] = "text/javascript; charset=utf-8";
+
+/// Returns a function that sends an answer as JSON.
+Done in_json(http::Reply send) {
+  return [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
+}
 
 class DoorServer final : public Door {
  public:
@@ -37,6 +43,7 @@ class DoorServer final : public Door {
     jobs_->close();
     server_.reset();
     desk_->stop();
+    meshes_->stop();
   }
   DoorServer(const DoorServer&) = delete;
   DoorServer& operator=(const DoorServer&) = delete;
@@ -65,12 +72,16 @@ class DoorServer final : public Door {
   /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
   /// a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
-                 Done done);
+                 const http::Reply& send);
+  /// Has a document answered in JSON.
+  void read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                     HttpJobs::Ticket ticket, Done done);
   void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void interpolate(const nlohmann::json& document, Done done);
   void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
+  void review(const nlohmann::json& document, const http::Reply& send);
 
   const PageFiles page_;
   Lock lock_;  ///< read by the server's thread once the port is set
@@ -196,7 +207,7 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   http::Reply send = begin(reply, ticket);
   if (!send) return;
   if (route.place == Place::kMesh) return send_mesh(route, send);
-  Done done = [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
+  Done done = in_json(send);
   SceneOrder order;
   order.scene = route.scene;
   order.object = route.object;
@@ -217,28 +228,34 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   }
   // The route refers to the target of the request, which ends with this call.
   desk_->post([this, body = request.body, place = route.place, order = std::move(order), ticket,
-               done = std::move(done)]() mutable {
-    read_body(body, place, std::move(order), ticket, std::move(done));
+               send = std::move(send)]() mutable {
+    read_body(body, place, std::move(order), ticket, send);
   });
 }
 
 void DoorServer::read_body(const std::string& body, Place place, SceneOrder named,
-                           HttpJobs::Ticket ticket, Done done) {
+                           HttpJobs::Ticket ticket, const http::Reply& send) {
   const base::Result<nlohmann::json> document = tools::parse_document(body, "request");
-  if (!document) return done(failure(code::kInvalid, document.error));
+  if (!document) return send(refusal(code::kInvalid, document.error));
+  if (place == Place::kReview) return review(*document, send);
+  read_document(*document, place, named, ticket, in_json(send));
+}
+
+void DoorServer::read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                               HttpJobs::Ticket ticket, Done done) {
   switch (place) {
     case Place::kPlan:
-      return plan(*document, ticket, std::move(done));
+      return plan(document, ticket, std::move(done));
     case Place::kCheck:
-      return check(*document, ticket, std::move(done));
+      return check(document, ticket, std::move(done));
     case Place::kInterpolate:
-      return interpolate(*document, std::move(done));
+      return interpolate(document, std::move(done));
     case Place::kTriangles:
-      return triangles(*document, named.scene, std::move(done));
+      return triangles(document, named.scene, std::move(done));
     case Place::kObjects:
-      return change(read_added(*document), named, std::move(done));
+      return change(read_added(document), named, std::move(done));
     default:
-      return change(read_moved(*document), named, std::move(done));
+      return change(read_moved(document), named, std::move(done));
   }
 }
 
@@ -274,6 +291,21 @@ void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named,
   // One that is added has its name in the body.
   if (!named.object.empty()) order->object = named.object;
   desk_->ask_scene(*std::move(order), std::move(done));
+}
+
+void DoorServer::review(const nlohmann::json& document, const http::Reply& send) {
+  base::Result<ReviewOrder> order = read_review(document);
+  if (!order) return send(refusal(code::kInvalid, order.error));
+  order->plan = desk_->in_scene(std::move(order->plan));
+  // It waits for the backend, which must not keep other requests waiting.
+  meshes_->post([this, order = *std::move(order), send] {
+    ReviewFile made = make_review(order, page_, desk_->backend(), *meshes_);
+    if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+    send({code::kOk,
+          kHtmlType,
+          std::move(made.html),
+          {{"Content-Disposition", "attachment; filename=\"review.html\""}}});
+  });
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ enum class Place {
   kInterpolate,
   kFields,
   kLast,
+  kReview,
   kSocket,
   kScenes,
   kScene,

@@ -345,6 +345,27 @@ TEST_F(Import, RefusesGarbageOfEveryType) {
   }
 }
 
+/// A triangle in FBX as text. `unit` is a number, or what stands in its place.
+std::string fbx_of_unit(const std::string& unit) {
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: "
+         "7400\n}\nGlobalSettings: {\nVersion: 1000\nProperties70: {\nP: \"UnitScaleFactor\", "
+         "\"double\", \"Number\", \"\"," +
+         unit +
+         "\n}\n}\nObjects: {\nGeometry: 1000, \"Geometry::t\", \"Mesh\" {\nVertices: *9 {\na: "
+         "0,0,0,100,0,0,0,100,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\nGeometryVersion: "
+         "124\n}\nModel: 2000, \"Model::t\", \"Mesh\" {\nVersion: 232\n}\n}\nConnections: {\nC: "
+         "\"OO\",2000,0\nC: \"OO\",1000,2000\n}\n";
+}
+
+TEST_F(Import, TakesTheUnitOfFbxOrSaysWhatIsWrongWithIt) {
+  const ImportResult centimetres = import_mesh(write("a.fbx", fbx_of_unit("1")), {});
+  ASSERT_TRUE(centimetres.mesh.has_value()) << centimetres.error;
+  EXPECT_NEAR(centimetres.report.bounds_m.max().x(), 1.0, 1e-6);
+  for (const char* unit : {"-1", "0", "1e30", "1e-30"}) {
+    EXPECT_THAT(error_of(write("a.fbx", fbx_of_unit(unit))), HasSubstr("UnitScaleFactor"));
+  }
+}
+
 // 27 bytes that cost assimp 5 GB and 15 s. The error has the number only if the file was not read.
 TEST_F(Import, RefusesAFileThatPromisesBillions) {
   EXPECT_THAT(error_of(write("a.off", "OFF\n400000000 1 0\n0 0 0 0 \n")), HasSubstr("400000000"));

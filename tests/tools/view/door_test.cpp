@@ -64,6 +64,8 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/v1/fields", 200},
            {"GET", "/v1/last", 200},
            {"POST", "/v1/last", 405},
+           {"POST", "/v1/review", 200},
+           {"GET", "/v1/review", 405},
            {"GET", "/v2/plan", 404},
        }) {
     EXPECT_EQ(route_of(each.method, each.target).code, each.code)

@@ -8,12 +8,15 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <assimp/Importer.hpp>
@@ -119,6 +122,30 @@ class TransformRounding {
   double bound_ = 0.0;
 };
 
+constexpr double kCentimetre_m = 0.01;
+
+/// The unit of an FBX file in centimetres, if it states one. Its reader only reports it.
+std::optional<double> fbx_unit_cm(const aiScene& scene, const std::string& format) {
+  float centimetres = 0.0F;
+  if (format.find("FBX") == std::string::npos || scene.mMetaData == nullptr ||
+      !scene.mMetaData->Get("UnitScaleFactor", centimetres)) {
+    return std::nullopt;
+  }
+  return static_cast<double>(centimetres);
+}
+
+/// Returns why the unit of a file cannot be used; empty if it can.
+std::string unit_fault(const aiScene& scene, const std::string& format) {
+  const std::optional<double> unit_cm = fbx_unit_cm(scene, format);
+  if (!unit_cm || (*unit_cm * kCentimetre_m >= layout::kSmallestUnit_m &&
+                   *unit_cm * kCentimetre_m <= layout::kLargestUnit_m)) {
+    return "";
+  }
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", *unit_cm);
+  return "its UnitScaleFactor, the length of its unit in centimetres, is " + std::string(number);
+}
+
 /// Says what the readers of assimp do with units and axes, and takes the unit that they only
 /// report.
 void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
@@ -126,10 +153,8 @@ void note_unit_and_axes(const aiScene& scene, layout::Record& record) {
     record.notes += "the file's own <unit> and <up_axis> are applied: metres, Y up\n";
   }
   if (record.text.find("FBX") == std::string::npos || scene.mMetaData == nullptr) return;
-  constexpr double kCentimetre_m = 0.01;
-  float centimetres = 0.0F;
-  if (scene.mMetaData->Get("UnitScaleFactor", centimetres) && centimetres > 0.0F) {
-    record.header.unit_m = kCentimetre_m * static_cast<double>(centimetres);
+  if (const std::optional<double> unit_cm = fbx_unit_cm(scene, record.text)) {
+    record.header.unit_m = kCentimetre_m * *unit_cm;
   }
   int axis = 0;
   if (scene.mMetaData->Get("UpAxis", axis) && axis >= 0 && axis < 3) {
@@ -189,6 +214,9 @@ int import_cameras_with_assimp(const std::string& file) {
   }
   layout::Record record;
   record.text = format_of(importer);
+  if (std::string fault = unit_fault(*scene, record.text); !fault.empty()) {
+    return refuse(std::move(fault));
+  }
   note_unit_and_axes(*scene, record);
   record.names = cameras_text(*scene, record.text);
   if (record.names.empty()) return refuse("has no camera");
@@ -217,6 +245,9 @@ int import_with_assimp(const std::string& file, const std::string& extension) {
       import_process::kReadingRoundoffs * import_process::kFloatRoundoff;
   record.header.absolute_rounding = TransformRounding(*scene).bound();
   record.text = format_of(importer);
+  if (std::string fault = unit_fault(*scene, record.text); !fault.empty()) {
+    return refuse(std::move(fault));
+  }
   note_unit_and_axes(*scene, record);
   scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
   if (scene == nullptr) return refuse(importer.GetErrorString());

@@ -71,6 +71,20 @@ test('the frames of a drag are one step', () => {
   assert.equal(requestText(document.current), dragged);
 });
 
+test('a drag ends where something is undone: its name may be used again', () => {
+  const random = new Random('again');
+  const document = new RequestDocument(random.request(3), 'r.json');
+  const moved = (): PlanRequest => withPose(document.current, 1, { position: random.vector(), orientation: random.quaternion() });
+  document.apply(moved(), 'keyframe 1');
+  document.apply(withOption(document.current, ['seed'], 2));
+  document.apply(moved(), 'keyframe 1');
+  document.undo();
+  const text = requestText(document.current);
+  document.apply(moved(), 'keyframe 1');
+  document.undo();
+  assert.equal(requestText(document.current), text);
+});
+
 test('the history is bounded, and by the number of keyframes, too', () => {
   const random = new Random('bound');
   const steps = (keyframes: number, edits: number): number => {

@@ -89,6 +89,16 @@ test('times stay in order, and the sentence names the neighbour', () => {
   assert.ok(edits.isRefusal(begin) && /later than keyframe 0/.test(begin.refused));
 });
 
+test('a keyframe that is moved keeps its time and image, and is no longer called repaired', () => {
+  const [first, second] = new Random('moved').request(2, true).keyframes;
+  assert.ok(first && second);
+  const request: PlanRequest = { keyframes: [{ ...first, image: [1, 0, 0, 0], repaired: true }, second] };
+  const moved = edits.withPose(request, 0, { position: [1, 2, 3], orientation: [0, 1, 0, 0] });
+  assert.deepEqual(moved.keyframes[0], { position: [1, 2, 3], orientation: [0, 1, 0, 0], time: first.time, image: [1, 0, 0, 0] });
+  assert.equal(moved.keyframes[1], second);
+  assert.equal(edits.withPose(request, 2, first), request);
+});
+
 test('the last two keyframes stay', () => {
   const request = new Random('two').request(2);
   const result = edits.withoutKeyframe(request, 0);

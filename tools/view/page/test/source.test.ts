@@ -39,4 +39,8 @@ test('the colour of the clearance goes from vermillion over yellow to blue', () 
   assert.equal(hex(clearanceColour(1, 1)), kPalette.clearanceHigh);
   assert.equal(hex(clearanceColour(100, 1)), kPalette.clearanceHigh);
   assert.equal(hex(clearanceColour(Number.NaN, 1)), kPalette.clearanceLow);
+  for (let k = 0; k < 1000; ++k) {
+    const [a, b] = [clearanceColour(k / 1000, 1), clearanceColour((k + 1) / 1000, 1)];
+    a.forEach((x, i) => assert.ok(Math.abs(x - (b[i] as number)) < 0.002 && x >= 0 && x <= 1, 'it has no jump'));
+  }
 });
