@@ -72,6 +72,9 @@ const kControls: Readonly<Record<Field['type'], Control>> = {
   object: 'json',
 };
 
+/** Of a default, as angles in degrees have sixteen. */
+const kShownDigits = 6;
+
 /** The groups of the panel, in the order of the door. */
 export function fieldGroups(fields: readonly Field[]): FieldGroup[] {
   return fields.map((field) => ({ name: field.name, help: plain(field.help), fields: fieldsOf(field) }));
@@ -102,6 +105,7 @@ function controlOf(field: Field, unset = ''): Omit<OptionField, 'path' | 'help' 
 }
 
 function unsetOf(unset: unknown): string {
+  if (typeof unset === 'number') return String(Number(unset.toPrecision(kShownDigits)));
   if (Array.isArray(unset)) return unset.join(', ');
   return typeof unset === 'object' && unset !== null ? JSON.stringify(unset) : plain(String(unset ?? ''));
 }

@@ -90,8 +90,8 @@ function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }
   for (const mark of marks) {
     const x = xOf(layout, mark.time_s);
     const isSelected = mark.index !== undefined && mark.index === selectedKeyframe;
-    if (mark.origin === 'inserted') ring(context, theme, x, y);
-    else diamond(context, theme, x, y, isSelected);
+    if (mark.origin === 'inserted') lozenge(context, x, y);
+    else disc(context, theme, x, y, isSelected);
     if (mark.index === undefined || !(x - numbered >= kNumberDistance || isSelected)) continue;
     numbered = x;
     context.fillStyle = isSelected ? theme.accent : theme.muted;
@@ -100,26 +100,23 @@ function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }
   }
 }
 
-function diamond(context: Context, theme: Theme, x: number, y: number, isSelected: boolean): void {
-  const size = isSelected ? 6.5 : 5;
+/** Given keyframes are discs and inserted ones lozenges, as in the view and in the pictures of `camway draw`. */
+function disc(context: Context, theme: Theme, x: number, y: number, isSelected: boolean): void {
   context.fillStyle = isSelected ? theme.accent : theme.text;
+  context.beginPath();
+  context.arc(x, y, isSelected ? 5.5 : 4.5, 0, 2 * Math.PI);
+  context.fill();
+}
+
+function lozenge(context: Context, x: number, y: number): void {
+  const size = 5;
+  context.fillStyle = kPalette.inserted;
   context.beginPath();
   context.moveTo(x, y - size);
   context.lineTo(x + size, y);
   context.lineTo(x, y + size);
   context.lineTo(x - size, y);
   context.fill();
-}
-
-function ring(context: Context, theme: Theme, x: number, y: number): void {
-  context.fillStyle = theme.panel;
-  context.strokeStyle = kPalette.inserted;
-  context.lineWidth = 2;
-  context.beginPath();
-  context.arc(x, y, 3.5, 0, 2 * Math.PI);
-  context.fill();
-  context.stroke();
-  context.lineWidth = 1;
 }
 
 function paintRow(context: Context, { layout, theme }: Picture, row: BandRow, top: number): void {
