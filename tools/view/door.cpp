@@ -11,6 +11,7 @@
 #include "daemon/http/server.h"
 #include "tools/view/access.h"
 #include "tools/view/desk.h"
+#include "tools/view/export.h"
 #include "tools/view/http_jobs.h"
 #include "tools/view/mesh_desk.h"
 #include "tools/view/plan_picture.h"
@@ -69,8 +70,8 @@ class DoorServer final : public Door {
   /// Sends the mesh of an object.
   void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
-  /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
-  /// a thread of the desk.
+  /// Reads the body of a request and has it answered. `named` has the names of the target, and the
+  /// format of an export as its object. Runs on a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
                  const http::Reply& send);
   /// Has a document answered in JSON.
@@ -82,6 +83,9 @@ class DoorServer final : public Door {
   void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
   void review(const nlohmann::json& document, const http::Reply& send);
+  /// Sends the path in a format, which a parameter of the target names.
+  void send_export(const nlohmann::json& document, std::string_view format,
+                   const http::Reply& send);
 
   const PageFiles page_;
   Lock lock_;  ///< read by the server's thread once the port is set
@@ -210,7 +214,8 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   Done done = in_json(send);
   SceneOrder order;
   order.scene = route.scene;
-  order.object = route.object;
+  order.object =
+      route.place == Place::kExport ? parameter_of(request.target, "format") : route.object;
   switch (route.place) {
     case Place::kStatus:
       return desk_->status(std::move(done));
@@ -238,6 +243,7 @@ void DoorServer::read_body(const std::string& body, Place place, SceneOrder name
   const base::Result<nlohmann::json> document = tools::parse_document(body, "request");
   if (!document) return send(refusal(code::kInvalid, document.error));
   if (place == Place::kReview) return review(*document, send);
+  if (place == Place::kExport) return send_export(*document, named.object, send);
   read_document(*document, place, named, ticket, in_json(send));
 }
 
@@ -306,6 +312,16 @@ void DoorServer::review(const nlohmann::json& document, const http::Reply& send)
           std::move(made.html),
           {{"Content-Disposition", "attachment; filename=\"review.html\""}}});
   });
+}
+
+void DoorServer::send_export(const nlohmann::json& document, std::string_view format,
+                             const http::Reply& send) {
+  ExportFile made = make_export(document, format);
+  if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+  send({code::kOk,
+        "application/octet-stream",
+        std::move(made.bytes),
+        {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", made.name)}}});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct FixedPlace {
   std::string_view methods;
 };
 
-constexpr std::array<FixedPlace, 14> kFixedPlaces{{
+constexpr std::array<FixedPlace, 15> kFixedPlaces{{
     {"/", Place::kPage, "GET"},
     {"/page.js", Place::kScript, "GET"},
     {"/page.css", Place::kStyle, "GET"},
@@ -30,6 +30,7 @@ constexpr std::array<FixedPlace, 14> kFixedPlaces{{
     {"/v1/fields", Place::kFields, "GET"},
     {"/v1/last", Place::kLast, "GET"},
     {"/v1/review", Place::kReview, "POST"},
+    {"/v1/export", Place::kExport, "POST"},
     {"/v1/socket", Place::kSocket, "GET"},
     {"/v1/scenes", Place::kScenes, "GET"},
 }};

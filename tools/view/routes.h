@@ -22,6 +22,7 @@ enum class Place {
   kFields,
   kLast,
   kReview,
+  kExport,
   kSocket,
   kScenes,
   kScene,

@@ -66,6 +66,8 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"POST", "/v1/last", 405},
            {"POST", "/v1/review", 200},
            {"GET", "/v1/review", 405},
+           {"POST", "/v1/export?format=csv", 200},
+           {"GET", "/v1/export", 405},
            {"GET", "/v2/plan", 404},
        }) {
     EXPECT_EQ(route_of(each.method, each.target).code, each.code)

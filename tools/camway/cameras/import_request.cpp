@@ -9,6 +9,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/scene/import/record/import_words.h"
+#include "tools/cameras/export/path_export.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -18,7 +19,6 @@ using geometry::Quat;
 using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRemark = "_camera";
 constexpr double kUsualAspect = 16.0 / 9.0;
 constexpr double kUsualNear_m = 0.1;
 
@@ -88,19 +88,6 @@ base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens
   return RequestCamera{*fov_x_rad, *fov_y_rad, near_m.value_or(kUsualNear_m)};
 }
 
-CameraRemark camera_remark(const std::string& request_text) {
-  const nlohmann::json request = nlohmann::json::parse(request_text, nullptr, false);
-  CameraRemark remark;
-  if (!request.is_object() || !request.contains(kRemark)) return remark;
-  const nlohmann::json& camera = request[kRemark];
-  if (!camera.is_object()) return remark;
-  if (camera.contains("name") && camera["name"].is_string()) camera["name"].get_to(remark.name);
-  if (camera.contains("fps") && camera["fps"].is_number() && camera["fps"].get<double>() > 0.0) {
-    remark.fps = camera["fps"].get<double>();
-  }
-  return remark;
-}
-
 void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
   const Quat turn = turn_of(up);
   for (TrackKey& key : track.keys) {
@@ -122,8 +109,8 @@ void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
 Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestCamera& camera,
                   const RequestScene& scene) {
   Json json;
-  json[kRemark] = {{"name", track.name}};
-  if (track.fps) json[kRemark]["fps"] = *track.fps;
+  json[kCameraRemark] = {{"name", track.name}};
+  if (track.fps) json[kCameraRemark]["fps"] = *track.fps;
   if (!scene.file.empty()) json["scene"] = scene.file;
   if (scene.scale != 1.0) json["scale"] = scene.scale;
   if (scene.up != scene::UpAxis::kAsInFile) json["up"] = base::name_of(scene.up);
