@@ -4,11 +4,12 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import type { Answer, Correction } from '../src/contract/answer.js';
 import type { Field } from '../src/contract/door.js';
-import { counted, numberText, timeText, withUnit } from '../src/model/format.js';
+import { counted, lowerBoundText, numberText, timeText, withUnit } from '../src/model/format.js';
 import * as words from '../src/panels/answer_words.js';
 import { numberOf } from '../src/panels/inputs.js';
 import { fieldGroups, unitOf } from '../src/panels/option_fields.js';
 import { isWithin, rangeOf } from '../src/panels/ranges.js';
+import { Random } from './random.js';
 
 const kRequests = readFileSync(`${process.env['CAMWAY_SOURCE']}/docs/requests.md`, 'utf8');
 
@@ -51,6 +52,16 @@ test('numbers are written with three digits and no needless exponent', () => {
   assert.equal(counted(28612, 'triangle'), '28,612 triangles');
   assert.equal(timeText(1.7e9 + 2.5, 1.7e9), '+2.50');
   assert.equal(timeText(2.5, 0), '2.50');
+});
+
+test('a proved lower bound is never rounded up', () => {
+  const random = new Random('bounds');
+  for (let round = 0; round < 2000; ++round) {
+    const value = 10 ** random.number(-4, 3);
+    const shown = Number(lowerBoundText(value));
+    assert.ok(shown <= value && shown > value * 0.989, `${value}: ${shown}`);
+  }
+  assert.deepEqual([0, 0.06089, 0.009, 0.3, 100].map((x) => lowerBoundText(x)), ['0', '0.0608', '0.00900', '0.300', '100']);
 });
 
 test('every option of the door has a field, and members count where they are used', () => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type { Answer, Collision, Correction, KeyframeFault } from '../contract/answer.js';
 import type { Actions } from '../model/actions.js';
-import { numberText, timeText, withUnit } from '../model/format.js';
+import { lowerBoundText, numberText, timeText, withUnit } from '../model/format.js';
 import { beginOf } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
@@ -82,7 +82,7 @@ function faultsOf(state: State, faults: readonly KeyframeFault[], actions: Actio
     if (!pose) row.append(make('p', { class: 'cw-muted', text: 'No free pose was found near it.' }));
     else if (state.connection !== 'review') {
       const away = freePoseText(state.request, fault.keyframe, pose);
-      const button = makeButton(`Move it to the nearest free pose${away ? ` (${away})` : ''}`, () => actions.acceptFreePose(fault.keyframe));
+      const button = makeButton(`Accept the free pose${away ? ` (${away})` : ''}`, () => actions.acceptFreePose(fault.keyframe));
       button.dataset['key'] = `fault ${fault.keyframe}`;
       row.append(button);
     }
@@ -169,9 +169,10 @@ function listOf(rows: readonly HTMLElement[], name: string): HTMLElement {
 function measuresOf(answer: Answer): Node[] {
   const rows = measureRows(answer);
   if (rows.length === 0) return [];
-  const cell = (value: number | undefined): HTMLElement => make('td', { text: value === undefined ? '–' : numberText(value) });
+  const cell = (value: number | undefined, isLowerBound: boolean): HTMLElement =>
+    make('td', { text: value === undefined ? '–' : isLowerBound ? lowerBoundText(value) : numberText(value) });
   const head = make('tr', {}, make('th', { scope: 'col', text: 'Measure' }), ...['before', 'after', 'unit'].map((text) => make('th', { scope: 'col', text })));
-  const body = rows.map((row) => make('tr', {}, make('th', { scope: 'row', text: row.label }), cell(row.before), cell(row.after), make('td', { class: 'cw-unit', text: row.unit })));
+  const body = rows.map((row) => make('tr', {}, make('th', { scope: 'row', text: row.label }), cell(row.before, row.isLowerBound), cell(row.after, row.isLowerBound), make('td', { class: 'cw-unit', text: row.unit })));
   return [section('Measures', make('table', { class: 'cw-table' }, make('thead', {}, head), make('tbody', {}, ...body)))];
 }
 

@@ -83,7 +83,7 @@ interface Tab {
 
 function tabOf(name: PanelName, title: string): Tab {
   const tab = make('button', { type: 'button', role: 'tab', text: title, id: uniqueId() });
-  const panel = make('div', { class: 'cw-panel', role: 'tabpanel', 'aria-labelledby': tab.id, id: uniqueId(), 'data-panel': name });
+  const panel = make('div', { class: 'cw-panel', role: 'tabpanel', tabindex: '0', 'aria-labelledby': tab.id, id: uniqueId(), 'data-panel': name });
   tab.setAttribute('aria-controls', panel.id);
   return { name, tab, panel };
 }

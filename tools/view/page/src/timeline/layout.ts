@@ -2,7 +2,7 @@
 //
 // Places on the time line, in CSS pixels.
 
-export const kLeft = 104;
+export const kLeft = 120;
 export const kRight = 84;
 export const kRulerHeight = 27;
 export const kMarksHeight = 22;

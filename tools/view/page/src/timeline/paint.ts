@@ -3,7 +3,7 @@
 // Draws the time line on a canvas whose unit is a CSS pixel.
 
 import type { Curve, CurveKind } from '../model/curves.js';
-import { isEpoch, numberText, timeText } from '../model/format.js';
+import { isEpoch, lowerBoundText, numberText, timeText } from '../model/format.js';
 import { kPalette } from '../model/palette.js';
 import type { Band, BandRow, Mark } from './bands.js';
 import type { Layout } from './layout.js';
@@ -209,7 +209,10 @@ function paintLane(context: Context, { layout, theme }: Picture, lane: Lane, top
   context.fillStyle = theme.muted;
   // Below the limit's words, or above them where the limit is low.
   const y = curve.limit === undefined ? (low + high) / 2 : yOf(curve.limit) < (low + high) / 2 ? low - 5 : high + 1;
-  context.fillText(`max ${numberText(curve.largest)}`, layout.x1 + 8, y);
+  // Of a clearance the least matters.
+  const least = curve.values.reduce((smallest, value) => Math.min(smallest, value), Infinity);
+  const words = lane.kind.name === 'clearance' ? `min ${lowerBoundText(least)}` : `max ${numberText(curve.largest)}`;
+  context.fillText(words, layout.x1 + 8, y);
 }
 
 /** A limit as a dashed line with a word: an upper one, or for the clearance a lower one. */

@@ -58,7 +58,7 @@ void main() {
   if (dot(uSection.xyz, vPlace) > uSection.w) discard;
   if (uHasBox > 0.5 && any(greaterThan(abs((uToBox * vec4(vPlace, 1.0)).xyz), uBoxHalf))) discard;
   // A wall of two triangles is lit around the witness, and only tinged elsewhere.
-  float far = uFades * smoothstep(0.2, 1.5, distance(vPlace, vFocus));
+  float far = uFades * smoothstep(0.1, 0.8, distance(vPlace, vFocus));
   gl_FragColor = vec4(uColour, uOpacity * mix(1.0, 0.22, far));
 }`;
 

@@ -128,10 +128,9 @@ export class Navigation {
     this.place(middle.clone().addScaledVector(from, distance_m), middle, isSmooth);
   }
 
-  /** Puts the eye at a pose and walks from there. */
-  walkFrom(eye: Vector3, orientation: Quaternion): void {
+  /** Puts the eye at a place, to walk from there in a direction. */
+  walkFrom(eye: Vector3, forward: Vector3): void {
     this.setMode('walk');
-    const forward = new Vector3(0, 0, -1).applyQuaternion(orientation);
     this.place(eye, eye.clone().addScaledVector(forward, kWalkDistance_m), true);
   }
 

@@ -45,6 +45,8 @@ const kWalkFade_m = 0.8;
 /** New objects are put that far off the surface that the view looks at, and that far ahead if there is none. */
 const kOffSurface_m = 0.3;
 const kAhead_m = 3;
+/** Of a person who stands. */
+const kEyeHeight_m = 1.6;
 
 export class Viewport {
   readonly section: Section;
@@ -82,7 +84,7 @@ export class Viewport {
     this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h));
     const invalidate = (): void => this.stage.invalidate();
     this.extent = new Extent(store, () => this.frame, () => this.up);
-    this.sceneView = new SceneView(this.look, sources.mesh, invalidate, (message) => store.set({ message }));
+    this.sceneView = new SceneView(this.look, this.stage.tubes.viewHeight, sources.mesh, invalidate, (message) => store.set({ message }));
     this.labels = new Labels(part('labels'));
     this.cameraViews = new CameraViews(part('camera-views'));
     this.section = new Section(part('section'), this.look.section, invalidate);
@@ -165,15 +167,32 @@ export class Viewport {
   }
 
   toggleWalk(): void {
-    this.navigation.setMode(this.navigation.mode === 'walk' ? 'orbit' : 'walk');
+    if (this.navigation.mode === 'walk') this.navigation.setMode('orbit');
+    else this.beginWalk();
     this.modeChanged();
+  }
+
+  /** From within the scene it goes on as it is; from above or outside, people come down to where they look. */
+  private beginWalk(): void {
+    const { camera } = this.navigation;
+    const up = upVector(this.up);
+    const isWithin = this.extent.scene.containsPoint(camera.position) && camera.position.dot(up) <= this.section.cutHeight;
+    const forward = camera.getWorldDirection(new Vector3());
+    const hit = isWithin ? undefined : this.sceneView.pick(new Ray(camera.position.clone(), forward));
+    if (!hit) {
+      this.navigation.setMode('walk');
+      return;
+    }
+    const level = forward.addScaledVector(up, -forward.dot(up));
+    if (level.lengthSq() < 1e-6) level.set(0, 1, 0).applyQuaternion(camera.quaternion);
+    this.navigation.walkFrom(hit.point.addScaledVector(up, kEyeHeight_m), level.normalize());
   }
 
   /** Puts the view where the camera is at the cursor. */
   walkFromCursor(): void {
     const pose = poseAt(pathOf(this.store.now), this.store.now.cursor_s);
     if (!pose) return;
-    this.navigation.walkFrom(this.frame.toLocal(pose.position), toQuaternion(pose.orientation));
+    this.navigation.walkFrom(this.frame.toLocal(pose.position), new Vector3(0, 0, -1).applyQuaternion(toQuaternion(pose.orientation)));
     this.modeChanged();
   }
 
