@@ -140,8 +140,6 @@ export class Page {
 
   private drawn(report: ViewReport): void {
     this.report = report;
-    const { draws, triangles, sceneTriangles, shownTriangles } = report;
-    const isSimplified = shownTriangles < sceneTriangles;
-    this.statusBar?.setDraws({ draws, triangles, ...(isSimplified ? { sceneTriangles } : {}) });
+    this.statusBar?.setDraws(report);
   }
 }

@@ -62,7 +62,7 @@ export function openDoor(store: Store, page: PageParts): Backing {
     const [status, list, last] = await Promise.all([fetchStatus(), listScenes(), fetchLast().catch(() => ({}) as never)]);
     sceneName = status.backend?.scene ?? sceneStem(last.request?.scene) ?? list[0]?.name;
     store.set({ isReadOnly: status.read_only === true });
-    page.setFacts({ status: status as Record<string, unknown> });
+    page.setFacts({ status: status.backend });
     const fields = await fetchFields().catch(() => []);
     page.setFacts({ fields });
     planner.hasProfile = fields.some(({ name }) => name === kProfileOption);
