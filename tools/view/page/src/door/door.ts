@@ -68,9 +68,8 @@ export function openDoor(store: Store, page: PageParts): Backing {
     planner.hasProfile = fields.some(({ name }) => name === kProfileOption);
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
-    page.load(request);
+    page.load(request, last.answer && completed(last.answer));
     if (last.answer) {
-      store.set({ answer: completed(last.answer) });
       planner.interpolate(request);
       // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
       isProfileMissing = planner.hasProfile && last.answer.clearance_profile === undefined;
