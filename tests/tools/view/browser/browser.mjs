@@ -121,18 +121,6 @@ export class Page {
     return place;
   }
 
-  /// Turns the wheel over the middle of the view, and waits until the view is still again.
-  async zoom(notches, middle) {
-    const before = await this.place_of(middle);
-    await this.tab.mouse.move(kWindow.width / 3, kWindow.height / 3);
-    await this.tab.mouse.wheel(0, 100 * notches);
-    await this.until(({screenOf}, {middle, before}) => {
-      const [now, last] = [String(screenOf(middle)), window.last_place];
-      window.last_place = now;
-      return now === last && now !== String(before);
-    }, {middle, before});
-  }
-
   /// A picture of the window, or of the part about a place.
   async picture(about, reach = 20) {
     await this.drawn();

@@ -47,7 +47,6 @@ test('a keyframe that is dragged into a wall is red, and elsewhere the path is c
   await page.shows('ok');
   const given = (await page.state()).request;
   const [x, y, z] = given.keyframes[0].position;
-  await page.zoom(3, [x, y, z]);
   const begin = await page.place_of([x, y, z]);
   const in_wall = await page.place_of([x, y, z + kToWall_m]);
   const beyond = await page.place_of([x, y, z + kBeyondWall_m]);
