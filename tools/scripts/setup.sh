@@ -42,6 +42,8 @@ kPackages=(
   iproute2 util-linux iptables
   # examples of docs/http.md
   curl
+  # the page of camway view in a browser
+  chromium-headless-shell
 )
 
 # Readers of other projects, with which tests compare written files. Node.js of another source is kept.

@@ -41,7 +41,8 @@ export interface Backing {
 
 /** What a backing may do with the page. */
 export interface PageParts {
-  load(request: PlanRequest): void;
+  /** With its answer, if there is one: the view is placed by both. */
+  load(request: PlanRequest, answer: Answer | undefined): void;
   setFacts(facts: Partial<Facts>): void;
 }
 
@@ -67,7 +68,7 @@ export class Page {
     open: (parts: PageParts) => Backing,
   ) {
     const backing = open({
-      load: (request) => this.actions.load(request),
+      load: (request, answer) => this.actions.load(request, undefined, answer),
       setFacts: (facts) => this.setFacts(facts),
     });
     this.facts = backing.facts;
@@ -140,8 +141,6 @@ export class Page {
 
   private drawn(report: ViewReport): void {
     this.report = report;
-    const { draws, triangles, sceneTriangles, shownTriangles } = report;
-    const isSimplified = shownTriangles < sceneTriangles;
-    this.statusBar?.setDraws({ draws, triangles, ...(isSimplified ? { sceneTriangles } : {}) });
+    this.statusBar?.setDraws(report);
   }
 }

@@ -62,15 +62,14 @@ export function openDoor(store: Store, page: PageParts): Backing {
     const [status, list, last] = await Promise.all([fetchStatus(), listScenes(), fetchLast().catch(() => ({}) as never)]);
     sceneName = status.backend?.scene ?? sceneStem(last.request?.scene) ?? list[0]?.name;
     store.set({ isReadOnly: status.read_only === true });
-    page.setFacts({ status: status as Record<string, unknown> });
+    page.setFacts({ status: status.backend });
     const fields = await fetchFields().catch(() => []);
     page.setFacts({ fields });
     planner.hasProfile = fields.some(({ name }) => name === kProfileOption);
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
-    page.load(request);
+    page.load(request, last.answer && completed(last.answer));
     if (last.answer) {
-      store.set({ answer: completed(last.answer) });
       planner.interpolate(request);
       // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
       isProfileMissing = planner.hasProfile && last.answer.clearance_profile === undefined;

@@ -82,6 +82,8 @@ export class SceneWatch {
 /** Has a daemon watch the path of a request. */
 export class PathWatch {
   private id: number | undefined;
+  /** The path that is followed: where there is no way for a while, it is free again later. */
+  private followed: Answer | undefined;
 
   constructor(
     private readonly socket: DoorSocket,
@@ -98,6 +100,7 @@ export class PathWatch {
       if (this.id === id) this.hear(event as PathEvent);
     });
     this.id = id;
+    this.followed = undefined;
     this.store.set({ watched: 'replanning' });
     answer.then(
       () => this.ended(id, ''),
@@ -122,6 +125,7 @@ export class PathWatch {
     if (event.answer) {
       const answer = completed(event.answer);
       const isBetter = name === 'better'; // it is offered, and the path that is followed stays
+      if (!isBetter && answer.status === 'ok') this.followed = answer;
       this.store.set({
         ...(isBetter ? {} : { answer, isDraft: false, isPending: false }),
         watched: answer.status === 'ok' ? 'ok' : 'broken',
@@ -130,7 +134,8 @@ export class PathWatch {
     } else if (name === 'broken') {
       this.store.set({ watched: 'broken', message: 'The scene changed, and the path is broken.' });
     } else if (name === 'free') {
-      this.store.set({ watched: 'ok', message: 'The path is free again.' });
+      const answer = this.followed ? { answer: this.followed, isDraft: false, isPending: false } : {};
+      this.store.set({ ...answer, watched: 'ok', message: 'The path is free again.' });
     } else if (event.error) {
       this.store.set({ message: event.error });
     }

@@ -223,13 +223,13 @@ export class PageActions implements Actions {
   }
 
   /** Makes a request the document's, without planning it: one step of undo, unless there was nothing before. */
-  load(request: PlanRequest, name = kNewName): void {
+  load(request: PlanRequest, name = kNewName, answer?: State['answer']): void {
     const isFirst = this.document.current.keyframes.length === 0 && !this.document.canUndo;
     if (isFirst) this.documentNow = new RequestDocument(request, name);
     this.document.apply(request);
     this.document.name = name;
     this.document.markSaved();
-    this.store.set({ request, selection: undefined, cursor_s: 0, answer: undefined, before: [], message: '' });
+    this.store.set({ request, selection: undefined, cursor_s: 0, answer, before: [], message: '' });
     this.around.opened();
   }
 

@@ -106,7 +106,7 @@ export interface Facts {
   readonly fields: readonly Field[];
   /** The formats that the door exports; empty if it exports none. */
   readonly exports: readonly ExportFormat[];
-  /** `GET /v1/status`. */
+  /** `backend` of `GET /v1/status`. */
   readonly status: Readonly<Record<string, unknown>> | undefined;
 }
 
@@ -121,7 +121,9 @@ export interface DocumentFacts {
 /** What the viewport drew last, for the status bar. */
 export interface DrawReport {
   readonly draws: number;
+  /** Of all parts of the picture together; a scene that is drawn three times counts three times. */
   readonly triangles: number;
-  /** Triangles of the whole scene; larger than what is drawn where the picture is simplified. */
+  /** Triangles of the scene as it is drawn, and as it is; fewer where the picture is simplified. */
+  readonly shownTriangles?: number;
   readonly sceneTriangles?: number;
 }

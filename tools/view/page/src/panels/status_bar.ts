@@ -77,8 +77,8 @@ export function makeStatusBar(host: HTMLElement, store: Store, actions: Actions)
       update(store.now);
     },
     setDraws(report) {
-      const isPart = report.sceneTriangles !== undefined && report.sceneTriangles > report.triangles;
-      const of = isPart ? ` of ${report.sceneTriangles?.toLocaleString('en')}: simplified, the proof is not` : '';
+      const { shownTriangles: shown = 0, sceneTriangles: all = 0 } = report;
+      const of = shown < all ? `; scene simplified to ${shown.toLocaleString('en')} of ${all.toLocaleString('en')}, its proof is not` : '';
       setText(draws, `${counted(report.draws, 'draw')}, ${counted(report.triangles, 'triangle')}${of}`);
     },
   };

@@ -16,6 +16,8 @@ import type { Rgb, TubeUniforms } from './tubes.js';
 
 /** Beyond that many keyframes, pyramids are drawn for the selected and the invalid ones alone. */
 const kMostPyramids = 120;
+/** A keyframe that was dragged into a wall has to be seen there. */
+const kHiddenOpacity = 0.8;
 const kGiven_px = 11;
 const kSelected_px = 16;
 const kInserted_px = 12;
@@ -38,7 +40,7 @@ export interface KeyframeScene {
 export class KeyframesView {
   readonly group = new Group();
   private readonly pyramids: Tubes;
-  private readonly markers = new Markers(60);
+  private readonly markers = new Markers(60, kHiddenOpacity);
   /** Places of the keyframes of the request, for picking and labels. */
   places: Vector3[] = [];
 

@@ -56,9 +56,10 @@ export class Markers extends Group {
   private readonly rim = { value: new Vector3(1, 1, 1) };
   private readonly pixelRatio = { value: 1 };
 
-  constructor(order: number) {
+  /** Marks behind surfaces are drawn with `hiddenOpacity`. */
+  constructor(order: number, hiddenOpacity = 0.35) {
     super();
-    this.parts = [0.35, 1].map((opacity) => {
+    this.parts = [hiddenOpacity, 1].map((opacity) => {
       const material = new ShaderMaterial({
         uniforms: { uRim: this.rim, uPixelRatio: this.pixelRatio, uOpacity: { value: opacity } },
         vertexShader: kVertexShader,

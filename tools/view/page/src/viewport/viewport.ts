@@ -264,7 +264,7 @@ export class Viewport {
     if (now.selection !== before.selection) this.select(now);
     this.dirty.content ||= isContent;
     this.dirty.cursor ||= isCursor;
-    if (now.answer !== before.answer && !now.isDraft) this.showFindings(now);
+    if (now.answer !== before.answer || now.isDraft !== before.isDraft) this.showFindings(now);
     if (isCursor) this.stage.invalidate();
     if (!this.isPlaced && now.scene && now.request) this.showOpened();
   }

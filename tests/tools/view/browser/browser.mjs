@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The page in a real browser, as a person has it: what is seen is read, mouse and keys are used.
+import assert from 'node:assert/strict';
+import {createRequire} from 'node:module';
+import fs from 'node:fs';
+import path from 'node:path';
+
+import {kPatience_ms, not_run} from './programs.mjs';
+import {read_png} from './png.mjs';
+
+const kBrowser = process.env.CAMWAY_BROWSER ?? '';
+export const kWindow = {width: 1280, height: 720};
+
+if (!fs.existsSync(kBrowser)) not_run('chromium-headless-shell is not installed');
+const {chromium} = createRequire(path.join(process.env.CAMWAY_NPM, 'package.json'))('playwright-core');
+
+// A test runs in a network of its own, often as the root of its own namespace: there is no sandbox inside of that.
+// WebGL 2 is computed by SwiftShader.
+export const browser = await chromium.launch({
+  executablePath: kBrowser,
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+
+/// Opens the page of a door, or a file.
+export async function open_page(url, {theme = 'light'} = {}) {
+  const context = await browser.newContext({viewport: kWindow, colorScheme: theme, acceptDownloads: true});
+  context.setDefaultTimeout(kPatience_ms);
+  const page = new Page(await context.newPage(), url);
+  await page.open();
+  return page;
+}
+
+export class Page {
+  constructor(tab, url) {
+    this.tab = tab;
+    this.url = url;
+    this.faults = [];
+    tab.on('pageerror', error => this.faults.push(`${error.stack ?? error}`));
+    tab.on('console', message => {
+      if (message.type() === 'error') this.faults.push(`console: ${message.text()}`);
+    });
+    tab.on('request', request => this.expect_inside(request.url()));
+    tab.on('websocket', socket => this.expect_inside(socket.url().replace(/^ws/, 'http')));
+  }
+
+  /// Nothing may be asked of anyone but the door.
+  expect_inside(url) {
+    const {protocol, origin} = new URL(url);
+    const is_inside = ['blob:', 'data:'].includes(protocol) || url === this.url || origin === new URL(this.url).origin;
+    if (!is_inside) this.faults.push(`asked ${url}`);
+  }
+
+  async open() {
+    await this.tab.addInitScript(() => {
+      addEventListener('securitypolicyviolation', ({violatedDirective, blockedURI}) => {
+        console.error(`forbidden by ${violatedDirective}: ${blockedURI}`);
+      });
+    });
+    await this.tab.goto(this.url);
+  }
+
+  /// Takes the faults that must have happened; the others fail the test at `close`.
+  forgive(pattern) {
+    this.faults = this.faults.filter(fault => !pattern.test(fault));
+  }
+
+  async close() {
+    await this.tab.context().close();
+    assert.deepEqual(this.faults, []);
+  }
+
+  /// Waits until `condition(camway, argument)` is true in the page, which is asked for each frame. What it returns is
+  /// returned. Not by Playwright's waitForFunction: that needs eval, which the page forbids.
+  async until(condition, argument) {
+    const value = await this.tab.evaluate(`(async () => {
+      const condition = ${condition};
+      const give_up_at_ms = performance.now() + ${kPatience_ms};
+      while (performance.now() < give_up_at_ms) {
+        const value = window.camway && condition(window.camway, ${JSON.stringify(argument)});
+        if (value) return value;
+        await new Promise(done => requestAnimationFrame(done));
+      }
+    })()`);
+    if (value) return value;
+    const seen = await this.tab.locator('body').innerText();
+    throw new Error(`not seen: ${condition}\nThe page says:\n${seen}\n${this.faults.join('\n')}`);
+  }
+
+  /// Waits until the scene is drawn and nothing is being planned. Returns the time since the page was asked for.
+  ready() {
+    return this.until(camway => {
+      const {state, report} = camway;
+      if (!state.scene || state.connection === 'lost' || state.isPending || state.isDraft) return undefined;
+      if (state.request?.keyframes.length >= 2 && !state.answer) return undefined;
+      return report?.sceneTriangles >= state.scene.scene.triangles && performance.now();
+    });
+  }
+
+  state() {
+    return this.tab.evaluate(() => window.camway.state);
+  }
+
+  /// Waits until the panel shows this status of an answer that is no draft.
+  async shows(status) {
+    await this.tab.locator(`.cw-badge[data-status="${status}"]:not(:has(.cw-draft))`).waitFor();
+    await this.until(({state}) => !state.isPending && !state.isDraft);
+  }
+
+  button(name) {
+    return this.tab.getByRole('button', {name, exact: true});
+  }
+
+  async show_panel(name) {
+    await this.tab.getByRole('tab', {name, exact: true}).click();
+  }
+
+  /// Where a point of the world is in the window.
+  async place_of(point) {
+    const place = await this.tab.evaluate(at => window.camway.screenOf(at), point);
+    assert.ok(place, `${point} is not in the view`);
+    return place;
+  }
+
+  /// A picture of the window, or of the part about a place.
+  async picture(about, reach = 20) {
+    await this.drawn();
+    const clip = about && {x: Math.round(about[0]) - reach, y: Math.round(about[1]) - reach, width: 2 * reach, height: 2 * reach};
+    return read_png(await this.tab.screenshot({clip}));
+  }
+
+  /// Waits for two frames: what was asked to be drawn in the first is on the screen in the second.
+  drawn() {
+    return this.tab.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+}
