@@ -158,10 +158,12 @@ void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
 }
 
 void add_lens_flags(CLI::App& command, ImportFlags& flags) {
+  const CLI::Validator angle = cli_support::number_in(
+      {"above 0 and below 180", [](double deg) { return deg > 0.0 && deg < 180.0; }});
   command.add_option("--fov-x-deg", flags.lens.fov_x_deg, "Full angle of view across")
-      ->check(cli_support::above_0());
+      ->check(angle);
   command.add_option("--fov-y-deg", flags.lens.fov_y_deg, "Full angle of view upwards")
-      ->check(cli_support::above_0());
+      ->check(angle);
   command.add_option("--aspect", flags.lens.aspect, "Width of the picture divided by its height")
       ->check(cli_support::above_0());
   command.add_option("--near-m", flags.lens.near_m, "Near distance")->check(cli_support::above_0());

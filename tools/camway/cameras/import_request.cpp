@@ -50,7 +50,8 @@ Vec3 turned(const Vec3& p, scene::UpAxis up) {
 
 bool changes_lens(const CameraTrack& track) {
   for (const TrackKey& key : track.keys) {
-    if (key.fov_y_rad != track.keys.front().fov_y_rad) return true;
+    const TrackKey& first = track.keys.front();
+    if (key.fov_y_rad != first.fov_y_rad || key.fov_x_rad != first.fov_x_rad) return true;
   }
   return false;
 }
@@ -65,18 +66,22 @@ double aspect_of(CameraTrack& track, const ImportLens& lens) {
 }  // namespace
 
 base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens) {
-  std::optional<double> fov_x_rad = track.fov_x_rad;
+  std::optional<double> fov_x_rad = widest_fov_x_rad(track);
   std::optional<double> fov_y_rad = widest_fov_y_rad(track);
   if (lens.fov_x_deg || lens.fov_y_deg) {
     fov_x_rad = fov_y_rad = std::nullopt;
     if (lens.fov_x_deg) fov_x_rad = radians(*lens.fov_x_deg);
     if (lens.fov_y_deg) fov_y_rad = radians(*lens.fov_y_deg);
   } else if (changes_lens(track)) {
-    track.notes.push_back(fmt::format("the lens changes: its widest angle counts, {:.4g} degrees",
-                                      degrees(fov_y_rad.value_or(0.0))));
+    track.notes.push_back(
+        fmt::format("the lens changes: its widest angle counts, {:.4g} degrees {}",
+                    degrees(fov_y_rad ? *fov_y_rad : fov_x_rad.value_or(0.0)),
+                    fov_y_rad ? "upwards" : "across"));
   }
   if (!fov_x_rad && !fov_y_rad) {
-    return base::Failure{"states no field of view: give --fov-y-deg, and --aspect or --fov-x-deg"};
+    return base::Failure{"states no field of view" +
+                         (track.why_no_fov.empty() ? "" : " (" + track.why_no_fov + ")") +
+                         ": give --fov-y-deg, and --aspect or --fov-x-deg"};
   }
   if (!fov_x_rad) fov_x_rad = fov_across_rad(*fov_y_rad, aspect_of(track, lens));
   if (!fov_y_rad) fov_y_rad = fov_across_rad(*fov_x_rad, 1.0 / aspect_of(track, lens));
