@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -16,9 +17,12 @@
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/result/path_faults.h"
 #include "daemon/planning/stages/path_check.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "tools/cameras/formats/camera_format.h"
+#include "tools/cameras/frame_rate.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/sparse_keys.h"
+#include "tools/camway/cameras/camera_remark.h"
 #include "tools/camway/cameras/import_request.h"
 #include "tools/camway/cameras/played_proof.h"
 #include "tools/camway/common/commands.h"
@@ -51,7 +55,12 @@ struct ExportFlags {
   std::string out;
   std::optional<std::string> name;
   std::optional<double> fps;
-  int width_px = 1920;
+  std::optional<CameraAxes> axes;
+  std::optional<double> file_scale;
+  std::optional<scene::UpAxis> file_up;
+  std::optional<double> first_frame;
+  std::optional<int> width_px;
+  std::optional<int> height_px;
   KeyChoice keys = KeyChoice::kDense;
   std::optional<double> within_m;
   std::optional<double> within_deg;
@@ -59,10 +68,16 @@ struct ExportFlags {
 };
 
 constexpr double kUsualRate = 24.0;
+constexpr int kUsualWidth_px = 1920;
 
 /// The path that is exported, its request, and the file to write.
 struct ExportInput {
   double fps = kUsualRate;
+  bool is_fps_known = false;
+  /// Whether the poses are those of the keyframes, as neither the imported file nor the format has
+  /// times.
+  bool has_keyframes_only = false;
+  FileMapping mapping;
   PathFile response;
   RequestFile request;
   const CameraFormat* format = nullptr;
@@ -96,6 +111,102 @@ std::vector<CorrectedStretch> corrections_of(const std::string& text) {
   return stretches;
 }
 
+/// How the file's poses differ from those of the request: as in the imported file, unless flags say
+/// otherwise, or the format says what they are.
+FileMapping mapping_of(const ExportFlags& flags, const CameraFormat& format,
+                       const CameraRemark& remark) {
+  const FormatTraits traits = traits_of(format);
+  const bool is_same = remark.format == format.name;
+  FileMapping mapping{traits.axes, traits.axes};
+  if (is_same && remark.facts.is_euroc) mapping.file_axes = CameraAxes::kCv;
+  if (is_same && remark.axes && traits.has_free_axes) mapping.file_axes = *remark.axes;
+  if (flags.axes) mapping.file_axes = *flags.axes;
+  if (is_same || traits.has_free_world) {
+    mapping.scale = remark.scale;
+    mapping.up = remark.up;
+  }
+  if (flags.file_scale) mapping.scale = *flags.file_scale;
+  if (flags.file_up) mapping.up = *flags.file_up;
+  return mapping;
+}
+
+/// The facts that the file shall have. Names of pictures and units of tables go with their format.
+FileFacts facts_of(const ExportFlags& flags, const CameraFormat& format,
+                   const CameraRemark& remark) {
+  FileFacts facts = remark.facts;
+  if (remark.format != format.name) {
+    facts.images.clear();
+    facts.is_euroc = false;
+    facts.time_units = facts.length_units = 1.0;
+  }
+  if (flags.first_frame) facts.first_frame = flags.first_frame;
+  if (flags.width_px || facts.width_px == 0) {
+    facts.width_px = flags.width_px.value_or(kUsualWidth_px);
+    facts.height_px = 0;
+  }
+  if (flags.height_px) facts.height_px = *flags.height_px;
+  return facts;
+}
+
+CameraWriteOptions options_of(const ExportFlags& flags, const ExportInput& input,
+                              const CameraRemark& remark) {
+  CameraWriteOptions options;
+  options.name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
+  const motion::Camera& camera = input.request.camera;
+  options.fov_x_rad = camera.fov_x_rad;
+  options.fov_y_rad = camera.fov_y_rad;
+  options.near_m = camera.near_m * input.response.near_scale / input.mapping.scale;
+  options.facts = facts_of(flags, *input.format, remark);
+  options.width_px = options.facts.width_px;
+  options.is_text = fs::path(flags.out).extension() == ".gltf";
+  CameraTrack keyframes;
+  keyframes.keys = keyframes_of(input.response);
+  options.keyframes = as_in_file(keyframes, input.mapping).keys;
+  return options;
+}
+
+/// Returns why the flags do not go with the format; empty if they do.
+std::string format_fault(const ExportFlags& flags, const CameraFormat& format,
+                         const RequestFile& request) {
+  const FormatTraits traits = traits_of(format);
+  if (traits.needs_lens && !(request.camera.fov_x_rad > 0.0)) {
+    return source_of(flags.request) + ": camera: is missing, whose field of view " + flags.format +
+           " needs; tum, kitti, csv, chan and mcap do not";
+  }
+  if (flags.axes && !traits.has_free_axes) {
+    return "--camera-axes: " + flags.format + " has axes of its own";
+  }
+  if (flags.keys == KeyChoice::kSparse && !format.has_curves) {
+    return "--keys sparse: " + flags.format + " has no curves between keys; gltf has";
+  }
+  return "";
+}
+
+base::Result<PathFile> read_path_file(const ExportFlags& flags, const std::string& answer) {
+  base::Result<PathFile> response = parse_as<PathFile>(answer, source_of(flags.response));
+  if (!response) return response;
+  if (response->path.empty()) {
+    return base::Failure{source_of(flags.response) + ": has no path"};
+  }
+  if (const auto fault = planning::find_fault(response->path.segments())) {
+    return base::Failure{source_of(flags.response) + ": " + *fault};
+  }
+  return response;
+}
+
+/// Returns why the path has no such frames; empty if it has.
+std::string frames_fault(const ExportFlags& flags, const ExportInput& input) {
+  if (input.has_keyframes_only) return "";
+  const double frames = frame_count(input.response.path, input.fps);
+  const std::string source = source_of(flags.response);
+  if (frames > kMostFrames) return fmt::format("{}: has more than {} frames", source, kMostFrames);
+  if (frames < 2.0) {
+    return fmt::format("{}: is shorter than a frame of {:g} a second: --fps must be higher", source,
+                       input.fps);
+  }
+  return "";
+}
+
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
   base::Result<RequestFile> request = read_request(flags.request);
   if (!request) return base::Failure{request.error};
@@ -104,41 +215,51 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   }
   const base::Result<std::string> answer = read_text(flags.response);
   if (!answer) return base::Failure{answer.error};
-  base::Result<PathFile> response = parse_as<PathFile>(*answer, source_of(flags.response));
+  base::Result<PathFile> response = read_path_file(flags, *answer);
   if (!response) return base::Failure{response.error};
-  if (response->path.empty()) {
-    return base::Failure{source_of(flags.response) + ": has no path"};
-  }
-  if (const auto fault = planning::find_fault(response->path.segments())) {
-    return base::Failure{source_of(flags.response) + ": " + *fault};
-  }
   const base::Result<std::string> text = read_text(flags.request);
   const CameraRemark remark = text ? camera_remark(*text) : CameraRemark{};
-  const double fps = flags.fps ? *flags.fps : remark.fps.value_or(kUsualRate);
-  if (frame_count(response->path, fps) > kMostFrames) {
-    return base::Failure{
-        fmt::format("{}: has more than {} frames", source_of(flags.response), kMostFrames)};
+  ExportInput input;
+  input.format = camera_format(flags.format);
+  if (std::string fault = format_fault(flags, *input.format, *request); !fault.empty()) {
+    return base::Failure{std::move(fault)};
   }
-  const motion::Camera& camera = request->camera;
-  if (!(camera.fov_x_rad > 0.0)) {
-    return base::Failure{source_of(flags.request) + ": camera: is missing"};
+  input.request = *std::move(request);
+  input.response = *std::move(response);
+  input.fps = flags.fps ? *flags.fps : remark.fps.value_or(kUsualRate);
+  input.is_fps_known = flags.fps || remark.fps;
+  if (!input.is_fps_known && !remark.has_times && !traits_of(*input.format).has_times) {
+    input.has_keyframes_only = keyframes_of(input.response).size() > 1;
   }
-  const CameraFormat* const format = camera_format(flags.format);
-  if (flags.keys == KeyChoice::kSparse && !format->has_curves) {
-    return base::Failure{"--keys sparse: " + flags.format +
-                         " has no curves between keys; gltf has"};
+  input.mapping = mapping_of(flags, *input.format, remark);
+  input.options = options_of(flags, input, remark);
+  input.options.corrections = corrections_of(*answer);
+  if (std::string fault = frames_fault(flags, input); !fault.empty()) {
+    return base::Failure{std::move(fault)};
   }
-  const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
-  const bool is_text = fs::path(flags.out).extension() == ".gltf";
-  const CameraWriteOptions options{name,
-                                   camera.fov_x_rad,
-                                   camera.fov_y_rad,
-                                   camera.near_m * response->near_scale,
-                                   flags.width_px,
-                                   is_text,
-                                   corrections_of(*answer),
-                                   keyframes_of(*response)};
-  return ExportInput{fps, *std::move(response), *std::move(request), format, options};
+  return input;
+}
+
+/// Says what the file has that the path has not.
+void print_mapping(const ExportFlags& flags, const ExportInput& input) {
+  const FormatTraits traits = traits_of(*input.format);
+  std::string words =
+      !input.has_keyframes_only
+          ? fmt::format("{:.6g} frames a second{}", input.fps,
+                        input.is_fps_known ? "" : ", as none are known (--fps)")
+          : fmt::format("{} poses without times, those of the keyframes (--fps: frames)",
+                        keyframes_of(input.response).size());
+  if (flags.format == "chan" || flags.format == "blender") {
+    words += fmt::format(", from frame {:g}", input.options.facts.first_frame.value_or(1.0));
+  }
+  if (traits.has_free_axes) {
+    words += fmt::format(", camera axes {}", base::name_of(input.mapping.file_axes));
+  }
+  if (input.mapping.scale != 1.0) words += fmt::format(", {:g} m a unit", input.mapping.scale);
+  if (input.mapping.up != scene::UpAxis::kAsInFile) {
+    words += fmt::format(", up {} undone", base::name_of(input.mapping.up));
+  }
+  print_error(flags.out + ": " + words);
 }
 
 /// Reads what was written back, as its consumer would.
@@ -153,7 +274,16 @@ base::Result<CameraTrack> read_back(const ExportInput& input, const std::string&
   };
   CameraReadOptions options;
   options.fps = written.fps;
-  return read_camera(*input.format, file, options);
+  options.axes = input.mapping.file_axes;
+  base::Result<CameraTrack> played = read_camera(*input.format, file, options);
+  if (!played) return played;
+  place_as_scene(*played, input.mapping.scale, input.mapping.up);
+  if (!played->has_times && played->keys.size() == written.keys.size()) {
+    for (std::size_t i = 0; i < written.keys.size(); ++i) {
+      played->keys[i].time_s = written.keys[i].time_s;
+    }
+  }
+  return played;
 }
 
 ExitCode fail(const std::string& error) {
@@ -238,7 +368,8 @@ struct WrittenTrack {
 std::variant<ExitCode, WrittenTrack> written_track(const ExportFlags& flags,
                                                    const ExportInput& input,
                                                    const CameraTrack& track) {
-  const base::Result<std::string> bytes = input.format->write(track, input.options);
+  const base::Result<std::string> bytes =
+      input.format->write(as_in_file(track, input.mapping), input.options);
   if (!bytes) return fail(flags.out + ": " + bytes.error);
   base::Result<CameraTrack> played = read_back(input, flags.out, *bytes, track);
   if (!played || played->keys.size() != track.keys.size()) {
@@ -248,9 +379,27 @@ std::variant<ExitCode, WrittenTrack> written_track(const ExportFlags& flags,
   return WrittenTrack{*bytes, *std::move(played)};
 }
 
+/// The poses at the frames. A frame that is a keyframe but for the rounding of a file's times has
+/// the keyframe's time, so that the pose is that of the keyframe however fast the camera is.
+CameraTrack dense_track(const ExportInput& input) {
+  std::vector<double> times_s;
+  for (const TrackKey& key : keyframes_of(input.response)) times_s.push_back(key.time_s);
+  const motion::Path& path = input.response.path;
+  if (input.has_keyframes_only) return poses_at(path, times_s);
+  CameraTrack track = frames_of(path, input.fps, path.begin_s());
+  std::vector<double> frames_s;
+  for (const TrackKey& key : track.keys) {
+    const auto after = std::ranges::lower_bound(times_s, key.time_s - kOnFrame / input.fps);
+    const bool is_keyframe = after != times_s.end() && *after <= key.time_s + kOnFrame / input.fps;
+    frames_s.push_back(std::min(is_keyframe ? *after : key.time_s, path.end_s()));
+  }
+  track = poses_at(path, frames_s);
+  track.fps = input.fps;
+  return track;
+}
+
 ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
-  const auto result = written_track(
-      flags, input, frames_of(input.response.path, input.fps, input.response.path.begin_s()));
+  const auto result = written_track(flags, input, dense_track(input));
   if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
   const auto& written = std::get<WrittenTrack>(result);
   const std::string error = write_files(flags, input, written.bytes);
@@ -320,6 +469,7 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
 ExitCode run_export(const ExportFlags& flags) {
   const base::Result<ExportInput> input = read_input(flags);
   if (!input) return fail(input.error);
+  print_mapping(flags, *input);
   return flags.keys == KeyChoice::kSparse ? export_sparse(flags, *input)
                                           : export_dense(flags, *input);
 }
@@ -333,6 +483,44 @@ void add_key_flags(CLI::App& command, ExportFlags& flags) {
       ->check(cli_support::above_0());
   command.add_option("--within-deg", flags.within_deg, "Farthest that it may be turned [0.2]")
       ->check(cli_support::above_0());
+}
+
+void add_mapping_flags(CLI::App& command, ExportFlags& flags) {
+  command
+      .add_option("--width", flags.width_px,
+                  "Width of the picture, in pixels [of the imported file, else 1920]")
+      ->check(cli_support::whole_number(1, 100'000));
+  command
+      .add_option("--height", flags.height_px,
+                  "Its height [of the imported file, else such that pixels are square]")
+      ->check(cli_support::whole_number(1, 100'000));
+  command
+      .add_option("--first-frame", flags.first_frame,
+                  "Number of the first frame, of chan and blender [of the imported file, else 1]")
+      ->check(cli_support::whole_number(-1'000'000'000, 1'000'000'000));
+  const auto set_axes = [&flags](const std::string& axes) {
+    flags.axes = axes == "cv" ? CameraAxes::kCv : CameraAxes::kGl;
+  };
+  command
+      .add_option_function<std::string>("--camera-axes", set_axes,
+                                        "gl: looks along -Z, +Y up; cv: along +Z, +Y down [of the "
+                                        "imported file, else by the format]")
+      ->check(cli_support::one_of({"gl", "cv"}));
+  command
+      .add_option("--file-scale", flags.file_scale,
+                  "Metres per unit of the written file [of the imported file, else 1]")
+      ->check(cli_support::above_0());
+  command
+      .add_option_function<std::string>(
+          "--file-up",
+          [&flags](const std::string& up) {
+            for (const auto& [name, value] : base::named_values<scene::UpAxis>()) {
+              if (name == up) flags.file_up = value;
+            }
+          },
+          "The turn of axes from the written file to the scene, which is undone [of the imported "
+          "file, else none]")
+      ->check(cli_support::one_of({"as-in-file", "z-to-y", "y-to-z"}));
 }
 
 }  // namespace
@@ -357,9 +545,7 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--fps", flags->fps, "Frames a second [those of the imported file, else 24]")
       ->check(cli_support::above_0());
   command->add_option("--name", flags->name, "Name of the camera [that of the imported file]");
-  command->add_option("--width", flags->width_px, "Width of the picture, in pixels")
-      ->check(cli_support::whole_number(1, 100'000))
-      ->capture_default_str();
+  add_mapping_flags(*command, *flags);
   add_key_flags(*command, *flags);
   command->add_flag("--no-proof", flags->no_proof, "Do not prove what is played");
   add_request_scene_flags(*command, flags->scene);

@@ -18,7 +18,6 @@ using geometry::Quat;
 using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRemark = "_camera";
 constexpr double kUsualAspect = 16.0 / 9.0;
 constexpr double kUsualNear_m = 0.1;
 
@@ -93,19 +92,6 @@ base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens
   return RequestCamera{*fov_x_rad, *fov_y_rad, near_m.value_or(kUsualNear_m)};
 }
 
-CameraRemark camera_remark(const std::string& request_text) {
-  const nlohmann::json request = nlohmann::json::parse(request_text, nullptr, false);
-  CameraRemark remark;
-  if (!request.is_object() || !request.contains(kRemark)) return remark;
-  const nlohmann::json& camera = request[kRemark];
-  if (!camera.is_object()) return remark;
-  if (camera.contains("name") && camera["name"].is_string()) camera["name"].get_to(remark.name);
-  if (camera.contains("fps") && camera["fps"].is_number() && camera["fps"].get<double>() > 0.0) {
-    remark.fps = camera["fps"].get<double>();
-  }
-  return remark;
-}
-
 void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
   const Quat turn = turn_of(up);
   for (TrackKey& key : track.keys) {
@@ -124,17 +110,19 @@ void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
   if (track.near_m) *track.near_m *= scale;
 }
 
-Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestCamera& camera,
-                  const RequestScene& scene) {
+Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestBody& body,
+                  const RequestScene& scene, const CameraRemark& remark) {
   Json json;
-  json[kRemark] = {{"name", track.name}};
-  if (track.fps) json[kRemark]["fps"] = *track.fps;
+  json["_camera"] = remark_json(remark);
   if (!scene.file.empty()) json["scene"] = scene.file;
   if (scene.scale != 1.0) json["scale"] = scene.scale;
   if (scene.up != scene::UpAxis::kAsInFile) json["up"] = base::name_of(scene.up);
-  json["camera"] = {{"fov_x_deg", degrees(camera.fov_x_rad)},
-                    {"fov_y_deg", degrees(camera.fov_y_rad)},
-                    {"near", camera.near_m}};
+  if (body.camera) {
+    json["camera"] = {{"fov_x_deg", degrees(body.camera->fov_x_rad)},
+                      {"fov_y_deg", degrees(body.camera->fov_y_rad)},
+                      {"near", body.camera->near_m}};
+  }
+  if (!body.shape.is_null()) json["body"] = body.shape;
   json["keyframes"] = Json::array();
   for (const std::size_t i : kept.kept) {
     const motion::Pose& pose = track.keys[i].pose_W;

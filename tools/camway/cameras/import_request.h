@@ -10,6 +10,7 @@
 #include "daemon/scene/import/record/import_options.h"
 #include "tools/cameras/camera_track.h"
 #include "tools/cameras/track_thinning.h"
+#include "tools/camway/cameras/camera_remark.h"
 
 namespace camway::tools {
 
@@ -43,16 +44,15 @@ struct RequestScene {
   scene::UpAxis up = scene::UpAxis::kAsInFile;
 };
 
-/// The remark of a request from which `export` writes a file of the same kind again.
-struct CameraRemark {
-  std::string name;
-  std::optional<double> fps;
+/// What moves: a camera, or a body beside it or without it.
+struct RequestBody {
+  std::optional<RequestCamera> camera;
+  nlohmann::ordered_json shape;  ///< the member `body` of the request; null: there is none
 };
-/// Returns the remark of a request file; empty where it has none.
-CameraRemark camera_remark(const std::string& request_text);
 
-/// Returns the request as JSON, with the kept keys as keyframes and the remark of its camera.
+/// Returns the request as JSON, with the kept keys as keyframes and the remark of its file.
 nlohmann::ordered_json request_json(const CameraTrack& track, const ThinnedTrack& kept,
-                                    const RequestCamera& camera, const RequestScene& scene);
+                                    const RequestBody& body, const RequestScene& scene,
+                                    const CameraRemark& remark);
 
 }  // namespace camway::tools
