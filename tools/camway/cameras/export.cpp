@@ -550,7 +550,11 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--no-proof", flags->no_proof, "Do not prove what is played");
   add_request_scene_flags(*command, flags->scene);
   command->footer(
-      "The file has a pose for each frame; with --keys sparse, glTF has as few keys as stay within "
+      "The file is in the world of the file that the request was imported from: its rate, unit, "
+      "axes, "
+      "first frame,\nand pictures, unless flags say otherwise. It has a pose for each frame up to "
+      "the "
+      "last that is not after the end; with --keys sparse, glTF has as few keys as stay within "
       "--within-m and\n--within-deg of the path, with its derivatives as tangents, and more where "
       "the "
       "path would not be free.\nThe file is read back, and the path that a program plays of "
