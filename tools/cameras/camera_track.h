@@ -34,6 +34,17 @@ struct KeyTangents {
   geometry::Vec4 orientation_out_per_s = geometry::Vec4::Zero();
 };
 
+/// The part of a file beside its motion and its lens that a file of the same kind has again.
+struct FileFacts {
+  std::optional<double> first_frame;  ///< the number of the first frame, where files count frames
+  int width_px = 0;                   ///< of the picture; 0: not known
+  int height_px = 0;
+  std::vector<std::string> images;  ///< names of the pictures, one for each key
+  double time_units = 1.0;          ///< of a table: how many are a second
+  double length_units = 1.0;        ///< likewise: how many are a metre
+  bool is_euroc = false;            ///< a table with the names of EuRoC
+};
+
 /// A camera path as a file holds it. A value type.
 struct CameraTrack {
   std::string name;
@@ -46,7 +57,8 @@ struct CameraTrack {
   std::optional<double> fov_y_rad;
   std::optional<double> aspect;  ///< width of the picture divided by its height
   std::optional<double> near_m;
-  std::string why_no_fov;          ///< where the file's lens is not taken; else empty
+  std::string why_no_fov;  ///< where the file's lens is not taken; else empty
+  FileFacts facts;
   std::vector<std::string> notes;  ///< sentences for the user: what was assumed or left out
 };
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tools/cameras/frame_rate.h"
+
 namespace camway::tools {
 namespace {
 
-/// A path that ends this share of a frame after a frame ends with it: decimals of times round.
-constexpr double kSameFrame = 1e-6;
 /// Keys that are this much more than a frame apart are a frame apart: files round times to floats.
 constexpr double kRoundedFrame = 0.01;
 constexpr double kUsualRate = 24.0;
@@ -33,10 +33,19 @@ double most_steps(const CameraTrack& track) {
   return std::max(1.0, std::floor(kMostFramesBetween / static_cast<double>(gaps)));
 }
 
+/// Adds a key, whose orientation is on the side of the one before.
+void add_pose(const motion::Path& path, double at_s, double time_s, CameraTrack& track) {
+  motion::Pose pose = path.pose(at_s);
+  if (!track.keys.empty() && pose.orientation.dot(track.keys.back().pose_W.orientation) < 0.0) {
+    pose.orientation.coeffs() *= -1.0;
+  }
+  track.keys.push_back({time_s, pose, std::nullopt});
+}
+
 }  // namespace
 
 double frame_count(const motion::Path& path, double fps) {
-  return std::ceil((path.end_s() - path.begin_s()) * fps - kSameFrame) + 1.0;
+  return std::floor((path.end_s() - path.begin_s()) * fps + kOnFrame) + 1.0;
 }
 
 CameraTrack frames_of(const motion::Path& path, double fps, double begin_s) {
@@ -46,13 +55,14 @@ CameraTrack frames_of(const motion::Path& path, double fps, double begin_s) {
   track.keys.reserve(frames);
   for (std::size_t i = 0; i < frames; ++i) {
     const double since_s = static_cast<double>(i) / fps;
-    motion::Pose pose =
-        i + 1 == frames ? path.pose(path.end_s()) : path.pose(path.begin_s() + since_s);
-    if (i > 0 && pose.orientation.dot(track.keys.back().pose_W.orientation) < 0.0) {
-      pose.orientation.coeffs() *= -1.0;
-    }
-    track.keys.push_back({begin_s + since_s, pose, std::nullopt});
+    add_pose(path, std::min(path.begin_s() + since_s, path.end_s()), begin_s + since_s, track);
   }
+  return track;
+}
+
+CameraTrack poses_at(const motion::Path& path, std::span<const double> times_s) {
+  CameraTrack track;
+  for (const double time_s : times_s) add_pose(path, time_s, time_s, track);
   return track;
 }
 

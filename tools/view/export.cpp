@@ -24,9 +24,9 @@ ExportFile make_export(const nlohmann::json& document, std::string_view format) 
   if (!order) return fail(order.error);
   const tools::ExportDocuments documents{*order->plan.text, "request", order->answer, "answer"};
   const base::Result<tools::PathExport> path =
-      tools::path_export(order->plan.request, documents, std::nullopt);
+      tools::path_export(order->plan.request, documents, *found, {});
   if (!path) return fail(path.error);
-  base::Result<std::string> bytes = tools::exported_frames(*found, *path);
+  base::Result<std::string> bytes = tools::written_file(*path, tools::dense_track(*path));
   if (!bytes) return fail("answer: " + bytes.error);
   return {*std::move(bytes), fmt::format("camera{}", found->extension)};
 }

@@ -101,7 +101,7 @@ class ScriptTest(CamwayTest):
         self.run_script("office-graze-column", "--name", "Hero")
         done = subprocess.run([PROGRAM, "import", self.folder / "shot.py", "--request", self.folder / "again.json"],
                               check=True, capture_output=True, text=True)
-        self.assertIn("blender, camera 'Hero': 172 poses, 24 frames a second", done.stderr)
+        self.assertIn("blender, camera 'Hero': 171 poses, 24 frames a second", done.stderr)
         self.assertAlmostEqual(self.read("again.json")["camera"]["fov_y_deg"], self.request["camera"]["fov_y_deg"])
 
 

@@ -81,7 +81,7 @@ TEST_F(CliCameras, GoFromFileToFile) {
     if (format.write == nullptr) continue;
     const CliRun run = export_path(std::string(format.name));
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("proved free as played between its 25 frames"));
+    EXPECT_THAT(run.err, HasSubstr("proved free as played between its 21 frames"));
   }
 }
 
@@ -111,7 +111,7 @@ TEST_F(CliCameras, WriteFewKeysOnCurvesAndMoreWhereThatIsNotFree) {
   };
   const CliRun run = export_path("gltf", {"--keys", "sparse"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("for 25 frames; within "));
+  EXPECT_THAT(run.err, HasSubstr("for 21 frames; within "));
   EXPECT_THAT(run.err, HasSubstr("proved free as played between its "));
   EXPECT_LT(keys_of(), 10U);
   // With two keys the flight is a straight line through the wall; keys are added until it is free.

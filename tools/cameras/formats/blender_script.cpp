@@ -32,7 +32,6 @@ import bpy
 )";
 
 constexpr std::string_view kScriptBody = R"(
-FIRST_FRAME = 1
 SENSOR_WIDTH_MM = 36.0
 
 
@@ -143,6 +142,17 @@ std::optional<double> positive(std::optional<double> number) {
   return number && *number > 0.0 ? number : std::nullopt;
 }
 
+/// Reads the size of the picture, `WIDTH, HEIGHT = 1920, 1080`.
+void read_size(std::string_view script, CameraTrack& track) {
+  constexpr std::string_view kBegin = "\nWIDTH, HEIGHT = ";
+  const std::size_t at = script.find(kBegin);
+  if (at == std::string_view::npos) return;
+  const std::string_view rest = script.substr(at + kBegin.size());
+  std::vector<double> n;
+  const std::vector<TextRow> rows = rows_of(rest.substr(0, rest.find('\n')));
+  if (rows.size() == 1 && read_numbers(rows[0], 2, n).empty()) set_size(n[0], n[1], track.facts);
+}
+
 /// The key in a row of numbers. Not normalised: Blender normalises what it blends.
 TrackKey key_of_row(const std::vector<double>& n, double time_s) {
   return {time_s,
@@ -158,6 +168,7 @@ base::Result<std::string> write_blender_script(const CameraTrack& track,
   if (!track.fps) return base::Failure{"a script for Blender needs a rate of frames"};
   std::string text(kScriptHead);
   text += "\nNAME = " + quoted(options.name);
+  text += fmt::format("\nFIRST_FRAME = {:.0f}", options.facts.first_frame.value_or(1.0));
   text += fmt::format("\nFPS = {}\nBEGIN_S = {}\nWIDTH, HEIGHT = {}, {}", number_text(*track.fps),
                       number_text(track.keys.front().time_s), options.width_px, height_px(options));
   text += fmt::format("\nFOV_X = {}\nFOV_Y = {}\nNEAR = {}\n", number_text(options.fov_x_rad),
@@ -186,6 +197,8 @@ base::Result<CameraTrack> read_blender_script(const CameraFile& file,
   track.fov_x_rad = positive(assigned_number(script, "FOV_X"));
   track.fov_y_rad = positive(assigned_number(script, "FOV_Y"));
   track.near_m = positive(assigned_number(script, "NEAR"));
+  track.facts.first_frame = assigned_number(script, "FIRST_FRAME");
+  read_size(script, track);
   const double begin_s = assigned_number(script, "BEGIN_S").value_or(0.0);
   std::vector<double> numbers;
   for (const TextRow& row : rows_of(rows)) {

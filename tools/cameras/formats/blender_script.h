@@ -7,7 +7,7 @@ namespace camway::tools {
 
 /// Writes a script in Python that makes a camera in Blender: lens, frames of the scene, a key for
 /// each frame with straight F-curves, and markers where corrections changed the path. The first
-/// frame is 1.
+/// frame is that of the file that the path came from, else 1.
 base::Result<std::string> write_blender_script(const CameraTrack& track,
                                                const CameraWriteOptions& options);
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tools/cameras/formats/camera_format.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <utility>
 
 #include "tools/cameras/formats/blender_script.h"
@@ -76,7 +79,33 @@ std::string choice_note(const std::string& chosen, const std::string& names) {
          "' was taken of several, the first that moves (--camera names one): " + names;
 }
 
+FormatTraits traits_of(const CameraFormat& format) {
+  FormatTraits traits;
+  const auto is = [&](std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, format.name) != names.end();
+  };
+  traits.needs_lens = !is({"tum", "kitti", "csv", "chan", "mcap"});
+  traits.has_times = !is({"kitti", "transforms", "colmap"});
+  traits.has_free_axes = !is({"gltf", "blender"});
+  traits.has_free_world = !is({"gltf"});
+  if (is({"tum", "kitti", "colmap", "mcap"})) traits.axes = CameraAxes::kCv;
+  return traits;
+}
+
+void set_size(double width, double height, FileFacts& facts) {
+  constexpr double kMostPixels = 1e6;
+  if (!(width >= 1.0 && width <= kMostPixels && height >= 1.0 && height <= kMostPixels)) return;
+  facts.width_px = static_cast<int>(std::lround(width));
+  facts.height_px = static_cast<int>(std::lround(height));
+}
+
+std::string image_name(const CameraWriteOptions& options, std::size_t frame, std::size_t frames) {
+  if (options.facts.images.size() == frames) return options.facts.images[frame];
+  return fmt::format("frame_{:06}.png", frame + 1);
+}
+
 int height_px(const CameraWriteOptions& options) {
+  if (options.facts.height_px > 0) return options.facts.height_px;
   const double ratio = std::tan(0.5 * options.fov_y_rad) / std::tan(0.5 * options.fov_x_rad);
   return std::max(1, static_cast<int>(std::lround(options.width_px * ratio)));
 }

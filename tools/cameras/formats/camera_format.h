@@ -49,13 +49,17 @@ struct CorrectedStretch {
 /// The content of a written file beside the poses.
 struct CameraWriteOptions {
   std::string name = "camera";
-  double fov_x_rad = 0.0;  ///< [Limit: 0 < value < pi]
+  double fov_x_rad = 0.0;  ///< [Limit: 0 < value < pi; 0: there is no lens]
   double fov_y_rad = 0.0;
   double near_m = 0.1;
-  int width_px = 1920;   ///< of the picture; its height follows from the fields of view
+  int width_px =
+      1920;  ///< of the picture; its height is in `facts`, or follows from the fields of view
   bool is_text = false;  ///< glTF as JSON that holds its buffer, not as `.glb`
   std::vector<CorrectedStretch> corrections = {};
   std::vector<TrackKey> keyframes = {};  ///< of the path, given ones and those of corrections
+  FileFacts facts = {};                  ///< those of the file that the path came from
+  /// Whether there is a lens; a body that is no camera has none.
+  [[nodiscard]] bool has_lens() const { return fov_x_rad > 0.0 && fov_y_rad > 0.0; }
 };
 
 /// A file that belongs beside a written one.
@@ -76,6 +80,16 @@ struct CameraFormat {
   CompanionFile (*companion)(const CameraWriteOptions&) = nullptr;
   bool has_curves = false;  ///< `write` takes cubic tracks with few keys, too
 };
+
+/// The properties of a format that decide how a path is written in it.
+struct FormatTraits {
+  bool needs_lens = true;
+  bool has_times = true;
+  bool has_free_axes = true;   ///< files may have either camera frame; `--camera-axes` says which
+  bool has_free_world = true;  ///< files may have any unit and any axis upwards
+  CameraAxes axes = CameraAxes::kGl;  ///< those that files have unless someone says otherwise
+};
+FormatTraits traits_of(const CameraFormat& format);
 
 /// All formats.
 std::span<const CameraFormat> camera_formats();
@@ -104,7 +118,14 @@ double frame_rate(const CameraReadOptions& options, std::optional<double> of_fil
 /// A note for a file with several cameras, of which nobody asked for one.
 std::string choice_note(const std::string& chosen, const std::string& names);
 
-/// The height of the picture, in pixels, for pixels that are square.
+/// The height of the picture, in pixels: that of the file, else for pixels that are square.
 int height_px(const CameraWriteOptions& options);
+
+/// Sets the size of the picture, if both numbers are such.
+void set_size(double width, double height, FileFacts& facts);
+
+/// The name of the picture of a frame, which counts from 0: that of the file that the path came
+/// from, if that had as many as there are `frames`.
+std::string image_name(const CameraWriteOptions& options, std::size_t frame, std::size_t frames);
 
 }  // namespace camway::tools

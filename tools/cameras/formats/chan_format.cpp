@@ -86,6 +86,7 @@ base::Result<CameraTrack> read_chan(const CameraFile& file, const CameraReadOpti
     if (!fault.empty()) return base::Failure{std::move(fault)};
   }
   keys.finish();
+  track.facts.first_frame = first_frame;
   return track;
 }
 
@@ -97,11 +98,11 @@ base::Result<std::string> write_chan(const CameraTrack& track, const CameraWrite
     const Angles angles = degrees_after(key.pose_W.orientation, i == 0 ? nullptr : &before_deg);
     before_deg = angles;
     const Vec3& p = key.pose_W.position;
-    text += std::to_string(i + 1) + '\t' +
-            number_row(std::array{p.x(), p.y(), p.z(), angles[0], angles[1], angles[2],
-                                  degrees_of_chan(options.fov_y_rad)},
-                       "\t") +
-            '\n';
+    const double frame = options.facts.first_frame.value_or(1.0) + static_cast<double>(i);
+    text += number_text(frame) + '\t' +
+            number_row(std::array{p.x(), p.y(), p.z(), angles[0], angles[1], angles[2]}, "\t");
+    if (options.has_lens()) text += '\t' + number_text(degrees_of_chan(options.fov_y_rad));
+    text += '\n';
   }
   return text;
 }

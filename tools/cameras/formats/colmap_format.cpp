@@ -111,6 +111,18 @@ std::string take_lenses(const std::string& cameras, const std::vector<Image>& im
   return "";
 }
 
+/// The size of the pictures of a camera of `cameras.txt`.
+void read_size(const std::string& cameras, const std::string& id, FileFacts& facts) {
+  for (const TextRow& row : rows_of(cameras)) {
+    if (row.words.size() < 5 || row.words[0] != id) continue;
+    std::vector<double> n;
+    if (read_numbers({row.line, {row.words[2], row.words[3]}}, 2, n).empty()) {
+      set_size(n[0], n[1], facts);
+    }
+    return;
+  }
+}
+
 }  // namespace
 
 base::Result<CameraTrack> read_colmap(const CameraFile& file, const CameraReadOptions& options) {
@@ -124,9 +136,11 @@ base::Result<CameraTrack> read_colmap(const CameraFile& file, const CameraReadOp
   for (std::size_t i = 0; i < images.size(); ++i) {
     track.keys.push_back(
         {static_cast<double>(i) / options.fps.value_or(1.0), images[i].pose_W, {}});
+    track.facts.images.push_back(images[i].name);
   }
   if (images.empty() || !file.open_beside) return track;
   const base::Result<std::string> cameras = file.open_beside("cameras.txt");
+  if (cameras) read_size(*cameras, images[0].camera, track.facts);
   track.why_no_fov =
       cameras ? take_lenses(*cameras, images, track) : "cameras.txt beside it " + cameras.error;
   if (!track.why_no_fov.empty()) {
@@ -147,7 +161,8 @@ CompanionFile colmap_cameras(const CameraWriteOptions& options) {
                       options.width_px, height, focal_x, focal_y, 0.5 * width, 0.5 * height)};
 }
 
-base::Result<std::string> write_colmap(const CameraTrack& track, const CameraWriteOptions&) {
+base::Result<std::string> write_colmap(const CameraTrack& track,
+                                       const CameraWriteOptions& options) {
   std::string text =
       "# Image list with two lines of data per image:\n"
       "#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
@@ -157,9 +172,9 @@ base::Result<std::string> write_colmap(const CameraTrack& track, const CameraWri
     const Quat to_camera = with_other_axes(pose.orientation, CameraAxes::kCv).conjugate();
     const Vec3 t = -(to_camera * pose.position);
     text += fmt::format(
-        "{} {} {} 1 frame_{:06}.png\n\n", i + 1,
+        "{} {} {} 1 {}\n\n", i + 1,
         number_row(std::array{to_camera.w(), to_camera.x(), to_camera.y(), to_camera.z()}),
-        number_row(std::array{t.x(), t.y(), t.z()}), i + 1);
+        number_row(std::array{t.x(), t.y(), t.z()}), image_name(options, i, track.keys.size()));
   }
   return text;
 }

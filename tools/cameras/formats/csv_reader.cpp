@@ -111,6 +111,7 @@ std::string take_time_unit(CameraTrack& track) {
         "time_ns",
         track.keys[1].time_s - track.keys[0].time_s);
   }
+  track.facts.time_units = units;
   if (units == 1.0) return "";
   for (TrackKey& key : track.keys) key.time_s /= units;
   const std::string_view name =
@@ -163,6 +164,9 @@ base::Result<CameraTrack> read_csv(const CameraFile& file, const CameraReadOptio
     track.why_no_fov = fmt::format(
         "column '{}' is not read, as it is not named fov_x_deg or fov_y_deg", columns->unclear_fov);
   }
+  if (columns->has_time_unit) track.facts.time_units = columns->time.units;
+  track.facts.length_units = columns->position[0].units;
+  track.facts.is_euroc = columns->is_euroc;
   if (columns->is_euroc) {
     track.notes.emplace_back("poses are those of the IMU, taken as a camera that looks along +Z");
   }

@@ -10,6 +10,7 @@
 
 #include "tools/cameras/formats/gltf_document.h"
 #include "tools/cameras/formats/gltf_formats.h"
+#include "tools/cameras/frame_rate.h"
 
 namespace camway::tools {
 namespace {
@@ -22,9 +23,6 @@ using nlohmann::json;
 /// Deeper chains of nodes are loops.
 constexpr std::size_t kDeepestNode = 1000;
 constexpr double kUsualFps = 24.0;
-constexpr std::array<double, 6> kFrameRates = {24.0, 25.0, 30.0, 48.0, 50.0, 60.0};
-/// Keys this share of a frame away from one are on it.
-constexpr double kOnFrame = 0.01;
 
 enum class Curve { kStep, kLinear, kCubic };
 
@@ -422,17 +420,10 @@ class GltfReader {
     return times;
   }
 
-  /// The slowest usual rate on whose frames all keys are.
+  /// The rate on whose frames all keys are.
   static std::optional<double> fps_of(const CameraNode& camera) {
     const std::set<double> times = key_times(camera);
-    for (const double fps : kFrameRates) {
-      const bool fits = std::ranges::all_of(times, [&](double time_s) {
-        const double frames = (time_s - *times.begin()) * fps;
-        return std::abs(frames - std::round(frames)) <= kOnFrame;
-      });
-      if (fits) return fps;
-    }
-    return std::nullopt;
+    return rate_of_times(std::vector<double>(times.begin(), times.end()));
   }
 
   /// Takes the keys as they are if the camera's own node alone moves, on lines or on cubics with

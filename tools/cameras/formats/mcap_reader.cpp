@@ -160,6 +160,7 @@ struct McapCameras {
   std::vector<std::string> names;  ///< in the order of the file
   std::map<std::string, std::vector<TrackKey>> keys;
   std::map<std::string, std::pair<double, double>> fovs_rad;
+  std::map<std::string, FileFacts> facts;  ///< the size of the picture
   std::map<std::string, std::uint16_t> channels;
   std::map<std::string, std::string> parents;
 };
@@ -218,6 +219,8 @@ void take_lens(const nlohmann::json& message, McapCameras& cameras) {
   const double across = 0.5 * width->get<double>() / (*k)[0].get<double>();
   const double upwards = 0.5 * height->get<double>() / (*k)[4].get<double>();
   if (!(across > 0.0 && upwards > 0.0)) return;
+  set_size(width->get<double>(), height->get<double>(),
+           cameras.facts[text_in_message(message, "frame_id")]);
   cameras.fovs_rad[text_in_message(message, "frame_id")] = {2.0 * std::atan(across),
                                                             2.0 * std::atan(upwards)};
 }
@@ -278,6 +281,7 @@ CameraTrack mcap_track(const McapContent& content, McapCameras& cameras, const s
   track.near_m = positive_in(topic.metadata, "near_m");
   if (const auto fov = cameras.fovs_rad.find(name); fov != cameras.fovs_rad.end()) {
     std::tie(track.fov_x_rad, track.fov_y_rad) = fov->second;
+    track.facts = cameras.facts[name];
   }
   const std::string& parent = cameras.parents.at(name);
   if (!parent.empty() && parent != "world") {

@@ -137,7 +137,8 @@ std::string calibration_message(const CameraWriteOptions& options, std::uint64_t
 enum ChannelIndex : std::size_t { kTransform, kCalibration, kPath, kKeyframes };
 
 std::vector<McapChannel> channels_of(const CameraTrack& track, const CameraWriteOptions& options) {
-  std::map<std::string, std::string> remark{{"near_m", number_text(options.near_m)}};
+  std::map<std::string, std::string> remark;
+  if (options.has_lens()) remark["near_m"] = number_text(options.near_m);
   if (track.fps) remark["fps"] = number_text(*track.fps);
   return {{"/camera/transform", "foxglove.FrameTransform", transform_schema().dump(), remark},
           {"/camera/calibration", "foxglove.CameraCalibration", calibration_schema().dump(), {}},
@@ -171,7 +172,7 @@ base::Result<std::string> write_mcap(const CameraTrack& track, const CameraWrite
   if (!times) return base::Failure{times.error};
   const std::uint64_t begin_ns = times->front();
   McapFile file(channels_of(track, options));
-  file.add(kCalibration, begin_ns, calibration_message(options, begin_ns));
+  if (options.has_lens()) file.add(kCalibration, begin_ns, calibration_message(options, begin_ns));
   file.add(kPath, begin_ns, poses_message(track.keys, begin_ns));
   if (!options.keyframes.empty()) {
     file.add(kKeyframes, begin_ns, poses_message(options.keyframes, begin_ns));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -160,6 +161,7 @@ base::Result<CameraTrack> read_nerfstudio(const CameraFile& file,
     const auto width = number_member(root, "render_width");
     const auto height = number_member(root, "render_height");
     if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
+    if (width && height) set_size(*width, *height, track.facts);
   });
 }
 
@@ -206,6 +208,7 @@ base::Result<CameraTrack> read_transforms(const CameraFile& file,
     const auto width = number_member(root, "w");
     const auto height = number_member(root, "h");
     if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
+    set_size(width.value_or(0.0), height.value_or(0.0), track.facts);
     const Field frames = root.member("frames");
     const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
     track.has_times = options.fps.has_value();
@@ -213,10 +216,14 @@ base::Result<CameraTrack> read_transforms(const CameraFile& file,
     for (std::size_t i = 0; i < frames.size() && !root.failed(); ++i) {
       const Field frame = frames.element(i);
       const ViewAngles angles = is_flat ? angles_in(frame, root) : ViewAngles{};
+      const std::optional<Field> image = frames.element(i).optional_member("file_path");
+      track.facts.images.push_back(image ? image->text() : "");
       track.keys.push_back({static_cast<double>(i) / options.fps.value_or(1.0),
                             pose_in(frame.member("transform_matrix"), axes), angles.y_rad,
                             angles.x_rad});
     }
+    // Pictures without names get new ones.
+    if (std::ranges::count(track.facts.images, "") > 0) track.facts.images.clear();
   });
 }
 
@@ -231,7 +238,7 @@ base::Result<std::string> write_transforms(const CameraTrack& track,
       matrix.push_back({m[4 * row], m[4 * row + 1], m[4 * row + 2], m[4 * row + 3]});
     }
     frames.push_back(
-        {{"file_path", fmt::format("frame_{:06}.png", i + 1)}, {"transform_matrix", matrix}});
+        {{"file_path", image_name(options, i, track.keys.size())}, {"transform_matrix", matrix}});
   }
   OrderedJson json;
   json["camera_angle_x"] = options.fov_x_rad;

@@ -93,6 +93,36 @@ std::string position_columns(const Vec3& p, std::string_view separator) {
   return number_row(std::array{p.x(), p.y(), p.z()}, separator);
 }
 
+/// The unit of a table's positions that is written again.
+std::string_view metre_column(const FileFacts& facts) {
+  if (facts.length_units == 100.0) return "cm";
+  return facts.length_units == 1000.0 ? "mm" : "m";
+}
+
+std::string_view second_column(const FileFacts& facts) {
+  if (facts.time_units == 1e9) return "ns";
+  if (facts.time_units == 1e6) return "us";
+  return facts.time_units == 1e3 ? "ms" : "s";
+}
+
+/// The first line of a table, but for the lens.
+std::string csv_names(const FileFacts& facts) {
+  if (facts.is_euroc) {
+    return "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],"
+           "q_RS_z []";
+  }
+  const std::string_view unit = metre_column(facts);
+  return fmt::format("time_{},x_{},y_{},z_{},qw,qx,qy,qz", second_column(facts), unit, unit, unit);
+}
+
+/// A time in the table's unit. Nanoseconds of a double are off by some hundred in this century, so
+/// they are whole.
+std::string time_text(double time_s, const FileFacts& facts) {
+  if (second_column(facts) == "s") return number_text(time_s);
+  const double time = time_s * facts.time_units;
+  return second_column(facts) == "ns" ? fmt::format("{:.0f}", time) : number_text(time);
+}
+
 }  // namespace
 
 base::Result<CameraTrack> read_tum(const CameraFile& file, const CameraReadOptions& options) {
@@ -173,13 +203,21 @@ base::Result<std::string> write_kitti(const CameraTrack& track, const CameraWrit
 }
 
 base::Result<std::string> write_csv(const CameraTrack& track, const CameraWriteOptions& options) {
-  std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz,fov_x_deg,fov_y_deg\n";
+  const FileFacts& facts = options.facts;
+  const bool has_fov = options.has_lens() && !facts.is_euroc;
+  std::string text = csv_names(facts);
+  text += has_fov ? ",fov_x_deg,fov_y_deg\n" : "\n";
+  const double length_units = metre_column(facts) == "m" ? 1.0 : facts.length_units;
   for (const TrackKey& key : track.keys) {
-    text +=
-        number_text(key.time_s) + ',' + position_columns(key.pose_W.position, ",") + ',' +
-        quaternion_columns(key.pose_W.orientation, true, ",") + ',' +
-        number_row(std::array{degrees_of(options.fov_x_rad), degrees_of(options.fov_y_rad)}, ",") +
-        '\n';
+    text += time_text(key.time_s, facts) + ',' +
+            position_columns(length_units * key.pose_W.position, ",") + ',' +
+            quaternion_columns(key.pose_W.orientation, true, ",");
+    if (has_fov) {
+      text +=
+          ',' +
+          number_row(std::array{degrees_of(options.fov_x_rad), degrees_of(options.fov_y_rad)}, ",");
+    }
+    text += '\n';
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/stages/path_check.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "tools/cameras/export/path_export.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
@@ -44,22 +46,16 @@ struct ExportFlags {
   std::string request;
   std::string format;
   std::string out;
-  std::optional<std::string> name;
-  std::optional<double> fps;
-  int width_px = 1920;
+  ExportChoices choices;
   KeyChoice keys = KeyChoice::kDense;
   std::optional<double> within_m;
   std::optional<double> within_deg;
   bool no_proof = false;
 };
 
-/// The path that is exported, its request, and the file to write.
-struct ExportInput {
-  double fps = 0.0;
-  PathFile response;
+/// The path that is exported, and its request.
+struct ExportInput : PathExport {
   RequestFile request;
-  const CameraFormat* format = nullptr;
-  CameraWriteOptions options;
 };
 
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
@@ -73,19 +69,37 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   const base::Result<std::string> text = read_text(flags.request);
   const ExportDocuments documents{text ? *text : std::string(), source_of(flags.request), *answer,
                                   source_of(flags.response)};
-  base::Result<PathExport> path = path_export(*request, documents, flags.fps);
-  if (!path) return base::Failure{path.error};
-  const CameraFormat* const format = camera_format(flags.format);
-  if (flags.keys == KeyChoice::kSparse && !format->has_curves) {
+  const CameraFormat& format = *camera_format(flags.format);
+  if (flags.keys == KeyChoice::kSparse && !format.has_curves) {
     return base::Failure{"--keys sparse: " + flags.format +
                          " has no curves between keys; gltf has"};
   }
-  CameraWriteOptions options = std::move(path->options);
-  if (flags.name) options.name = *flags.name;
-  options.width_px = flags.width_px;
-  options.is_text = fs::path(flags.out).extension() == ".gltf";
-  return ExportInput{path->fps, std::move(path->response), *std::move(request), format,
-                     std::move(options)};
+  base::Result<PathExport> path = path_export(*request, documents, format, flags.choices);
+  if (!path) return base::Failure{path.error};
+  path->options.is_text = fs::path(flags.out).extension() == ".gltf";
+  return ExportInput{*std::move(path), *std::move(request)};
+}
+
+/// Says what the file has that the path has not.
+void print_mapping(const ExportFlags& flags, const ExportInput& input) {
+  const FormatTraits traits = traits_of(*input.format);
+  std::string words =
+      !input.has_keyframes_only
+          ? fmt::format("{:.6g} frames a second{}", input.fps,
+                        input.is_fps_known ? "" : ", as none are known (--fps)")
+          : fmt::format("{} poses without times, those of the keyframes (--fps: frames)",
+                        keyframes_of(input.response).size());
+  if (flags.format == "chan" || flags.format == "blender") {
+    words += fmt::format(", from frame {:g}", input.options.facts.first_frame.value_or(1.0));
+  }
+  if (traits.has_free_axes) {
+    words += fmt::format(", camera axes {}", base::name_of(input.mapping.file_axes));
+  }
+  if (input.mapping.scale != 1.0) words += fmt::format(", {:g} m a unit", input.mapping.scale);
+  if (input.mapping.up != scene::UpAxis::kAsInFile) {
+    words += fmt::format(", up {} undone", base::name_of(input.mapping.up));
+  }
+  print_error(flags.out + ": " + words);
 }
 
 /// Reads what was written back, as its consumer would.
@@ -100,7 +114,16 @@ base::Result<CameraTrack> read_back(const ExportInput& input, const std::string&
   };
   CameraReadOptions options;
   options.fps = written.fps;
-  return read_camera(*input.format, file, options);
+  options.axes = input.mapping.file_axes;
+  base::Result<CameraTrack> played = read_camera(*input.format, file, options);
+  if (!played) return played;
+  place_as_scene(*played, input.mapping.scale, input.mapping.up);
+  if (!played->has_times && played->keys.size() == written.keys.size()) {
+    for (std::size_t i = 0; i < written.keys.size(); ++i) {
+      played->keys[i].time_s = written.keys[i].time_s;
+    }
+  }
+  return played;
 }
 
 ExitCode fail(const std::string& error) {
@@ -185,7 +208,7 @@ struct WrittenTrack {
 std::variant<ExitCode, WrittenTrack> written_track(const ExportFlags& flags,
                                                    const ExportInput& input,
                                                    const CameraTrack& track) {
-  const base::Result<std::string> bytes = input.format->write(track, input.options);
+  const base::Result<std::string> bytes = written_file(input, track);
   if (!bytes) return fail(flags.out + ": " + bytes.error);
   base::Result<CameraTrack> played = read_back(input, flags.out, *bytes, track);
   if (!played || played->keys.size() != track.keys.size()) {
@@ -196,8 +219,7 @@ std::variant<ExitCode, WrittenTrack> written_track(const ExportFlags& flags,
 }
 
 ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
-  const auto result = written_track(
-      flags, input, frames_of(input.response.path, input.fps, input.response.path.begin_s()));
+  const auto result = written_track(flags, input, dense_track(input));
   if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
   const auto& written = std::get<WrittenTrack>(result);
   const std::string error = write_files(flags, input, written.bytes);
@@ -267,6 +289,7 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
 ExitCode run_export(const ExportFlags& flags) {
   const base::Result<ExportInput> input = read_input(flags);
   if (!input) return fail(input.error);
+  print_mapping(flags, *input);
   return flags.keys == KeyChoice::kSparse ? export_sparse(flags, *input)
                                           : export_dense(flags, *input);
 }
@@ -280,6 +303,44 @@ void add_key_flags(CLI::App& command, ExportFlags& flags) {
       ->check(cli_support::above_0());
   command.add_option("--within-deg", flags.within_deg, "Farthest that it may be turned [0.2]")
       ->check(cli_support::above_0());
+}
+
+void add_mapping_flags(CLI::App& command, ExportFlags& flags) {
+  command
+      .add_option("--width", flags.choices.width_px,
+                  "Width of the picture, in pixels [of the imported file, else 1920]")
+      ->check(cli_support::whole_number(1, 100'000));
+  command
+      .add_option("--height", flags.choices.height_px,
+                  "Its height [of the imported file, else such that pixels are square]")
+      ->check(cli_support::whole_number(1, 100'000));
+  command
+      .add_option("--first-frame", flags.choices.first_frame,
+                  "Number of the first frame, of chan and blender [of the imported file, else 1]")
+      ->check(cli_support::whole_number(-1'000'000'000, 1'000'000'000));
+  const auto set_axes = [&flags](const std::string& axes) {
+    flags.choices.axes = axes == "cv" ? CameraAxes::kCv : CameraAxes::kGl;
+  };
+  command
+      .add_option_function<std::string>("--camera-axes", set_axes,
+                                        "gl: looks along -Z, +Y up; cv: along +Z, +Y down [of the "
+                                        "imported file, else by the format]")
+      ->check(cli_support::one_of({"gl", "cv"}));
+  command
+      .add_option("--file-scale", flags.choices.scale,
+                  "Metres per unit of the written file [of the imported file, else 1]")
+      ->check(cli_support::above_0());
+  command
+      .add_option_function<std::string>(
+          "--file-up",
+          [&flags](const std::string& up) {
+            for (const auto& [name, value] : base::named_values<scene::UpAxis>()) {
+              if (name == up) flags.choices.up = value;
+            }
+          },
+          "The turn of axes from the written file to the scene, which is undone [of the imported "
+          "file, else none]")
+      ->check(cli_support::one_of({"as-in-file", "z-to-y", "y-to-z"}));
 }
 
 }  // namespace
@@ -301,17 +362,22 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->check(cli_support::one_of(names));
   command->add_option("--out", flags->out, "File to write")->required()->type_name("FILE");
-  command->add_option("--fps", flags->fps, "Frames a second [those of the imported file, else 24]")
+  command
+      ->add_option("--fps", flags->choices.fps,
+                   "Frames a second [those of the imported file, else 24]")
       ->check(cli_support::above_0());
-  command->add_option("--name", flags->name, "Name of the camera [that of the imported file]");
-  command->add_option("--width", flags->width_px, "Width of the picture, in pixels")
-      ->check(cli_support::whole_number(1, 100'000))
-      ->capture_default_str();
+  command->add_option("--name", flags->choices.name,
+                      "Name of the camera [that of the imported file]");
+  add_mapping_flags(*command, *flags);
   add_key_flags(*command, *flags);
   command->add_flag("--no-proof", flags->no_proof, "Do not prove what is played");
   add_request_scene_flags(*command, flags->scene);
   command->footer(
-      "The file has a pose for each frame; with --keys sparse, glTF has as few keys as stay within "
+      "The file is in the world of the file that the request was imported from: its rate, unit, "
+      "axes, "
+      "first frame,\nand pictures, unless flags say otherwise. It has a pose for each frame up to "
+      "the "
+      "last that is not after the end; with --keys sparse, glTF has as few keys as stay within "
       "--within-m and\n--within-deg of the path, with its derivatives as tangents, and more where "
       "the "
       "path would not be free.\nThe file is read back, and the path that a program plays of "

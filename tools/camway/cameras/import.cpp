@@ -5,19 +5,23 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/scene/import/record/import_words.h"
+#include "tools/cameras/export/file_mapping.h"
 #include "tools/cameras/formats/camera_file.h"
 #include "tools/cameras/formats/camera_format.h"
+#include "tools/cameras/frame_rate.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/track_thinning.h"
 #include "tools/camway/cameras/import_request.h"
 #include "tools/camway/common/commands.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
+#include "tools/json/json_request.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -34,12 +38,26 @@ struct ImportFlags {
   double scale = 1.0;
   scene::UpAxis up = scene::UpAxis::kAsInFile;
   ImportLens lens;
+  std::string body;
   bool all = false;
   std::optional<std::size_t> every;
   std::optional<double> within_m;
   std::optional<double> within_deg;
   std::string request;
 };
+
+/// Takes the rate of frames from the times where the file states none.
+void measure_rate(CameraTrack& track) {
+  if (track.fps || !track.has_times) return;
+  std::vector<double> times_s;
+  for (const TrackKey& key : track.keys) times_s.push_back(key.time_s);
+  track.fps = rate_of_times(times_s);
+  track.notes.push_back(
+      track.fps
+          ? fmt::format("its times are {:.6g} frames a second, which export writes again (--fps)",
+                        *track.fps)
+          : "its times are on the frames of no rate: export writes 24 frames a second, or --fps");
+}
 
 base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraFormat*& format) {
   const base::Result<CameraFile> file = camera_file(flags.file);
@@ -52,6 +70,8 @@ base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraForma
     return base::Failure{flags.file + ": " + why_no_format(*file)};
   }
   CameraReadOptions options = flags.read;
+  // A body has the frame that its file has.
+  if (!flags.body.empty() && !options.axes) options.axes = CameraAxes::kGl;
   if (!flags.times.empty()) {
     const base::Result<std::string> times = read_text(flags.times);
     if (!times) return base::Failure{times.error};
@@ -65,6 +85,7 @@ base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraForma
   if (track && track->keys.size() < 2) {
     return base::Failure{flags.file + ": has one pose; a path needs two"};
   }
+  if (track) measure_rate(*track);
   return track;
 }
 
@@ -108,23 +129,82 @@ ExitCode refuse_file(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
+/// The remark from which `export` writes such a file again.
+CameraRemark remark_of(const ImportFlags& flags, const CameraFormat& format,
+                       const CameraTrack& track) {
+  CameraRemark remark;
+  remark.name = track.name;
+  remark.format = format.name;
+  remark.fps = track.fps;
+  remark.has_times = track.has_times;
+  remark.axes = flags.read.axes;
+  if (!flags.body.empty() && !remark.axes) remark.axes = CameraAxes::kGl;
+  remark.scale = flags.scale;
+  remark.up = flags.up;
+  remark.facts = track.facts;
+  return remark;
+}
+
+bool states_lens(const CameraTrack& track, const ImportLens& lens) {
+  return lens.fov_x_deg || lens.fov_y_deg || widest_fov_x_rad(track) || widest_fov_y_rad(track);
+}
+
+/// What moves. A body needs no lens, but keeps that of its file.
+base::Result<RequestBody> body_of(const ImportFlags& flags, CameraTrack& track) {
+  RequestBody body;
+  if (!flags.body.empty()) {
+    body.shape = nlohmann::ordered_json::parse(flags.body, nullptr, false);
+    if (!body.shape.is_object()) {
+      return base::Failure{"--body must be JSON as in a request: {\"type\": \"box\", ...}"};
+    }
+  }
+  if (!flags.body.empty() && !states_lens(track, flags.lens)) return body;
+  const base::Result<RequestCamera> camera = camera_of(track, flags.lens);
+  if (!camera) return base::Failure{flags.file + ": " + camera.error};
+  body.camera = *camera;
+  return body;
+}
+
+/// Warns where the user's choice of keyframes lost the motion.
+void warn_of_loss(const ThinnedTrack& kept) {
+  constexpr double kManyTimes = 10.0;
+  const ThinningTolerance usual;
+  if (kept.largest_position_m <= kManyTimes * usual.position_m &&
+      kept.largest_turn_rad <= kManyTimes * usual.turn_rad) {
+    return;
+  }
+  print_error(fmt::format(
+      "warning: the path through the keyframes is another one than the file's: up to {:.2g} m and "
+      "{:.2g} degrees off; more keyframes follow it (--within-m and --within-deg, not --every)",
+      kept.largest_position_m, degrees(kept.largest_turn_rad)));
+}
+
 ExitCode run_import(const ImportFlags& flags) {
+  std::error_code error_code;
+  if (!flags.scene.empty() && !fs::exists(flags.scene, error_code)) {
+    return refuse_file("--scene: " + flags.scene + " does not exist");
+  }
   const CameraFormat* format = nullptr;
   base::Result<CameraTrack> track = read_track(flags, format);
   if (!track) return refuse_file(track.error);
   place_as_scene(*track, flags.scale, flags.up);
-  const base::Result<RequestCamera> camera = camera_of(*track, flags.lens);
-  if (!camera) return refuse_file(flags.file + ": " + camera.error);
+  const base::Result<RequestBody> body = body_of(flags, *track);
+  if (!body) return refuse_file(body.error);
   // The user counts poses of the file. Else the path is compared where a person sees it, at frames:
   // keys may be far apart, on curves between them.
   const bool counts_poses = flags.all || flags.every.has_value();
   const CameraTrack compared = counts_poses ? *track : with_frames_between(*track);
   const ThinnedTrack kept = choose_keyframes(flags, compared);
   const std::string text =
-      request_json(compared, kept, *camera, {scene_in_request(flags), flags.scale, flags.up})
+      request_json(compared, kept, *body, {scene_in_request(flags), flags.scale, flags.up},
+                   remark_of(flags, *format, *track))
           .dump(2) +
       "\n";
+  if (const auto request = parse_as<RequestFile>(text, flags.request); !request) {
+    return refuse_file(request.error);
+  }
   print_summary(flags, *format, compared, track->keys.size(), kept);
+  if (flags.every) warn_of_loss(kept);
   if (flags.request == "-") {
     fmt::print("{}", text);
     return ExitCode::kSuccess;
@@ -176,6 +256,11 @@ void add_lens_flags(CLI::App& command, ImportFlags& flags) {
   command.add_option("--aspect", flags.lens.aspect, "Width of the picture divided by its height")
       ->check(cli_support::above_0());
   command.add_option("--near-m", flags.lens.near_m, "Near distance")->check(cli_support::above_0());
+  command
+      .add_option("--body", flags.body,
+                  "The request's body, which needs no field of view, as JSON; poses are its own "
+                  "[the camera]")
+      ->type_name("JSON");
 }
 
 void add_keyframe_flags(CLI::App& command, ImportFlags& flags) {

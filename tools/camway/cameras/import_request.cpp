@@ -9,7 +9,6 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/scene/import/record/import_words.h"
-#include "tools/cameras/export/path_export.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -21,32 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kUsualAspect = 16.0 / 9.0;
 constexpr double kUsualNear_m = 0.1;
-
-/// The turn of the axes of a scene file (`UpAxis`).
-Quat turn_of(scene::UpAxis up) {
-  const double half = std::numbers::sqrt2 / 2.0;
-  switch (up) {
-    case scene::UpAxis::kZToY:
-      return {half, -half, 0.0, 0.0};
-    case scene::UpAxis::kYToZ:
-      return {half, half, 0.0, 0.0};
-    case scene::UpAxis::kAsInFile:
-      break;
-  }
-  return Quat::Identity();
-}
-
-Vec3 turned(const Vec3& p, scene::UpAxis up) {
-  switch (up) {
-    case scene::UpAxis::kZToY:
-      return {p.x(), p.z(), -p.y()};
-    case scene::UpAxis::kYToZ:
-      return {p.x(), -p.z(), p.y()};
-    case scene::UpAxis::kAsInFile:
-      break;
-  }
-  return p;
-}
 
 bool changes_lens(const CameraTrack& track) {
   for (const TrackKey& key : track.keys) {
@@ -93,35 +66,19 @@ base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens
   return RequestCamera{*fov_x_rad, *fov_y_rad, near_m.value_or(kUsualNear_m)};
 }
 
-void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
-  const Quat turn = turn_of(up);
-  for (TrackKey& key : track.keys) {
-    key.pose_W.position = turned(scale * key.pose_W.position, up);
-    key.pose_W.orientation = turn * key.pose_W.orientation;
-  }
-  for (KeyTangents& tangents : track.tangents) {
-    for (Vec3* const velocity : {&tangents.position_in_m_per_s, &tangents.position_out_m_per_s}) {
-      *velocity = turned(scale * *velocity, up);
-    }
-    for (geometry::Vec4* const rate :
-         {&tangents.orientation_in_per_s, &tangents.orientation_out_per_s}) {
-      *rate = geometry::wxyz(turn * geometry::from_wxyz(*rate));
-    }
-  }
-  if (track.near_m) *track.near_m *= scale;
-}
-
-Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestCamera& camera,
-                  const RequestScene& scene) {
+Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestBody& body,
+                  const RequestScene& scene, const CameraRemark& remark) {
   Json json;
-  json[kCameraRemark] = {{"name", track.name}};
-  if (track.fps) json[kCameraRemark]["fps"] = *track.fps;
+  json["_camera"] = remark_json(remark);
   if (!scene.file.empty()) json["scene"] = scene.file;
   if (scene.scale != 1.0) json["scale"] = scene.scale;
   if (scene.up != scene::UpAxis::kAsInFile) json["up"] = base::name_of(scene.up);
-  json["camera"] = {{"fov_x_deg", degrees(camera.fov_x_rad)},
-                    {"fov_y_deg", degrees(camera.fov_y_rad)},
-                    {"near", camera.near_m}};
+  if (body.camera) {
+    json["camera"] = {{"fov_x_deg", degrees(body.camera->fov_x_rad)},
+                      {"fov_y_deg", degrees(body.camera->fov_y_rad)},
+                      {"near", body.camera->near_m}};
+  }
+  if (!body.shape.is_null()) json["body"] = body.shape;
   json["keyframes"] = Json::array();
   for (const std::size_t i : kept.kept) {
     const motion::Pose& pose = track.keys[i].pose_W;

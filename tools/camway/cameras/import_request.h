@@ -9,6 +9,7 @@
 #include "daemon/base/result.h"
 #include "daemon/scene/import/record/import_options.h"
 #include "tools/cameras/camera_track.h"
+#include "tools/cameras/export/camera_remark.h"
 #include "tools/cameras/track_thinning.h"
 
 namespace camway::tools {
@@ -33,9 +34,6 @@ struct RequestCamera {
 /// widest angle. Fails if nothing is known of the field of view.
 base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens);
 
-/// Scales and turns a track as a scene file is (`scene::ImportOptions`).
-void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up);
-
 /// The scene that a request names, and how it is read.
 struct RequestScene {
   std::string file;  ///< relative to the request's folder; empty: none
@@ -43,8 +41,15 @@ struct RequestScene {
   scene::UpAxis up = scene::UpAxis::kAsInFile;
 };
 
-/// Returns the request as JSON, with the kept keys as keyframes and the remark of its camera.
+/// What moves: a camera, or a body beside it or without it.
+struct RequestBody {
+  std::optional<RequestCamera> camera;
+  nlohmann::ordered_json shape;  ///< the member `body` of the request; null: there is none
+};
+
+/// Returns the request as JSON, with the kept keys as keyframes and the remark of its file.
 nlohmann::ordered_json request_json(const CameraTrack& track, const ThinnedTrack& kept,
-                                    const RequestCamera& camera, const RequestScene& scene);
+                                    const RequestBody& body, const RequestScene& scene,
+                                    const CameraRemark& remark);
 
 }  // namespace camway::tools

@@ -9,8 +9,8 @@
 #include "daemon/motion/path/path.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/snapshot.h"
-#include "tools/cameras/camera_track.h"
 #include "tools/answers/path_search.h"
+#include "tools/cameras/camera_track.h"
 
 namespace camway::tools {
 

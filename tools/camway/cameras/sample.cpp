@@ -85,8 +85,10 @@ void add_sample_command(CLI::App& app, ExitCode& exit_code) {
       ->check(cli_support::above_0())
       ->capture_default_str();
   command->add_flag("--json", flags->json, "Print JSON");
-  command->footer("Times are those of the path. The last pose is that of its end.\n" +
-                  exit_code_help("") + "\nExample: camway sample out.json --fps 2");
+  command->footer(
+      "Times are those of the path. The last pose is that of the last frame that is not after its "
+      "end.\n" +
+      exit_code_help("") + "\nExample: camway sample out.json --fps 2");
   command->callback([flags, &exit_code] { exit_code = run_sample(*flags); });
 }
 
