@@ -15,10 +15,11 @@ if (!fs.existsSync(kBrowser)) not_run('chromium-headless-shell is not installed'
 const {chromium} = createRequire(path.join(process.env.CAMWAY_NPM, 'package.json'))('playwright-core');
 
 // A test runs in a network of its own, often as the root of its own namespace: there is no sandbox inside of that.
-// WebGL 2 is computed by SwiftShader.
+// WebGL 2 is computed by SwiftShader, and without smooth edges: those take most of the time, and only pictures need them.
 export const browser = await chromium.launch({
   executablePath: kBrowser,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+         ...(process.env.CAMWAY_PICTURES ? [] : ['--webgl-antialias-mode=none'])],
 });
 
 /// Opens the page of a door, or a file.
