@@ -131,6 +131,27 @@ ProbeResult Probe::check(const motion::Stretch& stretch, double margin_m, Way wa
   return result;
 }
 
+bool Probe::is_free(const motion::Pose& pose, double margin_m) {
+  const motion::Stretch standing = motion::standing_at(pose);
+  if (stopped_by_ && !tree_) {
+    move(standing, Way::kForwards);
+    if (is_surely_near(*stopped_by_, margin_m)) return false;
+  }
+  return check(standing, margin_m).free;
+}
+
+// The search of `check` would find the same: no bound excludes a triangle whose distance is less
+// than what is required by more than its error, and no slab about a body that stands still is wider
+// than that distance. A distance of exactly 0 is decided by exact predicates.
+bool Probe::is_surely_near(std::uint32_t obstacle, double margin_m) {
+  const Triangle other = obstacles_.index.triangle(obstacle);
+  if (touches(other)) return true;
+  const double near_m = margin_m + keep_m_ - 2.0 * obstacles_.index.nearest_error_m(ends_);
+  return near_m > 0.0 && std::ranges::any_of(placed_, [&](const Triangle& part) {
+           return geometry::triangle_distance(part, other, near_m) < near_m;
+         });
+}
+
 ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, Way way) {
   ProbeResult result;
   result.reach_m = reach_m(stretch);
@@ -148,6 +169,7 @@ ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, 
   move(stretch, way);
   const std::optional<scene::SweptResult> swept = this->swept(stretch, margin_m, result.rounding_m);
   if (!swept) return result;
+  if (!swept->is_clear && swept->nearest) stopped_by_ = swept->nearest->triangle;
   result.contains = swept->is_clear && (holds_scene(stretch) || is_in_solid());
   result.free = swept->is_clear && !result.contains;
   result.is_measured = swept->nearest.has_value() || !result.free;

@@ -87,6 +87,11 @@ class Probe {
   ProbeResult check(const motion::Stretch& stretch, double margin_m = 0.0,
                     Way way = Way::kForwards);
 
+  /// Returns `check(motion::standing_at(pose), margin_m).free`. Costs little where the triangle
+  /// that stopped the last check is in the way again, as in a search that tries one pose after
+  /// another.
+  bool is_free(const motion::Pose& pose, double margin_m = 0.0);
+
   /// Measures `gap_m` after a `check` of the same stretch; does nothing if the stretch is free.
   /// Afterwards the true distance is at least `share` times the measured one, and exactly 0 if the
   /// measured one is 0.
@@ -176,6 +181,9 @@ class Probe {
   /// added to `rounding_m`, from the scene. Returns nothing if the motion is too large to know.
   std::optional<scene::SweptResult> swept(const motion::Stretch& stretch, double keep_m,
                                           double& rounding_m);
+  /// Whether triangle `obstacle` of the scene is surely nearer to the body as it was moved last
+  /// than `margin_m` and the required clearance. False for a body with a tree.
+  [[nodiscard]] bool is_surely_near(std::uint32_t obstacle, double margin_m);
   /// The linear bound with these values at the eye and at the body's radius.
   [[nodiscard]] scene::RadialBound radial(double at_eye_m, double at_radius_m) const;
   bool touches(const geometry::Triangle& obstacle);
@@ -209,6 +217,7 @@ class Probe {
   std::optional<TreeQueries> tree_;
   std::vector<geometry::Triangle> placed_;
   std::vector<geometry::Triangle> ends_;
+  std::optional<std::uint32_t> stopped_by_;  ///< triangle near which the last check ended unproved
 };
 
 template <class Visit>

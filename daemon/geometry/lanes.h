@@ -39,6 +39,15 @@ CAMWAY_INLINE Vectors repeat(const Vec3& v) {
 CAMWAY_INLINE Vec3 get(const Vectors& v, std::size_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
 }
+CAMWAY_INLINE Triangle stored(const Vectors& v) { return {get(v, 0), get(v, 1), get(v, 2)}; }
+/// Lane `lane` in every lane.
+CAMWAY_INLINE Vectors repeat(const Vectors& v, std::size_t lane) { return repeat(get(v, lane)); }
+/// Each lane is the next one: edges of a triangle are this less the triangle.
+CAMWAY_INLINE Vectors rotated(const Vectors& v) {
+  return {__builtin_shufflevector(v.x, v.x, 1, 2, 0, 1),
+          __builtin_shufflevector(v.y, v.y, 1, 2, 0, 1),
+          __builtin_shufflevector(v.z, v.z, 1, 2, 0, 1)};
+}
 
 CAMWAY_INLINE Vectors operator+(const Vectors& a, const Vectors& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -55,6 +64,16 @@ CAMWAY_INLINE Numbers dot(const Vectors& a, const Vectors& b) {
 }
 CAMWAY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+CAMWAY_INLINE Vectors operator*(double s, const Vectors& v) { return {s * v.x, s * v.y, s * v.z}; }
+CAMWAY_INLINE double largest_coordinate(const Vectors& v) {
+  const Numbers x = v.x < 0.0 ? -v.x : v.x;
+  const Numbers y = v.y < 0.0 ? -v.y : v.y;
+  const Numbers z = v.z < 0.0 ? -v.z : v.z;
+  const Numbers more = x > y ? x : y;
+  const Numbers most = more > z ? more : z;
+  const double first = most[0] > most[1] ? most[0] : most[1];
+  return first > most[2] ? first : most[2];
 }
 CAMWAY_INLINE Numbers squared_norm(const Vectors& v) { return dot(v, v); }
 

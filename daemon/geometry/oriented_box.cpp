@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
+#include "daemon/base/cpu_dispatch.h"
+#include "daemon/geometry/lanes.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::geometry {
@@ -51,6 +54,19 @@ std::array<Vec3, 3> axes_of(const Triangle& triangle) {
   return {e, f, e.cross(f)};
 }
 
+[[gnu::always_inline]] inline void load(const Eigen::Array4d& numbers, lanes::Numbers& out) {
+  std::memcpy(&out, numbers.data(), sizeof out);
+}
+
+/// The axes of a box, loaded.
+struct Axes {
+  lanes::Numbers x, y, z;
+};
+
+[[gnu::always_inline]] inline void along(const Axes& axes, const Vec3& v, lanes::Numbers& out) {
+  out = axes.x * v.x() + axes.y * v.y() + axes.z * v.z();
+}
+
 }  // namespace
 
 OrientedBox::OrientedBox(std::span<const Triangle> body) {
@@ -90,13 +106,26 @@ void OrientedBox::fit(std::span<const Triangle> body) {
 // long by at most that
 //    share of sqrt(3)·scale: 21u·scale.
 // Together 47u·scale, far inside the 192u of `triangle_distance_error_m`.
+CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
-  const Lanes a = along_axes(triangle[0] - origin_);
-  const Lanes b = along_axes(triangle[1] - origin_);
-  const Lanes c = along_axes(triangle[2] - origin_);
-  const Lanes above = a.min(b).min(c) - high_;
-  const Lanes below = low_ - a.max(b).max(c);
-  const Lanes gap = above.max(below).max(0.0);
+  Axes axes;
+  lanes::Numbers low, high, a, b, c;
+  load(x_, axes.x);
+  load(y_, axes.y);
+  load(z_, axes.z);
+  load(low_, low);
+  load(high_, high);
+  along(axes, triangle[0] - origin_, a);
+  along(axes, triangle[1] - origin_, b);
+  along(axes, triangle[2] - origin_, c);
+  const lanes::Numbers lower = a < b ? a : b;
+  const lanes::Numbers higher = a > b ? a : b;
+  const lanes::Numbers least = lower < c ? lower : c;
+  const lanes::Numbers greatest = higher > c ? higher : c;
+  const lanes::Numbers above = least - high;
+  const lanes::Numbers below = low - greatest;
+  lanes::Numbers gap = above > below ? above : below;
+  gap = gap > 0.0 ? gap : lanes::Numbers{};
   return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
 }
 
@@ -108,6 +137,7 @@ double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
 //    <= sqrt(3)·scale: 36. The triangle's own extent along n, which is not 0 where n is rounded: 7
 //    for each end, 14.
 // Together 117, inside 192 again. The rounding of n does not matter: any direction is a proof.
+CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const Vec3 e = triangle[1] - triangle[0];
   const Vec3 f = triangle[2] - triangle[0];
@@ -115,9 +145,17 @@ double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const double squared_length = normal.squaredNorm();
   // Otherwise a square below could leave the range of doubles.
   if (!(squared_length > kLeastSquare && squared_length < kGreatestSquare)) return 0.0;
-  const Lanes along = along_axes(normal);
-  const Lanes middles = along * (0.5 * (low_ + high_));
-  const Lanes radii = along.abs() * (0.5 * (high_ - low_));
+  Axes axes;
+  lanes::Numbers low, high, share;
+  load(x_, axes.x);
+  load(y_, axes.y);
+  load(z_, axes.z);
+  load(low_, low);
+  load(high_, high);
+  along(axes, normal, share);
+  const lanes::Numbers size = share < 0.0 ? -share : share;
+  const lanes::Numbers middles = share * (0.5 * (low + high));
+  const lanes::Numbers radii = size * (0.5 * (high - low));
   const double middle = normal.dot(origin_ - triangle[0]) + (middles[0] + middles[1] + middles[2]);
   const double radius = radii[0] + radii[1] + radii[2];
   const double ne = normal.dot(e);

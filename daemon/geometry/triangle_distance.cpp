@@ -43,12 +43,12 @@ Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) 
 }
 
 /// Vectors from the closest points of a face to three points, where these are not on the outline.
-[[gnu::always_inline]] inline lanes::Vectors offsets_from_face(const Triangle& face,
+[[gnu::always_inline]] inline lanes::Vectors offsets_from_face(const lanes::Vectors& face,
                                                                const lanes::Vectors& points) {
   using lanes::unit_quotient;
-  const lanes::Vectors corner = lanes::repeat(face[0]);
-  const Vec3 edge = face[1] - face[0];
-  const Vec3 other_edge = face[2] - face[0];
+  const lanes::Vectors corner = lanes::repeat(face, 0);
+  const Vec3 edge = get(face, 1) - get(face, 0);
+  const Vec3 other_edge = get(face, 2) - get(face, 0);
   const lanes::Vectors e = lanes::repeat(edge);
   const lanes::Vectors f = lanes::repeat(other_edge);
   const lanes::Vectors normal = lanes::repeat(edge.cross(other_edge));
@@ -67,7 +67,7 @@ constexpr double kBeyondRoundUp = 1.0 + 16.0 * kUnitRoundoff;
 /// Keeps the shortest offset seen, and detects when it is proved to be the shortest of all.
 class Search {
  public:
-  Search(const Triangle& a, const Triangle& b, double scale, double beyond)
+  Search(const lanes::Vectors& a, const lanes::Vectors& b, double scale, double beyond)
       : a_(a), b_(b), margin_(16.0 * kUnitRoundoff * scale), smallest_(4.0 * margin_) {
     // A slab wider than this is proved to be wide enough after its rounding (`margin_`) and that of
     // width and square; the computed distance would be off by its error once more.
@@ -106,8 +106,8 @@ class Search {
     // Too short to prove anything by a slab; the exact test decides.
     if (!(best2_ > smallest_ * smallest_)) return false;
     const lanes::Vectors direction = lanes::repeat(offset);
-    const lanes::Numbers a = dot(direction, lanes::load(a_));
-    const lanes::Numbers b = dot(direction, lanes::load(b_));
+    const lanes::Numbers a = dot(direction, a_);
+    const lanes::Numbers b = dot(direction, b_);
     const double end_a = std::max({a[0], a[1], a[2]});
     const double begin_b = std::min({b[0], b[1], b[2]});
     const double rounding = margin_ * offset.lpNorm<1>();
@@ -116,8 +116,8 @@ class Search {
     return is_beyond_ || begin_b - end_a >= best2_ - rounding;
   }
 
-  const Triangle& a_;
-  const Triangle& b_;
+  const lanes::Vectors& a_;
+  const lanes::Vectors& b_;
   double margin_;
   double smallest_;
   double beyond2_ = 0.0;
@@ -126,22 +126,21 @@ class Search {
   Vec3 offset_ = Vec3::Zero();
 };
 
-[[gnu::always_inline]] inline bool edges_settle(Search& search, const Triangle& a,
-                                                const Triangle& b) {
-  const lanes::Vectors q = lanes::load(b);
-  const lanes::Vectors f = lanes::load(b[1], b[2], b[0]) - q;
+[[gnu::always_inline]] inline bool edges_settle(Search& search, const lanes::Vectors& a,
+                                                const lanes::Vectors& b) {
+  const lanes::Vectors f = lanes::rotated(b) - b;
   for (std::size_t i = 0; i < 3; ++i) {
-    const lanes::Vectors p = lanes::repeat(a[i]);
-    const lanes::Vectors e = lanes::repeat(a[(i + 1) % 3]) - p;
-    if (search.is_final(segment_offsets(p, e, q, f))) return true;
+    const lanes::Vectors p = lanes::repeat(a, i);
+    const lanes::Vectors e = lanes::repeat(a, (i + 1) % 3) - p;
+    if (search.is_final(segment_offsets(p, e, b, f))) return true;
   }
   return false;
 }
 
-[[gnu::always_inline]] inline bool faces_settle(Search& search, const Triangle& a,
-                                                const Triangle& b) {
-  if (search.is_final(offsets_from_face(a, lanes::load(b)))) return true;
-  return search.is_final(-offsets_from_face(b, lanes::load(a)));
+[[gnu::always_inline]] inline bool faces_settle(Search& search, const lanes::Vectors& a,
+                                                const lanes::Vectors& b) {
+  if (search.is_final(offsets_from_face(a, b))) return true;
+  return search.is_final(-offsets_from_face(b, a));
 }
 
 bool is_point(const Triangle& triangle) {
@@ -149,18 +148,18 @@ bool is_point(const Triangle& triangle) {
 }
 
 /// The case where `a` is a point, in which most of these tests would be repeated.
-[[gnu::always_inline]] inline bool point_settles(Search& search, const Triangle& a,
-                                                 const Triangle& b) {
-  const lanes::Vectors point = lanes::repeat(a[0]);
+[[gnu::always_inline]] inline bool point_settles(Search& search, const lanes::Vectors& point,
+                                                 const lanes::Vectors& b) {
   if (search.is_final(-get(offsets_from_face(b, point), 0))) return true;
-  const lanes::Vectors q = lanes::load(b);
-  const lanes::Vectors f = lanes::load(b[1], b[2], b[0]) - q;
-  const lanes::Numbers t = lanes::unit_quotient(dot(f, point - q), squared_norm(f));
-  return search.is_final(q + t * f - point);
+  const lanes::Vectors f = lanes::rotated(b) - b;
+  const lanes::Numbers t = lanes::unit_quotient(dot(f, point - b), squared_norm(f));
+  return search.is_final(b + t * f - point);
 }
 
 /// Every vertex against every edge. In exact arithmetic `edges_settle` covers these cases.
-bool vertices_settle(Search& search, const Triangle& a, const Triangle& b) {
+bool vertices_settle(Search& search, const lanes::Vectors& first, const lanes::Vectors& second) {
+  const Triangle a = lanes::stored(first);
+  const Triangle b = lanes::stored(second);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const std::size_t k = (j + 1) % 3;
@@ -178,13 +177,6 @@ double scale_of(const Triangle& a, const Triangle& b) {
         {scale, (a[i] - a[0]).lpNorm<Eigen::Infinity>(), (b[i] - a[0]).lpNorm<Eigen::Infinity>()});
   }
   return scale;
-}
-
-/// Relative to a vertex of `a`, in units of `unit_m`.
-Triangle to_local(const Triangle& triangle, const Vec3& origin, double unit_m) {
-  const double factor = 1.0 / unit_m;
-  return {factor * (triangle[0] - origin), factor * (triangle[1] - origin),
-          factor * (triangle[2] - origin)};
 }
 
 /// A power of two that brings products of four coordinates well inside the range of doubles; 1 for
@@ -248,10 +240,15 @@ double slab_width_m(const Triangle& a, const Triangle& b, const Vec3& direction)
 
 CAMWAY_FOR_EVERY_PROCESSOR
 TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) {
-  const double scale = scale_of(a, b);
+  // Relative to a vertex of `a`, in units of `unit_m`.
+  const lanes::Vectors origin = lanes::repeat(a[0]);
+  lanes::Vectors la = lanes::load(a) - origin;
+  lanes::Vectors lb = lanes::load(b) - origin;
+  const double scale = std::max(lanes::largest_coordinate(la), lanes::largest_coordinate(lb));
   const double unit_m = unit_for_scale(scale);
-  const Triangle la = to_local(a, a[0], unit_m);
-  const Triangle lb = to_local(b, a[0], unit_m);
+  const double factor = 1.0 / unit_m;
+  la = factor * la;
+  lb = factor * lb;
   Search search(la, lb, scale / unit_m, beyond_m / unit_m);
   const bool is_settled = is_point(a)
                               ? point_settles(search, la, lb)

@@ -38,8 +38,8 @@ void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, bool
                           {"degenerate_left_out", report.degenerate_triangles},
                           {"bad_left_out", report.dropped_nonfinite + report.dropped_bad_index},
                           {"digest", snapshot.digest}});
-  for (const std::string& warning :
-       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+  for (const std::string& warning : scene::import_warnings(
+           report, planning::PlanOptions{}.interval_tolerance_m, scene::kOfDefault)) {
     log.warn("scene read with a warning", {{"scene", snapshot.name}, {"warning", warning}});
   }
   if (snapshot.occupancy) {

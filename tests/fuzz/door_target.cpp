@@ -4,6 +4,7 @@
 
 #include "tests/fuzz/targets.h"
 #include "tools/view/orders.h"
+#include "tools/view/review.h"
 
 namespace camway::testing {
 namespace {
@@ -25,6 +26,7 @@ bool exercise_door_message(std::span<const std::uint8_t> bytes) {
     static_cast<void>(view::read_check_document(*document));
     static_cast<void>(view::read_added(*document));
     static_cast<void>(view::read_moved(*document));
+    static_cast<void>(view::read_review(*document));
     const auto triangles = view::read_triangles(*document);
     promise(!triangles || triangles->indices.size() <= view::kMostIndices, "few triangles");
   }
@@ -39,25 +41,28 @@ std::vector<FuzzBytes> door_message_seeds() {
           "options": {"clearance_m": 0.1}})";
   const std::string pose = R"("position": [1, 2, 3], "orientation": [1, 0, 0, 0])";
   std::vector<FuzzBytes> seeds;
-  for (const std::string& seed : {
-           R"({"id": 1, "do": "plan", "progress": true, "drag": "a", "request": )" + request + "}",
-           R"({"id": 1, "do": "check", "path": {"segments": []}, "request": )" + request + "}",
-           std::string(R"({"id": 1, "do": "cancel"})"),
-           R"({"id": 1, "do": "watch", "request": )" + request + "}",
-           R"({"id": 1, "do": "scene.add", "scene": "a", "object": "b", "form":
+  for (
+      const std::string& seed : {
+          R"({"id": 1, "do": "plan", "progress": true, "drag": "a", "request": )" + request + "}",
+          R"({"id": 1, "do": "check", "path": {"segments": []}, "request": )" + request + "}",
+          std::string(R"({"id": 1, "do": "cancel"})"),
+          R"({"id": 1, "do": "watch", "request": )" + request + "}",
+          R"({"id": 1, "do": "scene.add", "scene": "a", "object": "b", "form":
                {"type": "mesh", "base64": "dgo=", "format": "obj", "scale": 2, "up": "z-to-y"}, )" +
-               pose + "}",
-           R"({"id": 1, "do": "scene.move", "object": "b", )" + pose + "}",
-           R"({"name": "b", "form": {"type": "cylinder", "radius_m": 1, "height_m": 2,
+              pose + "}",
+          R"({"id": 1, "do": "scene.move", "object": "b", )" + pose + "}",
+          R"({"name": "b", "form": {"type": "cylinder", "radius_m": 1, "height_m": 2,
                "chord_error_m": 0.1}, )" +
-               pose + "}",
-           R"({"id": 1, "do": "interpolate", "request": )" + request + "}",
-           std::string(R"({"id": 1, "do": "triangles", "scene": "a", "indices": [0, -1, 70000]})"),
-           std::string(R"({"indices": [1, 2, 9007199254740992]})"),
-           std::string(R"({"id": 1, "do": "fields"})"),
-           std::string(R"({"id": 1, "do": "last"})"),
-           request,
-       }) {
+              pose + "}",
+          R"({"id": 1, "do": "interpolate", "request": )" + request + "}",
+          std::string(R"({"id": 1, "do": "triangles", "scene": "a", "indices": [0, -1, 70000]})"),
+          std::string(R"({"indices": [1, 2, 9007199254740992]})"),
+          R"({"answer": {"status": "ok", "message": "", "segments": [], "keyframes": []}, "request": )" +
+              request + "}",
+          std::string(R"({"id": 1, "do": "fields"})"),
+          std::string(R"({"id": 1, "do": "last"})"),
+          request,
+      }) {
     seeds.push_back(fuzz_bytes(seed));
   }
   return seeds;

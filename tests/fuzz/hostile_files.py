@@ -4,6 +4,7 @@
 
   tests/fuzz/hostile_files.py --programs FOLDER [--mutants 40] [--seed 1] [--workers 2]
                               [--samples FOLDER] [--only TEXT] [--without TEXT ...] [--keep FOLDER]
+                              [--forked]
 
 Each sample file is damaged in many ways: cut off, bits flipped, bytes replaced, spans removed,
 repeated and exchanged, numbers replaced by huge, negative and meaningless ones. `camway info` reads
@@ -11,6 +12,10 @@ each of them, and `camway import` those of a folder `cameras`. Whatever is in a 
 ends in time with a code that is documented, and says in a sentence why it refused the file. The
 process that reads the file may fall where a library reads it; where Camway's own readers do, it may
 not.
+
+With --forked, each file is read by a fork of the import program, which has loaded its library
+before (forked_reader.h): the same code under the same limits, for very many files, without what
+`camway` makes of the answer.
 
 The files come from sample_files.py, and from the folder that --samples names; --only keeps those
 with a text in their name. --keep writes the files that broke something into a folder. Exit code: 0
@@ -38,6 +43,8 @@ import sample_files  # noqa: E402
 # Formats that Camway reads with readers of its own: these may not fall.
 OWN_ENDINGS = (".obj", ".off", ".ply", ".stl", ".ug", ".pcd", ".xyz", ".las", ".voxel.json",
                ".bpt")
+INVENTOR_ENDINGS = (".iv", ".wrl", ".vrml", ".wrz", ".iv.gz", ".wrl.gz", ".ivz", ".iv.asc")
+CAD_ENDINGS = (".step", ".stp", ".iges", ".igs")
 # What `camway info` and `camway import` end with (docs/commands.md): read, or refused.
 GOOD_CODES = (0, 2)
 # The import process has a minute of wall clock; then a busy machine needs some time to say so.
@@ -147,6 +154,17 @@ class Sample:
         return [str(programs / "camway"), *verb, str(file), *extra]
 
 
+    def is_by_import_program(self):
+        """Whether an import program reads it, not `camway` itself."""
+        return not self.is_camera or self.name.lower().endswith((".dae", ".fbx"))
+
+    def forked_program(self):
+        name = self.name.lower()
+        if name.endswith(INVENTOR_ENDINGS):
+            return "forked_import_inventor"
+        return "forked_import_cad" if name.endswith(CAD_ENDINGS) else "forked_import"
+
+
 class Worker:
     """Writes and reads the damaged files of one sample, in a folder of its own."""
 
@@ -158,22 +176,57 @@ class Worker:
         self.longest_s = 0.0
 
     def run(self):
+        if not self.options.forked:
+            return self.run_all(self.read)
+        program = self.options.programs / self.sample.forked_program()
+        with subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              text=True, errors="replace") as self.forked:
+            return self.run_all(self.read_forked)
+
+    def run_all(self, read):
         with tempfile.TemporaryDirectory(prefix="camway-hostile-") as folder:
             file = Path(folder) / self.sample.path.name
             for companion in self.sample.companions:
                 shutil.copy(companion, folder)
-            self.read(file, self.sample.path.read_bytes(), self.sample.path, "whole")
+            read(file, self.sample.path.read_bytes(), self.sample.path, "whole")
             for i in range(self.options.mutants):
                 dice = random.Random(f"{self.options.seed} {self.sample.name} {i}")
                 source = dice.choice(self.sample.damaged)
-                self.read(file, mutant(source.read_bytes(), dice), source, f"mutant {i}")
+                read(file, mutant(source.read_bytes(), dice), source, f"mutant {i}")
         return self
 
-    def read(self, file, data, source, what):
+    def write(self, file, data, source):
+        """Returns the file that is damaged."""
         for original in self.sample.damaged:
-            (file.parent / original.name).write_bytes(original.read_bytes())
+            if original != source:
+                (file.parent / original.name).write_bytes(original.read_bytes())
         damaged = file.parent / source.name
         damaged.write_bytes(data)
+        return damaged
+
+    def read_forked(self, file, data, source, what):
+        damaged = self.write(file, data, source)
+        begin = time.monotonic()
+        order = f"cameras {file}" if self.sample.is_camera else str(file)
+        self.forked.stdin.write(order + "\n")
+        self.forked.stdin.flush()
+        outcome, _, said = self.forked.stdout.readline().rstrip("\n").partition("\t")
+        self.longest_s = max(self.longest_s, time.monotonic() - begin)
+        self.counts[outcome] += 1
+        problem = None
+        if outcome not in ("read", "refused", "limited", "fallen"):
+            problem = f"answered with '{outcome}'"
+        elif outcome == "refused" and not re.search(r"\w \w", said):
+            problem = "refused it without a sentence"
+        elif outcome == "fallen" and self.sample.is_own:
+            problem = "the import process fell in a reader of Camway's own"
+        elif what == "whole" and outcome != "read":
+            problem = "the sample itself is refused"
+        if problem:
+            self.fault(what, problem, damaged, said.encode())
+
+    def read(self, file, data, source, what):
+        damaged = self.write(file, data, source)
         begin = time.monotonic()
         try:
             done = subprocess.run(self.sample.command(self.options.programs, file),
@@ -233,6 +286,7 @@ def parse_options():
     parser.add_argument("--only", default="", help="samples with this text in their name")
     parser.add_argument("--without", action="append", default=[],
                         help="no samples with this text in their name; may be given again")
+    parser.add_argument("--forked", action="store_true", help="by forks of the import programs")
     parser.add_argument("--keep", type=Path, help="folder for files that broke something")
     options = parser.parse_args()
     options.programs = options.programs.resolve()
@@ -246,7 +300,7 @@ def samples_in(folder, options):
         made += [(path, root) for path in sorted(root.rglob("*")) if path.is_file()]
     wanted = [Sample(path, root) for path, root in made]
     return [sample for sample in wanted if options.only in sample.name
-            and not any(text in sample.name for text in options.without)]
+            and (sample.is_by_import_program() or not options.forked) and not any(text in sample.name for text in options.without)]
 
 
 def main():

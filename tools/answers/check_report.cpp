@@ -13,6 +13,7 @@
 #include "daemon/planning/result/witness_names.h"
 #include "daemon/planning/stages/sentences.h"
 #include "daemon/scene/import/import_warnings.h"
+#include "tools/answers/scene_record.h"
 
 namespace camway::tools {
 namespace {
@@ -154,13 +155,11 @@ std::string at_feature(const std::string& feature) {
 
 std::vector<std::string> check_warnings(const CheckInput& input, const PathSearch& search) {
   std::vector<std::string> warnings;
-  const std::string& digest = input.snapshot->digest;
-  if (!input.made_for_digest.empty() && input.made_for_digest != digest) {
-    warnings.push_back(fmt::format(
-        "{}: was made for another scene: its scene_digest is {}, that of {} is {}; what is said "
-        "here holds in {}",
-        input.response_file, input.made_for_digest, input.snapshot->name, digest,
-        input.snapshot->name));
+  const scene::Snapshot& snapshot = *input.snapshot;
+  if (const std::string other =
+          another_scene(input.response_file, input.made_for_digest, snapshot.name, snapshot.digest);
+      !other.empty()) {
+    warnings.push_back(other + "; what is said here holds in " + snapshot.name);
   }
   const double body_m = planning::body_size_m(*input.body);
   const double tolerance_m = input.request.options.interval_tolerance_m;

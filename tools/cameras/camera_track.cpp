@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <sstream>
 
 namespace camway::tools {
 namespace {
@@ -12,12 +14,28 @@ using geometry::Quat;
 using geometry::Vec3;
 using geometry::Vec4;
 
+/// A plane before the camera has no wider picture than half a turn.
+bool is_angle_of_view(std::optional<double> angle_rad) {
+  return !angle_rad || (*angle_rad > 0.0 && *angle_rad < std::numbers::pi);
+}
+
+std::string fault_of_angles(std::optional<double> fov_x_rad, std::optional<double> fov_y_rad) {
+  for (const std::optional<double> angle_rad : {fov_x_rad, fov_y_rad}) {
+    if (is_angle_of_view(angle_rad)) continue;
+    std::ostringstream text;
+    text << "its field of view is " << *angle_rad * 180.0 / std::numbers::pi
+         << " degrees, but that of a flat picture is between 0 and 180";
+    return text.str();
+  }
+  return "";
+}
+
 std::string fault_of(const TrackKey& key) {
   if (!std::isfinite(key.time_s)) return "its time is not finite";
   if (!key.pose_W.position.allFinite()) return "its position is not finite";
   const double length = key.pose_W.orientation.norm();
   if (!(length > 0.0) || !std::isfinite(length)) return "its orientation has no direction";
-  return "";
+  return fault_of_angles(key.fov_x_rad, key.fov_y_rad);
 }
 
 /// A cubic Hermite spline between two values (glTF 2.0, appendix C.5), `u` in [0, 1].
@@ -58,6 +76,9 @@ motion::Pose pose_between(const CameraTrack& track, std::size_t i, double u) {
 
 std::string fault_of(const CameraTrack& track) {
   if (track.keys.empty()) return "it has no poses";
+  if (std::string fault = fault_of_angles(track.fov_x_rad, track.fov_y_rad); !fault.empty()) {
+    return fault;
+  }
   for (std::size_t i = 0; i < track.keys.size(); ++i) {
     std::string fault = fault_of(track.keys[i]);
     if (fault.empty() && i > 0 && !(track.keys[i - 1].time_s < track.keys[i].time_s)) {
@@ -76,6 +97,14 @@ motion::Pose pose_at(const CameraTrack& track, double time_s) {
   const auto i = static_cast<std::size_t>(later - keys.begin()) - 1;
   const double u = (time_s - keys[i].time_s) / (keys[i + 1].time_s - keys[i].time_s);
   return pose_between(track, i, u);
+}
+
+std::optional<double> widest_fov_x_rad(const CameraTrack& track) {
+  std::optional<double> widest = track.fov_x_rad;
+  for (const TrackKey& key : track.keys) {
+    if (key.fov_x_rad) widest = std::max(widest.value_or(0.0), *key.fov_x_rad);
+  }
+  return widest;
 }
 
 std::optional<double> widest_fov_y_rad(const CameraTrack& track) {

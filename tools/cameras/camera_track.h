@@ -15,7 +15,8 @@ namespace camway::tools {
 struct TrackKey {
   double time_s = 0.0;
   motion::Pose pose_W;
-  std::optional<double> fov_y_rad;  ///< where the lens changes
+  std::optional<double> fov_y_rad;  ///< where the lens changes; full angles of view
+  std::optional<double> fov_x_rad = std::nullopt;
 };
 
 /// The curve on which a program plays a track between two keys.
@@ -45,19 +46,21 @@ struct CameraTrack {
   std::optional<double> fov_y_rad;
   std::optional<double> aspect;  ///< width of the picture divided by its height
   std::optional<double> near_m;
+  std::string why_no_fov;          ///< where the file's lens is not taken; else empty
   std::vector<std::string> notes;  ///< sentences for the user: what was assumed or left out
 };
 
 /// Returns why the track is none: no keys, a number that is not finite, times that do not increase,
-/// or an orientation of length zero. Empty if it is one. Counts keys from 0.
+/// an orientation of length zero, or an angle of view that no flat picture has. Empty if it is one.
+/// Counts keys from 0.
 std::string fault_of(const CameraTrack& track);
 
 /// The pose of the track at a time, which is clamped to its keys, as its program plays it. Requires
 /// a track without fault.
 motion::Pose pose_at(const CameraTrack& track, double time_s);
 
-/// The widest vertical field of view of the keys, or that of the track; nothing if neither is
-/// known.
+/// The widest field of view of the keys, or that of the track; nothing if neither is known.
+std::optional<double> widest_fov_x_rad(const CameraTrack& track);
 std::optional<double> widest_fov_y_rad(const CameraTrack& track);
 
 /// Returns the field of view across a picture of another width: tan(x/2) = aspect · tan(y/2).

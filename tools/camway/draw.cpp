@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "daemon/scene/snapshot/snapshot.h"
+#include "tools/answers/scene_record.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/review_file.h"
 #include "tools/drawing/floor_plan.h"
+#include "tools/drawing/scene_plan.h"
 #include "tools/drawing/side_by_side.h"
+#include "tools/drawing/storeys.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
@@ -32,7 +38,7 @@ struct DrawFlags {
   std::string request;
   std::string response;
   std::string picture;
-  draw::SceneUp vertical = draw::SceneUp::kY;
+  std::optional<draw::SceneUp> vertical;
   bool is_side_by_side = false;
 };
 
@@ -50,14 +56,24 @@ draw::FloorPlan floor_plan(const DrawFlags& flags, const planning::PlanRequest& 
   plan.title = std::filesystem::path(flags.response).stem().string();
   plan.subtitle = fmt::format("{}: {}", planning::to_string(result.status), result.message);
   plan.mesh = mesh;
-  plan.up = flags.vertical;
   plan.corners_C = motion::near_corners_C(request.camera);
   plan.keyframes = result.keyframes;
   plan.before = draw::sample(motion::interpolate(given_keyframes(result)), kDrawnSamples);
   plan.after = draw::sample(result.path, kDrawnSamples);
   plan.collisions = result.collisions;
   plan.remaining_collisions = result.remaining_collisions;
+  for (const correction::Correction& correction : result.corrections) {
+    if (correction.kind == correction::CorrectionKind::kNone) continue;
+    plan.corrected.push_back({correction.t_begin_s, correction.t_end_s});
+  }
   return plan;
+}
+
+draw::PictureFiles files_of(const DrawFlags& flags) {
+  const std::filesystem::path picture(flags.picture);
+  draw::PictureFiles files;
+  (picture.extension() == ".svg" ? files.svg : files.png) = picture;
+  return files;
 }
 
 ExitCode invalid(const std::string& error) {
@@ -65,73 +81,156 @@ ExitCode invalid(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
-/// Warns if the path was made for another scene than the one that is drawn.
-void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
-  const base::Result<PathFile> response = read_as<PathFile>(flags.response);
-  if (!response || response->scene_digest.empty()) return;
-  if (response->scene_digest == snapshot.digest) return;
-  print_error(fmt::format(
-      "warning: {}: was made for another scene: its scene_digest is {}, that of {} is {}",
-      source_of(flags.response), response->scene_digest, snapshot.name, snapshot.digest));
+ExitCode drawn(const std::string& error) {
+  return error.empty() ? ExitCode::kSuccess : invalid(error);
+}
+
+/// Returns a sentence if a flag says that the scene is to be read in another way than the response
+/// names; else an empty text. The scene would be another one.
+std::string why_contrary(const SceneReading& flags, const SceneReading& of_response,
+                         const std::string& response) {
+  std::string error;
+  const auto compare = [&](const char* flag, const auto& given, const auto& used) {
+    if (!error.empty() || !given || !used || *given == *used) return;
+    const auto word = [](const auto& value) {
+      if constexpr (base::NamedEnum<std::remove_cvref_t<decltype(value)>>) {
+        return std::string(base::name_of(value));
+      } else {
+        return fmt::format("{}", value);
+      }
+    };
+    error = fmt::format("{}: is {}, but {} was planned in the scene read with {}; leave it out",
+                        flag, word(*given), response, word(*used));
+  };
+  compare("--scale", flags.scale, of_response.scale);
+  compare("--up", flags.up, of_response.up);
+  compare("--unknown", flags.unknown, of_response.unknown);
+  compare("--voxel-m", flags.voxel_m, of_response.voxel_m);
+  return error;
+}
+
+scene::SnapshotResult load_drawn(const DrawFlags& flags, const std::string& file,
+                                 const SceneReading& reading) {
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options(reading);
+  return load_timed(file, file, options, user_cache(flags.scene)).result;
+}
+
+/// Returns the axis that points up in a scene without a request, and how it is known.
+std::pair<draw::SceneUp, std::string> vertical_of_scene(const DrawFlags& flags,
+                                                        const scene::Mesh& mesh) {
+  if (flags.vertical) return {*flags.vertical, ""};
+  const scene::UpAxis up = flags.scene.import_options().up;
+  if (up == scene::UpAxis::kZToY) return {draw::SceneUp::kY, ""};
+  if (up == scene::UpAxis::kYToZ) return {draw::SceneUp::kZ, ""};
+  return {draw::up_of(mesh), "(as the faces show; --vertical decides)"};
+}
+
+/// Draws the plan of a scene alone.
+ExitCode draw_scene_alone(const DrawFlags& flags) {
+  if (flags.scene.file.empty()) return invalid("--scene or --request is required");
+  if (std::filesystem::path(flags.picture).extension() == ".html") {
+    return invalid(flags.picture + ": a page needs --request and --response");
+  }
+  const scene::SnapshotResult loaded = load_drawn(flags, flags.scene.file, {});
+  if (!loaded.snapshot) return invalid(loaded.error);
+  draw::ScenePlan plan;
+  plan.title = std::filesystem::path(flags.scene.file).filename().string();
+  plan.mesh = *loaded.snapshot->mesh.share();
+  std::tie(plan.up, plan.remark) = vertical_of_scene(flags, plan.mesh);
+  return drawn(draw::draw_scene_plan(plan, files_of(flags)));
+}
+
+/// Draws a response in its scene.
+ExitCode draw_response(const DrawFlags& flags) {
+  const base::Result<RequestFile> request = read_request(flags.request);
+  if (!request) return invalid(request.error);
+  const base::Result<ResponseFile> response = read_as<ResponseFile>(flags.response);
+  if (!response) return invalid(response.error);
+  const std::string source = source_of(flags.response);
+  if (response->path.empty()) return invalid(source + ": segments: has no path to draw");
+  if (const std::string error = why_contrary(flags.scene.reading, response->scene_reading, source);
+      !error.empty()) {
+    return invalid(error);
+  }
+  const std::string scene_file = flags.scene.file_for(flags.request, *request);
+  if (scene_file.empty()) {
+    return invalid(source_of(flags.request) + ": scene: is missing, and there is no --scene");
+  }
+  // A response of an earlier release does not say how its scene was read.
+  const SceneReading& reading =
+      response->scene_reading.up ? response->scene_reading : request->reading;
+  const scene::SnapshotResult loaded = load_drawn(flags, scene_file, reading);
+  if (!loaded.snapshot) return invalid(loaded.error);
+  const scene::Snapshot& snapshot = *loaded.snapshot;
+  if (const std::string error =
+          another_scene(source, response->scene_digest, snapshot.name, snapshot.digest);
+      !error.empty()) {
+    return invalid(error);
+  }
+  if (std::filesystem::path(flags.picture).extension() == ".html") {
+    return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
+  }
+  draw::FloorPlan plan = floor_plan(flags, *request, *response, *snapshot.mesh.share());
+  plan.up = flags.vertical ? *flags.vertical
+            : response->vertical_axis
+                ? *response->vertical_axis
+                : vertical_axis(flags.scene.import_options(reading).up, *request);
+  return drawn(flags.is_side_by_side ? draw::draw_side_by_side(plan, files_of(flags))
+                                     : draw::draw_floor_plan(plan, files_of(flags)));
 }
 
 ExitCode run_draw(const DrawFlags& flags) {
   if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
     return invalid(fault);
   }
-  const base::Result<RequestFile> request = read_request(flags.request);
-  if (!request) return invalid(request.error);
-  const base::Result<planning::PlanResult> result = read_as<planning::PlanResult>(flags.response);
-  if (!result) return invalid(result.error);
-  if (result->path.empty())
-    return invalid(source_of(flags.response) + ": segments: has no path to draw");
-  const std::string scene_file = flags.scene.file_for(flags.request, *request);
-  if (scene_file.empty()) {
-    return invalid(source_of(flags.request) + ": scene: is missing, and there is no --scene");
-  }
-  scene::SnapshotOptions options;
-  options.import = flags.scene.import_options(request->reading);
-  const scene::SnapshotResult loaded =
-      load_timed(scene_file, scene_file, options, user_cache(flags.scene)).result;
-  if (!loaded.snapshot) return invalid(loaded.error);
-  warn_of_another_scene(flags, *loaded.snapshot);
-  const std::filesystem::path picture(flags.picture);
-  draw::PictureFiles files;
-  (picture.extension() == ".svg" ? files.svg : files.png) = picture;
-  const std::shared_ptr<const scene::Mesh> mesh = loaded.snapshot->mesh.share();
-  const draw::FloorPlan plan = floor_plan(flags, *request, *result, *mesh);
-  const std::string error = flags.is_side_by_side ? draw::draw_side_by_side(plan, files)
-                                                  : draw::draw_floor_plan(plan, files);
-  return error.empty() ? ExitCode::kSuccess : invalid(error);
+  return flags.request.empty() ? draw_scene_alone(flags) : draw_response(flags);
 }
+
+constexpr char kDrawFooter[] =
+    "With --scene alone the plan of the scene is drawn, with axes, to choose keyframes from. A "
+    "response is\ndrawn in the scene that it was planned in: the options of reading that it names "
+    "count, a flag that says\nanother one is refused, and so is a scene with another "
+    "scene_digest. A response that names none was\nmade by an earlier release or a daemon; the "
+    "request's options count then. --vertical only turns the\npicture, and counts before the "
+    "vertical_axis of the response. Keyframes count from 0, as in messages;\nthose that were "
+    "inserted have no number.\n";
 
 }  // namespace
 
 void add_draw_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "draw", "Draw a response as a floor plan: scene, path before and after, collisions");
+      "draw", "Draw a response, or a scene, as a floor plan of each storey: paths, collisions");
   const auto flags = std::make_shared<DrawFlags>();
   add_request_scene_flags(*command, flags->scene);
-  command->add_option("--request", flags->request, "Request file")->required()->type_name("FILE");
-  command->add_option("--response", flags->response, "Response file of that request")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--picture", flags->picture, "Picture to write: .svg or .png")
+  CLI::Option* const response =
+      command->add_option("--response", flags->response, "Response file of the request")
+          ->type_name("FILE");
+  CLI::Option* const request =
+      command->add_option("--request", flags->request, "Request file; needs --response")
+          ->type_name("FILE")
+          ->needs(response);
+  response->needs(request);
+  command
+      ->add_option("-o,--picture", flags->picture,
+                   "Picture to write: .svg or .png; or .html, a page to look around in")
       ->required()
       ->type_name("FILE")
       ->check([](const std::string& file) {
         const std::filesystem::path extension = std::filesystem::path(file).extension();
-        return extension == ".svg" || extension == ".png" ? std::string()
-                                                          : file + ": is neither .svg nor .png";
+        const bool is_known = extension == ".svg" || extension == ".png" || extension == ".html";
+        return is_known ? std::string() : file + ": is neither .svg nor .png nor .html";
       });
-  static constexpr std::array<std::pair<std::string_view, draw::SceneUp>, 2> kVerticals{
-      {{"y", draw::SceneUp::kY}, {"z", draw::SceneUp::kZ}}};
-  cli_support::add_choice(*command, "--vertical", flags->vertical, kVerticals,
-                          "Axis that points up in the scene as read, --up included [y]")
+  cli_support::add_choice(*command, "--vertical", flags->vertical,
+                          base::named_values<scene::VerticalAxis>(),
+                          "Axis that points up in the scene as read, --up included [the "
+                          "response's, else what the request or the faces of the scene show]")
       ->type_name("AXIS");
-  command->add_flag("--side-by-side", flags->is_side_by_side,
-                    "Draw two small plans, before and after, without details");
-  command->footer(exit_code_help("") +
+  command
+      ->add_flag("--side-by-side", flags->is_side_by_side,
+                 "Draw two small plans, before and after, without details")
+      ->needs(response);
+  command->footer(std::string(kDrawFooter) + exit_code_help("") +
                   "\nExample: camway draw --request "
                   "scenes/requests/office-graze-door.json --response out.json --picture out.svg");
   command->callback([flags, &exit_code] { exit_code = run_draw(*flags); });

@@ -32,7 +32,8 @@ OrderedJson vector_json(const geometry::Vec3& v) { return {v.x(), v.y(), v.z()};
 
 /// Returns the warnings that need no request; the tolerance is assumed to be the default.
 std::vector<std::string> warnings_of(const scene::ImportReport& report) {
-  return scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m);
+  return scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m,
+                                scene::kOfDefault);
 }
 
 /// Returns the notes of the reader, and what the extents suggest about axes.

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
 #include "tools/camway/common/browser.h"
@@ -17,11 +16,12 @@
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
 #include "tools/camway/common/key_file.h"
-#include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/door_request.h"
 #include "tools/view/daemon/planner_daemon.h"
 #include "tools/view/door.h"
 #include "tools/view/here/planner_here.h"
+#include "tools/view/page/embed/embedded_page.h"
 #include "tools/view/token.h"
 
 namespace camway::tools {
@@ -44,55 +44,16 @@ ExitCode invalid_view(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
-/// Returns the name of a scene for places of the door: the file's, with '_' for what they cannot
-/// hold.
-std::string place_name(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string();
-  for (char& c : name) {
-    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                         (c >= '0' && c <= '9') || c == '-' || c == '.';
-    if (!is_kept) c = '_';
-  }
-  return name.empty() ? "scene" : name;
-}
-
-/// The request of the flags.
-struct FirstRequest {
-  RequestFile request;
-  nlohmann::json document;
-};
-
-base::Result<std::optional<FirstRequest>> read_first_request(const std::string& file) {
-  if (file.empty()) return std::optional<FirstRequest>();
-  const base::Result<std::string> text = read_text(file);
-  if (!text) return base::Failure{text.error};
-  base::Result<RequestFile> request = read_request_text(*text, file);
+base::Result<std::optional<DoorRequest>> read_first_request(const std::string& file) {
+  if (file.empty()) return std::optional<DoorRequest>();
+  base::Result<DoorRequest> request = read_door_request(file);
   if (!request) return base::Failure{request.error};
-  if (const auto fault = planning::validate(*request)) {
-    return base::Failure{source_of(file) + ": " + fault->message};
-  }
-  return std::optional<FirstRequest>({*std::move(request), nlohmann::json::parse(*text)});
-}
-
-/// Returns a request as the door takes it: it names a scene and no file, and has the mesh of its
-/// body.
-std::shared_ptr<const std::string> text_for_door(FirstRequest first, const std::string& scene) {
-  first.document["scene"] = scene;
-  if (first.request.body_file && first.request.body) {
-    const auto& mesh = std::get<motion::MeshShape>(*first.request.body);
-    nlohmann::json vertices = nlohmann::json::array();
-    for (const geometry::Vec3& v : mesh.vertices_C) vertices.push_back({v.x(), v.y(), v.z()});
-    first.document["body"] = {{"type", "mesh"},
-                              {"vertices", std::move(vertices)},
-                              {"triangles", mesh.triangles},
-                              {"solid", mesh.solid}};
-  }
-  return std::make_shared<const std::string>(first.document.dump());
+  return std::optional<DoorRequest>(*std::move(request));
 }
 
 /// Loads the scene of the flags, or that of the request. Returns what plans in it here.
-base::Result<std::unique_ptr<view::Backend>> backend_here(
-    const ViewFlags& flags, const std::optional<FirstRequest>& first) {
+base::Result<std::unique_ptr<view::Backend>> backend_here(const ViewFlags& flags,
+                                                          const std::optional<DoorRequest>& first) {
   const std::string file =
       first ? flags.file.file_for(flags.request, first->request) : flags.file.file;
   if (file.empty()) {
@@ -103,7 +64,7 @@ base::Result<std::unique_ptr<view::Backend>> backend_here(
   const scene::SnapshotResult loaded =
       load_timed(place_name(file), file, options, user_cache(flags.file)).result;
   if (!loaded.snapshot) return base::Failure{loaded.error};
-  return view::plan_here(loaded.snapshot);
+  return view::plan_here(loaded.snapshot, {.scene_reading = options.import});
 }
 
 base::Result<std::unique_ptr<view::Backend>> backend_daemon(ViewFlags flags) {
@@ -115,14 +76,13 @@ base::Result<std::unique_ptr<view::Backend>> backend_daemon(ViewFlags flags) {
 }
 
 /// Begins to plan the request of the flags, for the first page. Returns it as the door takes it.
-std::string plan_first(view::Backend& backend, const std::string& file, FirstRequest first) {
-  const std::string scene = backend.scene();
-  RequestFile request = first.request;
-  const auto text = text_for_door(std::move(first), scene);
-  backend.plan({scene, std::move(request), text}, nullptr, [file](const view::Answer& answer) {
+std::string plan_first(view::Backend& backend, const std::string& file, DoorRequest first) {
+  view::PlanOrder order = plan_order(std::move(first), backend.scene());
+  std::string text = *order.text;
+  backend.plan(std::move(order), nullptr, [file](const view::Answer& answer) {
     if (!answer.error.empty()) print_error(file + ": " + answer.error);
   });
-  return *text;
+  return text;
 }
 
 /// Prints the address and serves until a signal to end comes.
@@ -133,6 +93,7 @@ ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
   options.port = flags.port;
   options.is_read_only = flags.is_read_only;
   options.first_request = first_request;
+  options.page = view::embedded_page();
   options.token = view::random_token();
   if (options.token.empty()) {
     print_error("the kernel gives no random bits for the token");
@@ -153,7 +114,7 @@ ExitCode serve_door(const ViewFlags& flags, const Interruption& interruption,
 }
 
 ExitCode run_view(const ViewFlags& flags) {
-  base::Result<std::optional<FirstRequest>> first = read_first_request(flags.request);
+  base::Result<std::optional<DoorRequest>> first = read_first_request(flags.request);
   if (!first) return invalid_view(first.error);
   // Before any thread, all of which inherit the signal mask.
   const Interruption interruption;

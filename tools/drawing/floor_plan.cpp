@@ -1,206 +1,186 @@
 // SPDX-License-Identifier: MIT
 #include "tools/drawing/floor_plan.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 
-#include "tools/drawing/floor_plan_view.h"
+#include <algorithm>
+#include <cmath>
+
+#include "tools/drawing/height_strip.h"
+#include "tools/drawing/legend.h"
+#include "tools/drawing/panel_grid.h"
 #include "tools/drawing/picture_file.h"
+#include "tools/drawing/storey_panels.h"
 
 namespace camway::draw {
 namespace {
 
-constexpr double kMargin_px = 28.0;
-constexpr double kTitle_px = 92.0;
-constexpr double kLegend_px = 128.0;
-constexpr double kDetailWidth_px = 400.0;
-constexpr double kGap_px = 16.0;
 constexpr std::size_t kMostDetails = 3;
 constexpr double kLeastEnlargement = 1.6;  // below it a detail shows nothing new
+constexpr double kDetailHeight_px = 250.0;
+constexpr double kStripHeight_px = 150.0;
 
-/// Parts of the plan that are shown enlarged.
-std::vector<PlanBox> places_of_collision(const FloorPlan& plan) {
-  constexpr double kAround_m = 0.7;
-  std::vector<PlanBox> places;
-  for (const bool corrected : {false, true}) {
-    const SampledPath& path = corrected ? plan.after : plan.before;
-    if (path.empty()) continue;
-    for (const collision::CollisionInterval& interval :
-         corrected ? plan.remaining_collisions : plan.collisions) {
-      PlanBox box;
-      for (const double t : {interval.t_begin_s, interval.t_end_s}) {
-        const PlanPoint p = to_plan(sample_at(path, t).pose.position, plan.up);
-        box.extend(PlanPoint(p.array() - kAround_m));
-        box.extend(PlanPoint(p.array() + kAround_m));
-      }
-      const auto near = std::find_if(places.begin(), places.end(), [&](const PlanBox& other) {
-        return other.intersects(box) && other.merged(box).sizes().maxCoeff() < 6.0 * kAround_m;
-      });
-      if (near != places.end()) {
-        near->extend(box);
-      } else {
-        places.push_back(box);
-      }
-    }
-  }
-  return places;
-}
-
-struct Layout {
-  double width_px;
-  double height_px;
-  View main;
-  std::vector<View> details;
+/// A part of a panel that is shown enlarged.
+struct Detail {
+  std::size_t panel;
+  PlanBox place;
+  View view;
 };
 
-/// Returns the layout, with a column of details at the right if there are `places`.
-Layout lay_out_with(const FloorPlan& plan, const std::vector<PlanBox>& places) {
-  const PlanBox world = world_shown(plan);
-  Layout layout{plan.width_px, 0.0, {}, {}};
-  const double column = places.empty() ? 0.0 : kDetailWidth_px + kGap_px;
-  const double width = plan.width_px - 2 * kMargin_px - column;
-  const double least = places.size() < 2 ? 430.0 : places.size() == 2 ? 640.0 : 860.0;
-  const double height =
-      std::clamp(width * world.sizes().y() / world.sizes().x(), least, std::max(least, 1050.0));
-  layout.height_px = kTitle_px + height + kLegend_px;
-  layout.main = fitted({kMargin_px, kTitle_px, width, height}, world);
-  const auto count = static_cast<double>(places.size());
-  const double detail_height = (height - (count - 1) * kGap_px) / std::max(count, 1.0);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Frame frame{kMargin_px + width + kGap_px,
-                      kTitle_px + static_cast<double>(i) * (detail_height + kGap_px),
-                      kDetailWidth_px, detail_height};
-    layout.details.push_back(fitted(frame, places[i]));
+/// Everything of a picture and where it is.
+struct Layout {
+  std::vector<Panel> panels;
+  PanelGrid grid;
+  std::vector<Detail> details;
+  Frame strip;
+  std::vector<LegendEntry> legend;
+  double legend_y_px;
+  std::string subtitle;
+  PictureSize size;
+};
+
+/// Adds the places of the collisions of a panel; those that are near each other are one.
+void add_places(const FloorPlan& plan, const Panel& panel, std::size_t index,
+                std::vector<Detail>& details) {
+  constexpr double kAround_m = 0.7;
+  for (const PanelCollision& collision : panel.collisions) {
+    PlanBox box;
+    for (const PathSample& s : collision.path) {
+      const PlanPoint p = to_plan(s.pose.position, plan.up);
+      box.extend(PlanPoint(p.array() - kAround_m));
+      box.extend(PlanPoint(p.array() + kAround_m));
+    }
+    const auto near = std::find_if(details.begin(), details.end(), [&](const Detail& other) {
+      return other.panel == index && other.place.intersects(box) &&
+             other.place.merged(box).sizes().maxCoeff() < 6.0 * kAround_m;
+    });
+    if (near != details.end()) {
+      near->place.extend(box);
+    } else if (!box.isEmpty()) {
+      details.push_back({index, box, {}});
+    }
   }
-  return layout;
+}
+
+/// Lays out the details in a row below `top_px`. Returns where the next thing may begin.
+double lay_out_details(const FloorPlan& plan, double top_px, Layout& layout) {
+  std::vector<Detail>& details = layout.details;
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    add_places(plan, layout.panels[i], i, details);
+  }
+  if (details.size() > kMostDetails) details.resize(kMostDetails);
+  const auto place_all = [&] {
+    const auto count = static_cast<double>(std::max<std::size_t>(details.size(), 2));
+    const double width = (kPictureWidth_px - 2 * kRim_px - (count - 1) * kBlockGap_px) / count;
+    for (std::size_t i = 0; i < details.size(); ++i) {
+      const double x = kRim_px + static_cast<double>(i) * (width + kBlockGap_px);
+      details[i].view =
+          fitted({x, top_px + kNameRoom_px, width, kDetailHeight_px}, details[i].place);
+    }
+  };
+  place_all();
+  const double least = kLeastEnlargement * layout.grid.views.front().px_per_m;
+  std::erase_if(details, [&](const Detail& detail) { return detail.view.px_per_m < least; });
+  place_all();
+  return details.empty() ? top_px : top_px + kNameRoom_px + kDetailHeight_px + kBlockGap_px;
+}
+
+/// Returns the subtitle, with the height of all keyframes if they have one.
+std::string whole_subtitle(const FloorPlan& plan) {
+  const auto given = std::ranges::find_if(plan.keyframes, [](const motion::Keyframe& keyframe) {
+    return keyframe.origin != motion::KeyframeOrigin::kInserted;
+  });
+  if (given == plan.keyframes.end() || !are_level(plan.keyframes, plan.up)) return plan.subtitle;
+  const std::string level = fmt::format("given keyframes at {} = {:.2f} m", height_name(plan.up),
+                                        height_of(given->pose.position, plan.up));
+  return plan.subtitle.empty() ? level : plan.subtitle + "; " + level;
 }
 
 Layout lay_out(const FloorPlan& plan) {
-  std::vector<PlanBox> places = places_of_collision(plan);
-  places.resize(std::min(places.size(), kMostDetails));
-  const Layout all = lay_out_with(plan, places);
-  std::vector<PlanBox> worth_it;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (all.details[i].px_per_m >= kLeastEnlargement * all.main.px_per_m) {
-      worth_it.push_back(places[i]);
-    }
+  Layout layout{storey_panels(plan), {}, {}, {}, {}, 0.0, whole_subtitle(plan), {}};
+  layout.grid =
+      arrange_panels(layout.panels.size(), world_shown(plan), head_height_px(layout.subtitle));
+  double y = lay_out_details(plan, layout.grid.below_px, layout);
+  if (!plan.before.empty() || !plan.after.empty()) {
+    layout.strip = {kRim_px + kAxisLeft_px, y + kNameRoom_px,
+                    kPictureWidth_px - 2 * kRim_px - kAxisLeft_px, kStripHeight_px};
+    y += kNameRoom_px + kStripHeight_px + kAxisBelow_px + kBlockGap_px;
   }
-  return worth_it.size() == places.size() ? all : lay_out_with(plan, worth_it);
+  layout.legend = legend_of(plan, layout.panels.size() > 1);
+  layout.legend_y_px = y;
+  layout.size = {kPictureWidth_px, std::ceil(y + legend_height_px(layout.legend.size()) + kRim_px)};
+  return layout;
 }
 
 std::string detail_name(std::size_t index) { return {static_cast<char>('A' + index)}; }
 
-void draw_details(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
-                  const FloorSection& section) {
+/// Returns the rectangle in a panel of what a detail shows.
+PlanBox outline_of(const View& panel, const View& detail) {
+  const PlanPoint half = PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
+  const PlanPoint begin(panel.frame.x, panel.frame.y);
+  const PlanPoint end = begin + PlanPoint(panel.frame.width, panel.frame.height);
+  return {panel.to_px(detail.center - half).cwiseMax(begin),
+          panel.to_px(detail.center + half).cwiseMin(end)};
+}
+
+/// Returns the boxes of the names of the details of a panel, at the upper left of their outlines.
+std::vector<PlanBox> name_boxes(const Layout& layout, std::size_t panel) {
+  std::vector<PlanBox> boxes;
+  for (const Detail& detail : layout.details) {
+    if (detail.panel != panel) continue;
+    const PlanPoint corner = outline_of(layout.grid.views[panel], detail.view).min();
+    boxes.emplace_back(corner, corner + PlanPoint(18.0, 18.0));
+  }
+  return boxes;
+}
+
+/// Draws a dashed rectangle in a panel about what a detail shows.
+void outline_detail(cairo_t* cr, const View& panel, const View& detail, const std::string& name) {
+  const PlanPoint low = outline_of(panel, detail).min();
+  const PlanPoint high = outline_of(panel, detail).max();
+  cairo_rectangle(cr, low.x(), low.y(), high.x() - low.x(), high.y() - low.y());
+  stroke_dashed(cr, palette::kInk, 1.1, 4.0);
+  draw_text(cr, {low.x() + 4, low.y() + 15}, name, kLetters_px + 1, palette::kInk, 0.0, true);
+}
+
+void draw_panels(cairo_t* cr, const FloorPlan& plan, const Layout& layout) {
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    const View& view = layout.grid.views[i];
+    draw_view(cr, view, plan, layout.panels[i], name_boxes(layout, i));
+    draw_plan_axes(cr, view, plan.up, false);
+    draw_text(cr, {view.frame.x, view.frame.y - 7.0},
+              section_name(layout.panels[i].section, plan.up, layout.panels.size() == 1),
+              kLetters_px, palette::kInk, 0.0, true);
+  }
+  const Frame& first = layout.grid.views.front().frame;
+  draw_scale_bar(cr, {first.x + first.width, first.y - 8.0}, layout.grid.views.front().px_per_m);
+}
+
+void draw_details(cairo_t* cr, const FloorPlan& plan, const Layout& layout) {
   for (std::size_t i = 0; i < layout.details.size(); ++i) {
-    const View& detail = layout.details[i];
-    draw_view(cr, detail, plan, section);
-    char zoom[40];
-    std::snprintf(zoom, sizeof zoom, "  (%.1f times larger)",
-                  detail.px_per_m / layout.main.px_per_m);
-    draw_text(cr, {detail.frame.x + 12, detail.frame.y + 26}, detail_name(i) + zoom, 17,
-              palette::kInk, 0.0, true);
-    const PlanPoint half =
-        PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
-    // A narrow column would show more height than the plan has.
-    const Frame& plan_frame = layout.main.frame;
-    const PlanPoint begin(plan_frame.x, plan_frame.y);
-    const PlanPoint end = begin + PlanPoint(plan_frame.width, plan_frame.height);
-    const PlanPoint low = layout.main.to_px(detail.center - half).cwiseMax(begin);
-    const PlanPoint high = layout.main.to_px(detail.center + half).cwiseMin(end);
-    constexpr std::array kDashes{6.0, 4.0};
-    cairo_set_dash(cr, kDashes.data(), static_cast<int>(kDashes.size()), 0.0);
-    cairo_rectangle(cr, low.x(), low.y(), high.x() - low.x(), high.y() - low.y());
-    set_color(cr, palette::kInk);
-    cairo_set_line_width(cr, 1.3);
-    cairo_stroke(cr);
-    cairo_set_dash(cr, nullptr, 0, 0.0);
-    draw_text(cr, {high.x() + 6, low.y() + 14}, detail_name(i), 17, palette::kInk, 0.0, true);
+    const Detail& detail = layout.details[i];
+    const View& panel = layout.grid.views[detail.panel];
+    draw_view(cr, detail.view, plan, layout.panels[detail.panel]);
+    draw_text(cr, {detail.view.frame.x, detail.view.frame.y - 7.0},
+              fmt::format("{}, {:.1f} times larger", detail_name(i),
+                          detail.view.px_per_m / panel.px_per_m),
+              kLetters_px, palette::kInk, 0.0, true);
+    outline_detail(cr, panel, detail.view, detail_name(i));
   }
 }
 
-void draw_line_sample(cairo_t* cr, const PlanPoint& at, const Color& color, double width_px) {
-  cairo_move_to(cr, at.x() - 24, at.y());
-  cairo_line_to(cr, at.x() + 24, at.y());
-  set_color(cr, color);
-  cairo_set_line_width(cr, width_px);
-  cairo_stroke(cr);
-}
-
-void draw_quad_sample(cairo_t* cr, const PlanPoint& at, const Color& color) {
-  cairo_rectangle(cr, at.x() - 18, at.y() - 4, 36, 8);
-  set_color(cr, color);
-  cairo_set_line_width(cr, 2.0);
-  cairo_stroke(cr);
-}
-
-void draw_area_sample(cairo_t* cr, const PlanPoint& at, const Color& fill, const Color& rim) {
-  cairo_rectangle(cr, at.x() - 22, at.y() - 7, 44, 14);
-  set_color(cr, fill);
-  cairo_fill_preserve(cr);
-  set_color(cr, rim);
-  cairo_set_line_width(cr, 1.3);
-  cairo_stroke(cr);
-}
-
-/// Draws the legend: four columns of three samples with their meaning.
-void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section) {
-  constexpr std::array kColumns{0.0, 390.0, 720.0, 1040.0};
-  const double top = layout.height_px - kLegend_px + 40;
-  const auto place = [&](std::size_t column, int row) {
-    return PlanPoint(kMargin_px + 28 + kColumns[column], top + 34 * row);
-  };
-  const auto label = [&](std::size_t column, int row, const std::string& text) {
-    draw_text(cr, place(column, row) + PlanPoint(34, 6), text, 16, palette::kInk);
-  };
-  draw_keyframe_mark(cr, place(0, 0) - PlanPoint(10, 0), 0.0, false);
-  label(0, 0, "keyframe as given, looking to the right");
-  draw_keyframe_mark(cr, place(0, 1) - PlanPoint(10, 0), 0.0, true);
-  label(0, 1, "keyframe inserted by the correction");
-  draw_quad_sample(cr, place(0, 2), palette::kInk);
-  label(0, 2, "its near quadrilateral, from above");
-  draw_line_sample(cr, place(1, 0), palette::kBefore, 2.0);
-  label(1, 0, "path before, where it differs");
-  draw_line_sample(cr, place(1, 1), palette::kAfter, 2.8);
-  label(1, 1, "path after correction");
-  draw_line_sample(cr, place(1, 2), {0.35, 0.53, 0.57, 0.7}, 1.0);
-  label(1, 2, "curves of its four corners");
-  draw_line_sample(cr, place(2, 0), palette::kCollision, 6.0);
-  draw_collision_mark(cr, place(2, 0), false);
-  label(2, 0, "collided before");
-  draw_line_sample(cr, place(2, 1), palette::kCollision, 6.0);
-  draw_collision_mark(cr, place(2, 1), true);
-  label(2, 1, "still collides");
-  draw_quad_sample(cr, place(2, 2), palette::kCollision);
-  label(2, 2, "where it begins, ends");
-  draw_area_sample(cr, place(3, 0), palette::kWallFill, palette::kWall);
-  char text[80];
-  std::snprintf(text, sizeof text, "cut at %.2f m", section.height_m);
-  label(3, 0, text);
-  draw_area_sample(cr, place(3, 1), palette::kTop, palette::kOutline);
-  label(3, 1, "lower, above the floor");
-}
-
-/// Draws a scale bar and the two axes of the paper.
-void draw_scale(cairo_t* cr, const Layout& layout, SceneUp up) {
-  const double y = layout.height_px - kLegend_px + 46;
-  const double right = layout.width_px - kMargin_px;
-  draw_scale_bar(cr, {right, y}, layout.main.px_per_m, 17);
-  draw_text(cr, {right, y + 40},
-            up == SceneUp::kY ? "x to the right, z down" : "x to the right, y up", 15,
-            palette::kMuted, 1.0);
-}
-
-void draw_all(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
-              const FloorSection& section) {
-  draw_text(cr, {kMargin_px, 44}, plan.title, 28, palette::kInk, 0.0, true);
-  draw_text(cr, {kMargin_px, 74}, plan.subtitle, 18, palette::kMuted);
-  draw_view(cr, layout.main, plan, section);
-  draw_details(cr, layout, plan, section);
-  draw_legend(cr, layout, section);
-  draw_scale(cr, layout, plan.up);
+void draw_all(cairo_t* cr, const FloorPlan& plan, const Layout& layout) {
+  draw_head(cr, plan.title, layout.subtitle);
+  draw_panels(cr, plan, layout);
+  draw_details(cr, plan, layout);
+  if (layout.strip.width > 0.0) {
+    draw_text(cr, {layout.strip.x, layout.strip.y - 7.0}, "height over time", kLetters_px,
+              palette::kInk, 0.0, true);
+    std::vector<double> floors_m;
+    for (const Panel& panel : layout.panels) floors_m.push_back(panel.section.floor_m);
+    draw_height_strip(cr, layout.strip, plan, floors_m);
+  }
+  draw_legend(cr, {kRim_px, layout.legend_y_px}, kPictureWidth_px - 2 * kRim_px, layout.legend);
 }
 
 }  // namespace
@@ -242,28 +222,14 @@ double cut_height_m(const scene::Mesh& mesh, SceneUp up,
   return best;
 }
 
-namespace {
-
-/// Returns the storey that the plan shows.
-FloorSection section_of(const FloorPlan& plan) {
-  return cut_floor(plan.mesh, plan.up,
-                   plan.cut_height_m.value_or(cut_height_m(plan.mesh, plan.up, plan.keyframes)));
-}
-
-}  // namespace
-
 std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files) {
-  const FloorSection section = section_of(plan);
   const Layout layout = lay_out(plan);
-  return write_pictures(files, {layout.width_px, layout.height_px},
-                        [&](cairo_t* cr) { draw_all(cr, layout, plan, section); });
+  return write_pictures(files, layout.size, [&](cairo_t* cr) { draw_all(cr, plan, layout); });
 }
 
 std::string floor_plan_svg(const FloorPlan& plan) {
-  const FloorSection section = section_of(plan);
   const Layout layout = lay_out(plan);
-  return svg_picture({layout.width_px, layout.height_px},
-                     [&](cairo_t* cr) { draw_all(cr, layout, plan, section); });
+  return svg_picture(layout.size, [&](cairo_t* cr) { draw_all(cr, plan, layout); });
 }
 
 }  // namespace camway::draw

@@ -23,6 +23,12 @@ using SampledPath = std::vector<PathSample>;
 /// Returns `count` samples, evenly spaced in time, both ends included. Requires count >= 2.
 SampledPath sample(const motion::Path& path, std::size_t count);
 
+/// A time range of a path.
+struct TimeRange {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
 /// The content of a picture: the keyframes, the path with its collisions, and the corrected path.
 struct FloorPlan {
   std::string title;
@@ -35,8 +41,8 @@ struct FloorPlan {
   SampledPath after;                                     ///< corrected path; may be empty
   std::vector<collision::CollisionInterval> collisions;  ///< collisions of `before`
   std::vector<collision::CollisionInterval> remaining_collisions;  ///< collisions of `after`
-  std::optional<double> cut_height_m;  ///< height of the section; default: function `cut_height_m`
-  double width_px = 1600.0;            ///< the legend needs 1500 [Limit: value >= 1500]
+  std::vector<TimeRange> corrected = {};  ///< stretches of `after` that a correction changed
+  std::optional<double> cut_height_m;     ///< height of the section; default: each storey's own
 };
 
 /// Returns the height for the section: the median height of the keyframes, or that of another
@@ -50,11 +56,12 @@ struct PictureFiles {
   std::filesystem::path png;
 };
 
-/// Draws the plan from above, like Figure 7 of Ptacek & Johnstone (2006): the section of the
-/// storey, keyframes with their near quadrilaterals, path and corner curves before and after the
-/// correction, collision intervals with the quadrilaterals at their ends, and an enlarged detail
-/// of each place of collision, three at most. The colours are those of Okabe & Ito (2008), which
-/// colour-blind people can distinguish. Returns an error that names the file; empty on success.
+/// Draws the plan from above, like Figure 7 of Ptacek & Johnstone (2006): for each storey that the
+/// path visits, its section, keyframes with their near quadrilaterals, path and corner curves
+/// before and after the correction, and collision intervals with the quadrilaterals at their ends;
+/// an enlarged detail of each place of collision, three at most; and the heights along the path.
+/// Keyframes have the numbers that messages give them: the given ones, from 0. Returns an error
+/// that names the file; empty on success.
 std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files);
 
 /// Returns the same picture as the text of an SVG file; empty if it cannot be drawn.

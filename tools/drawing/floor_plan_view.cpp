@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
+
+#include "tools/drawing/labels.h"
 
 namespace camway::draw {
 namespace {
 
-constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kShortestEdge_px = 1.0;
 constexpr std::size_t kFewPoints = 64;  // a line of so few is drawn with all of them
 
@@ -42,15 +41,133 @@ void trace(cairo_t* cr, const View& view, const std::vector<PlanPoint>& points) 
   }
 }
 
-void stroke(cairo_t* cr, const Color& color, double width_px) {
-  set_color(cr, color);
-  cairo_set_line_width(cr, width_px);
-  cairo_stroke(cr);
-}
-
 double cross(const PlanPoint& a, const PlanPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-void draw_scene(cairo_t* cr, const View& view, const FloorSection& section) {
+std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& pose) {
+  std::vector<PlanPoint> points;
+  for (const geometry::Vec3& corner : motion::corners_W(plan.corners_C, pose)) {
+    points.push_back(to_plan(corner, plan.up));
+  }
+  points.push_back(points.front());
+  return points;
+}
+
+std::vector<PlanPoint> line_of(const SampledPath& path, SceneUp up) {
+  std::vector<PlanPoint> line;
+  for (const PathSample& s : path) line.push_back(to_plan(s.pose.position, up));
+  return line;
+}
+
+/// Traces the curves of the four corners.
+void trace_corners(cairo_t* cr, const View& view, const FloorPlan& plan,
+                   const std::vector<SampledPath>& pieces) {
+  for (const SampledPath& piece : pieces) {
+    for (const geometry::Vec3& corner_C : plan.corners_C) {
+      std::vector<PlanPoint> curve;
+      for (const PathSample& s : piece) {
+        curve.push_back(to_plan(s.pose.position + s.pose.orientation * corner_C, plan.up));
+      }
+      trace(cr, view, curve);
+    }
+  }
+}
+
+void trace_all(cairo_t* cr, const View& view, SceneUp up, const std::vector<SampledPath>& pieces) {
+  for (const SampledPath& piece : pieces) trace(cr, view, line_of(piece, up));
+}
+
+void draw_paths(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel) {
+  constexpr double kCornerAlpha = 0.5;
+  const bool has_after = !plan.after.empty();
+  trace_all(cr, view, plan.up, has_after ? panel.after.elsewhere : panel.before.elsewhere);
+  stroke_elsewhere(cr);
+  trace_all(cr, view, plan.up, panel.corrected);
+  stroke_corrected(cr);
+  trace_corners(cr, view, plan, panel.before.here);
+  stroke(cr, faded(palette::kBefore, kCornerAlpha), 0.9);
+  trace_all(cr, view, plan.up, panel.before.here);
+  stroke_before(cr);
+  trace_corners(cr, view, plan, panel.after.here);
+  stroke(cr, faded(palette::kAfter, kCornerAlpha), 0.9);
+  trace_all(cr, view, plan.up, panel.after.here);
+  stroke_after(cr);
+}
+
+PlanPoint middle_of(const PanelCollision& collision, SceneUp up) {
+  return to_plan(sample_at(collision.path, collision.middle_s).pose.position, up);
+}
+
+void draw_collisions(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel) {
+  for (const PanelCollision& collision : panel.collisions) {
+    if (collision.path.empty()) continue;
+    trace(cr, view, line_of(collision.path, plan.up));
+    stroke_collision(cr);
+    for (const PathSample* end : {&collision.path.front(), &collision.path.back()}) {
+      trace(cr, view, quad_on_paper(plan, end->pose));
+      stroke(cr, palette::kCollision, 1.5);
+    }
+    draw_collision_mark(cr, view.to_px(middle_of(collision, plan.up)), collision.remains);
+  }
+}
+
+/// Returns the viewing direction on paper, of unit length unless the camera looks straight up or
+/// down.
+PlanPoint direction_on_paper(const motion::Pose& pose, SceneUp up) {
+  return to_plan(pose.orientation * geometry::Vec3(0.0, 0.0, -1.0), up).normalized();
+}
+
+void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel) {
+  for (const PanelKeyframe& keyframe : panel.keyframes) {
+    trace(cr, view, quad_on_paper(plan, keyframe.pose));
+    stroke(cr, keyframe.is_inserted ? palette::kInserted : palette::kGiven, 1.6);
+    const PlanPoint forward = direction_on_paper(keyframe.pose, plan.up);
+    draw_view_wedge(cr, view.to_px(to_plan(keyframe.pose.position, plan.up)),
+                    std::atan2(forward.y(), forward.x()), keyframe.is_inserted);
+  }
+  for (const PanelKeyframe& keyframe : panel.keyframes) {
+    draw_keyframe_mark(cr, view.to_px(to_plan(keyframe.pose.position, plan.up)),
+                       keyframe.is_inserted);
+  }
+}
+
+/// Draws numbers and heights beside keyframes where there is room, else the numbers alone.
+void draw_keyframe_labels(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel,
+                          const std::vector<PlanBox>& kept_clear) {
+  constexpr double kWedgeMiddle_px = 12.0;
+  LabelPlacer places(view.frame);
+  for (const PlanBox& box : kept_clear) places.block(box);
+  for (const PanelCollision& collision : panel.collisions) {
+    if (!collision.path.empty()) places.block(view.to_px(middle_of(collision, plan.up)), 9.0);
+  }
+  for (const PanelKeyframe& keyframe : panel.keyframes) {
+    const PlanPoint at = view.to_px(to_plan(keyframe.pose.position, plan.up));
+    places.block(at, 5.0);
+    places.block(at + kWedgeMiddle_px * direction_on_paper(keyframe.pose, plan.up), 6.0);
+  }
+  for (const PanelKeyframe& keyframe : panel.keyframes) {
+    if (keyframe.number.empty()) continue;
+    const PlanPoint at = view.to_px(to_plan(keyframe.pose.position, plan.up));
+    const double number_px = text_width_px(cr, keyframe.number, kLetters_px, true);
+    const std::string height = keyframe.height.empty() ? "" : " (" + keyframe.height + ")";
+    const double height_px = text_width_px(cr, height, kLetters_px - 2);
+    std::optional<PlanBox> box = places.place(at, {number_px + height_px, kLetters_px});
+    const bool is_whole = box.has_value();
+    if (!box) box = places.place(at, {number_px, kLetters_px});
+    if (!box) continue;
+    const PlanPoint foot(box->min().x(), box->max().y() - 1.5);
+    draw_text(cr, foot, keyframe.number, kLetters_px, palette::kInk, 0.0, true);
+    if (!is_whole) continue;
+    draw_text(cr, {foot.x() + number_px, foot.y()}, height, kLetters_px - 2, palette::kInk);
+  }
+}
+
+}  // namespace
+
+void draw_section(cairo_t* cr, const View& view, const FloorSection& section) {
+  cairo_save(cr);
+  cairo_rectangle(cr, view.frame.x, view.frame.y, view.frame.width, view.frame.height);
+  cairo_clip(cr);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   // All triangles get the same orientation. In one path, opposite orientations would cancel.
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
   for (const std::array<PlanPoint, 3>& top : section.tops) {
@@ -76,78 +193,14 @@ void draw_scene(cairo_t* cr, const View& view, const FloorSection& section) {
     for (const SectionLine& line : object) trace(cr, view, line.points);
     stroke(cr, palette::kWall, 1.3);
   }
+  cairo_restore(cr);
 }
 
-std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& pose) {
-  std::vector<PlanPoint> points;
-  for (const geometry::Vec3& corner : motion::corners_W(plan.corners_C, pose)) {
-    points.push_back(to_plan(corner, plan.up));
-  }
-  points.push_back(points.front());
-  return points;
+PlanBox bounds_on_paper(const scene::Mesh& mesh, SceneUp up) {
+  PlanBox box;
+  for (const geometry::Vec3& vertex : mesh.vertices) box.extend(to_plan(vertex, up));
+  return box;
 }
-
-/// Draws the curve of the near quadrilateral's centre, and the corner curves.
-void draw_path(cairo_t* cr, const View& view, const FloorPlan& plan, const SampledPath& path,
-               const Color& color, double width_px) {
-  Color light = color;
-  light.alpha = 0.55;
-  for (const geometry::Vec3& corner_C : plan.corners_C) {
-    std::vector<PlanPoint> curve;
-    for (const PathSample& s : path) {
-      curve.push_back(to_plan(s.pose.position + s.pose.orientation * corner_C, plan.up));
-    }
-    trace(cr, view, curve);
-  }
-  stroke(cr, light, 0.5 * width_px);
-  std::vector<PlanPoint> middle;
-  for (const PathSample& s : path) middle.push_back(to_plan(s.pose.position, plan.up));
-  trace(cr, view, middle);
-  stroke(cr, color, width_px);
-}
-
-void draw_collisions(cairo_t* cr, const View& view, const FloorPlan& plan, const SampledPath& path,
-                     const std::vector<collision::CollisionInterval>& intervals, bool remain) {
-  if (path.empty()) return;
-  for (const collision::CollisionInterval& interval : intervals) {
-    std::vector<PlanPoint> line{
-        to_plan(sample_at(path, interval.t_begin_s).pose.position, plan.up)};
-    for (const PathSample& s : path) {
-      if (s.time_s > interval.t_begin_s && s.time_s < interval.t_end_s) {
-        line.push_back(to_plan(s.pose.position, plan.up));
-      }
-    }
-    line.push_back(to_plan(sample_at(path, interval.t_end_s).pose.position, plan.up));
-    trace(cr, view, line);
-    stroke(cr, palette::kCollision, 6.0);
-    for (const double end_s : {interval.t_begin_s, interval.t_end_s}) {
-      trace(cr, view, quad_on_paper(plan, sample_at(path, end_s).pose));
-      stroke(cr, palette::kCollision, 1.8);
-    }
-    const double middle_s = (interval.t_begin_s + interval.t_end_s) / 2;
-    draw_collision_mark(cr, view.to_px(to_plan(sample_at(path, middle_s).pose.position, plan.up)),
-                        remain);
-  }
-}
-
-void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan) {
-  int given = 0;
-  for (const motion::Keyframe& keyframe : plan.keyframes) {
-    const bool inserted = keyframe.origin == motion::KeyframeOrigin::kInserted;
-    trace(cr, view, quad_on_paper(plan, keyframe.pose));
-    stroke(cr, inserted ? palette::kInserted : palette::kInk, 2.0);
-    const PlanPoint eye = view.to_px(to_plan(keyframe.pose.position, plan.up));
-    const geometry::Vec3 forward_W = keyframe.pose.orientation * geometry::Vec3(0.0, 0.0, -1.0);
-    const PlanPoint forward = to_plan(forward_W, plan.up);
-    draw_keyframe_mark(cr, eye, std::atan2(forward.y(), forward.x()), inserted);
-    if (!inserted) {
-      draw_text(cr, eye + PlanPoint(0.0, -13.0), std::to_string(++given), 17.0, palette::kInk, 0.5,
-                true);
-    }
-  }
-}
-
-}  // namespace
 
 PlanBox world_shown(const FloorPlan& plan) {
   PlanBox box;
@@ -155,9 +208,7 @@ PlanBox world_shown(const FloorPlan& plan) {
   for (const SampledPath* path : {&plan.before, &plan.after}) {
     for (const PathSample& s : *path) box.extend(to_plan(s.pose.position, plan.up));
   }
-  if (box.isEmpty()) {
-    for (const geometry::Vec3& vertex : plan.mesh.vertices) box.extend(to_plan(vertex, plan.up));
-  }
+  if (box.isEmpty()) box = bounds_on_paper(plan.mesh, plan.up);
   if (box.isEmpty()) box.extend(PlanPoint(0.0, 0.0));
   const double margin_m = std::max(1.6, 0.1 * box.sizes().maxCoeff());
   return {PlanPoint(box.min().array() - margin_m), PlanPoint(box.max().array() + margin_m)};
@@ -168,106 +219,33 @@ View fitted(const Frame& frame, const PlanBox& box) {
   return {frame, box.center(), std::min(frame.width / size.x(), frame.height / size.y())};
 }
 
-void set_color(cairo_t* cr, const Color& c) {
-  cairo_set_source_rgba(cr, c.red, c.green, c.blue, c.alpha);
-}
-
-void draw_text(cairo_t* cr, const PlanPoint& at, const std::string& text, double size_px,
-               const Color& color, double anchor, bool bold) {
-  cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cr, size_px);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cr, text.c_str(), &extents);
-  cairo_move_to(cr, at.x() - anchor * extents.x_advance, at.y());
-  cairo_text_path(cr, text.c_str());
-  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(cr, 3.5);
-  set_color(cr, {1.0, 1.0, 1.0, 0.9});
-  cairo_stroke_preserve(cr);
-  set_color(cr, color);
-  cairo_fill(cr);
-}
-
-void draw_keyframe_mark(cairo_t* cr, const PlanPoint& at, double direction_rad, bool inserted) {
-  const double wedge_px = inserted ? 18.0 : 26.0;
-  constexpr double kHalfAngle = 0.4;
-  const Color color = inserted ? palette::kInserted : palette::kInk;
-  cairo_new_path(cr);
-  cairo_move_to(cr, at.x(), at.y());
-  cairo_arc(cr, at.x(), at.y(), wedge_px, direction_rad - kHalfAngle, direction_rad + kHalfAngle);
-  cairo_close_path(cr);
-  set_color(cr, {color.red, color.green, color.blue, 0.28});
-  cairo_fill(cr);
-  if (inserted) {  // a lozenge, not only another colour
-    cairo_move_to(cr, at.x(), at.y() - 7.5);
-    cairo_line_to(cr, at.x() + 7.5, at.y());
-    cairo_line_to(cr, at.x(), at.y() + 7.5);
-    cairo_line_to(cr, at.x() - 7.5, at.y());
-    cairo_close_path(cr);
-  } else {
-    cairo_arc(cr, at.x(), at.y(), 5.5, 0.0, kFullTurn);
-  }
-  set_color(cr, color);
-  cairo_fill_preserve(cr);
-  stroke(cr, {1.0, 1.0, 1.0}, 1.2);
-}
-
-void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains) {
-  constexpr double kRadiusPx = 12.0;
-  cairo_new_path(cr);
-  cairo_arc(cr, at.x(), at.y(), kRadiusPx, 0.0, kFullTurn);
-  if (remains) {
-    const double arm = kRadiusPx * std::numbers::sqrt2 / 2.0;
-    for (const double side : {-1.0, 1.0}) {
-      cairo_move_to(cr, at.x() - arm, at.y() - side * arm);
-      cairo_line_to(cr, at.x() + arm, at.y() + side * arm);
-    }
-  }
-  stroke(cr, palette::kCollision, 2.6);
-}
-
-void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m, double letters_px) {
-  constexpr double kLongest_px = 190.0;
-  const double most_m = kLongest_px / px_per_m;
-  const double decade_m = std::pow(10.0, std::floor(std::log10(most_m)));
-  const double length_m = decade_m * (most_m >= 5 * decade_m ? 5 : most_m >= 2 * decade_m ? 2 : 1);
-  const double left = right.x() - length_m * px_per_m;
-  set_color(cr, palette::kInk);
-  cairo_set_line_width(cr, 2.5);
-  for (const double x : {left, right.x()}) {
-    cairo_move_to(cr, x, right.y() - 7);
-    cairo_line_to(cr, x, right.y() + 7);
-  }
-  cairo_move_to(cr, left, right.y());
-  cairo_line_to(cr, right.x(), right.y());
-  cairo_stroke(cr);
-  char text[40];
-  std::snprintf(text, sizeof text, "%g m", length_m);
-  draw_text(cr, {(left + right.x()) / 2, right.y() - 12}, text, letters_px, palette::kInk, 0.5);
-}
-
-const PathSample& sample_at(const SampledPath& path, double time_s) {
-  return *std::min_element(path.begin(), path.end(), [&](const PathSample& a, const PathSample& b) {
-    return std::abs(a.time_s - time_s) < std::abs(b.time_s - time_s);
-  });
-}
-
-void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const FloorSection& section) {
+void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel,
+               const std::vector<PlanBox>& kept_clear) {
+  draw_section(cr, view, panel.section);
   cairo_save(cr);
   cairo_rectangle(cr, view.frame.x, view.frame.y, view.frame.width, view.frame.height);
   cairo_clip(cr);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-  draw_scene(cr, view, section);
-  draw_path(cr, view, plan, plan.before, palette::kBefore, 2.0);
-  draw_path(cr, view, plan, plan.after, palette::kAfter, 2.8);
-  draw_collisions(cr, view, plan, plan.before, plan.collisions, false);
-  draw_collisions(cr, view, plan, plan.after, plan.remaining_collisions, true);
-  draw_keyframes(cr, view, plan);
+  draw_paths(cr, view, plan, panel);
+  draw_collisions(cr, view, plan, panel);
+  draw_keyframes(cr, view, plan, panel);
+  draw_keyframe_labels(cr, view, plan, panel, kept_clear);
   cairo_restore(cr);
   cairo_rectangle(cr, view.frame.x, view.frame.y, view.frame.width, view.frame.height);
   stroke(cr, palette::kMuted, 1.0);
 }
+
+void draw_plan_axes(cairo_t* cr, const View& view, SceneUp up, bool has_grid) {
+  const PlanPoint half = PlanPoint(view.frame.width, view.frame.height) / (2 * view.px_per_m);
+  const PlanPoint low = view.center - half;
+  const PlanPoint high = view.center + half;
+  // Paper runs down: as z does where y points up, and against y where z does.
+  const Axis upward =
+      up == SceneUp::kY ? Axis{high.y(), low.y(), "z, m"} : Axis{-high.y(), -low.y(), "y, m"};
+  draw_axes(cr, view.frame, {low.x(), high.x(), "x, m"}, upward, has_grid);
+}
+
+std::string height_name(SceneUp up) { return up == SceneUp::kY ? "y" : "z"; }
 
 }  // namespace camway::draw

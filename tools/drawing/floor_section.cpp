@@ -172,10 +172,11 @@ double find_floor_m(const scene::Mesh& mesh, SceneUp up, double height_m) {
   return height_m - 2.0;
 }
 
-FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m) {
+FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m,
+                       std::optional<double> floor_m) {
   FloorSection section;
   section.height_m = height_m;
-  section.floor_m = find_floor_m(mesh, up, height_m);
+  section.floor_m = floor_m ? *floor_m : find_floor_m(mesh, up, height_m);
   std::vector<scene::MeshObject> objects = mesh.objects;
   if (objects.empty())
     objects.push_back({"", 0, static_cast<std::uint32_t>(mesh.triangles.size())});

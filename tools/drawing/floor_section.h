@@ -2,16 +2,18 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "daemon/geometry/types.h"
+#include "daemon/scene/import/record/vertical_axis.h"
 #include "daemon/scene/mesh/mesh.h"
 
 /// Floor plans of scenes and paths.
 namespace camway::draw {
 
 /// The axis of a scene that points up.
-enum class SceneUp { kY, kZ };
+using SceneUp = scene::VerticalAxis;
 
 /// A point on paper, with the scene seen from above: x to the right, y down. [Units: metres]
 using PlanPoint = Eigen::Vector2d;
@@ -41,7 +43,9 @@ struct FloorSection {
 /// whose horizontal area is nearly the largest. Returns `height_m` - 2 m if there is no level.
 double find_floor_m(const scene::Mesh& mesh, SceneUp up, double height_m);
 
-/// Cuts `mesh` at `height_m` and collects the faces between the cut and the floor below it.
-FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m);
+/// Cuts `mesh` at `height_m` and collects the faces between the cut and the floor below it, which
+/// is at `floor_m`; by default, it is searched.
+FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m,
+                       std::optional<double> floor_m = std::nullopt);
 
 }  // namespace camway::draw

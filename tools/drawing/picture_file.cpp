@@ -13,6 +13,9 @@ namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+/// Pixels of a PNG file for one of the picture, so that letters stay sharp when it is enlarged.
+constexpr double kPngScale = 2.0;
+
 using Drawing = std::function<void(cairo_t*)>;
 
 /// Draws on `surface`. Returns cairo's error text, empty on success.
@@ -60,9 +63,11 @@ std::string write_svg(const std::filesystem::path& file, const PictureSize& size
 std::string draw_png(const std::filesystem::path& file, const PictureSize& size,
                      const Drawing& draw) {
   const Surface surface(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(size.width_px)),
-                                 static_cast<int>(std::ceil(size.height_px))),
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                 static_cast<int>(std::ceil(kPngScale * size.width_px)),
+                                 static_cast<int>(std::ceil(kPngScale * size.height_px))),
       &cairo_surface_destroy);
+  cairo_surface_set_device_scale(surface.get(), kPngScale, kPngScale);
   std::string picture;
   std::string reason = draw_on(surface.get(), draw);
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), &append, &picture);

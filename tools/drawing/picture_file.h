@@ -17,7 +17,8 @@ struct PictureSize {
 };
 
 /// Writes the same drawing to each of `files` that has a name. `draw` is called once for each file,
-/// with a white ground. Returns an error text that names the file, empty on success.
+/// with a white ground. A PNG file has two pixels for each of `size` in either direction. Returns
+/// an error text that names the file, empty on success.
 std::string write_pictures(const PictureFiles& files, const PictureSize& size,
                            const std::function<void(cairo_t*)>& draw);
 

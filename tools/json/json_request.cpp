@@ -135,23 +135,21 @@ motion::PathFrame read_frame(const Field& field) {
   return frame;
 }
 
-SceneReading read_reading(const Field& root) {
-  SceneReading reading;
-  const JsonReader io(root);
+}  // namespace
+
+void read_value(const Field& field, SceneReading& reading) {
+  const JsonReader io(field);
   io(may_lack("scale"), reading.scale);
-  if (reading.scale && !(*reading.scale > 0.0)) root.member("scale").fail_number("be above 0");
+  if (reading.scale && !(*reading.scale > 0.0)) field.member("scale").fail_number("be above 0");
   io(may_lack("up"), reading.up);
   io(may_lack("unknown"), reading.unknown);
   io(may_lack("voxel_m"), reading.voxel_m);
   if (reading.voxel_m && !scene::VoxelGrid::valid_resolution(*reading.voxel_m)) {
-    root.member("voxel_m").fail_number(fmt::format("be from {:g} to {:g}",
-                                                   scene::VoxelGrid::kMinResolutionM,
-                                                   scene::VoxelGrid::kMaxResolutionM));
+    field.member("voxel_m").fail_number(fmt::format("be from {:g} to {:g}",
+                                                    scene::VoxelGrid::kMinResolutionM,
+                                                    scene::VoxelGrid::kMaxResolutionM));
   }
-  return reading;
 }
-
-}  // namespace
 
 void read_value(const Field& field, OrientationPolicy& policy) {
   read_table(field, policy);
@@ -181,7 +179,7 @@ void read_value(const Field& root, RequestFile& request) {
                    "frame", "options"});
   const JsonReader io(root);
   io(may_lack("scene"), request.scene);
-  request.reading = read_reading(root);
+  read_value(root, request.reading);
   if (const auto body = root.optional_member("body")) {
     if (body->optional_member("file")) {
       request.body_file = read_body_file(*body);

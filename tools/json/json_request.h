@@ -44,6 +44,10 @@ struct RequestFile : planning::PlanRequest {
 /// times. Keyframes count from 0 in errors.
 void read_value(const Field& root, RequestFile& request);
 
+/// Reads the members `scale`, `up`, `unknown` and `voxel_m` of an object, each of which it may
+/// lack. Ignores others.
+void read_value(const Field& field, SceneReading& reading);
+
 /// Reads the `options` of a request. A missing option has its default. `planning::visit_table`
 /// has the names of the options, and their old names, which are read as well. An example is
 ///

@@ -51,6 +51,14 @@ void read_value(const Field& root, PlanResult& result) {
   io(may_lack("timing_ms"), result.timing);
 }
 
+void read_value(const Field& root, ResponseFile& file) {
+  read_value(root, static_cast<PlanResult&>(file));
+  const JsonReader io(root);
+  io(may_lack("scene_digest"), file.scene_digest);
+  io(may_lack("scene_reading"), file.scene_reading);
+  io(may_lack("vertical_axis"), file.vertical_axis);
+}
+
 void read_value(const Field& root, PathFile& file) {
   read_path(root.member("segments"), true, file.path);
   const auto keyframes = root.optional_member("keyframes");

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/base/result.h"
 #include "daemon/planning/result/result.h"
+#include "daemon/scene/import/record/import_options.h"
+#include "daemon/scene/import/record/vertical_axis.h"
 #include "tools/json/json_document.h"
+#include "tools/json/json_request.h"
 
 /// Responses and paths as JSON files. Paths may be from other programs. Angles are degrees in files
 /// and radians in memory; all other units are the same.
@@ -14,9 +18,12 @@ namespace camway::tools {
 
 /// Content of a response file beside the result.
 struct ResponseFormat {
-  bool has_timing = true;             ///< false: responses of two runs compare byte by byte
-  std::string scene;                  ///< name or file; omitted when empty
-  std::string scene_digest;           ///< digest of the scene of the answer; omitted when empty
+  bool has_timing = true;    ///< false: responses of two runs compare byte by byte
+  std::string scene;         ///< name or file; omitted when empty
+  std::string scene_digest;  ///< digest of the scene of the answer; omitted when empty
+  /// How the scene's file was read; omitted when unknown.
+  std::optional<scene::ImportOptions> scene_reading = {};
+  std::optional<scene::VerticalAxis> vertical_axis = {};  ///< omitted when unknown
   std::vector<std::string> warnings;  ///< sentences about the scene's import; omitted when empty
 };
 
@@ -36,6 +43,17 @@ base::Result<std::string> write_path(const motion::Path& path);
 /// Checks that the segments are a path: each ends after it begins, and begins where the one before
 /// ends. Ignores unknown fields, which later versions may have.
 void read_value(const Field& root, planning::PlanResult& result);
+
+/// A response with what it says about its scene. A response of an earlier release, or of a daemon,
+/// lacks some of it.
+struct ResponseFile : planning::PlanResult {
+  std::string scene_digest;    ///< empty if unknown
+  SceneReading scene_reading;  ///< options that the scene was read with; unset if unknown
+  std::optional<scene::VerticalAxis> vertical_axis;
+};
+
+/// Reads a response like a result, and the members about its scene.
+void read_value(const Field& root, ResponseFile& file);
 
 /// A path file: a response of which little but the path is known. A response of Camway is one;
 /// `{"segments": [...]}` is the smallest one. Read are the path, its bounds and scales, and of each

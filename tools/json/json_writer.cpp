@@ -12,6 +12,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/collision/obstacles.h"
 #include "daemon/planning/result/result_members.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_response.h"
 
@@ -107,6 +108,14 @@ class JsonWriter {
     object(-1, [&] { planning::visit_table(write, limits); });
   }
   void value(const geometry::Quat& orientation) { array(geometry::wxyz(orientation)); }
+  void value(const scene::ImportOptions& reading) {
+    object(-1, [&] {
+      (*this)("scale", reading.scale);
+      (*this)("up", reading.up);
+      (*this)("unknown", reading.unknown);
+      (*this)(may_lack("voxel_m", reading.voxel_m.has_value()), reading.voxel_m);
+    });
+  }
   void value(std::tuple<const double&, const double&> both) {
     array(std::array{std::get<0>(both), std::get<1>(both)});
   }
@@ -166,6 +175,8 @@ base::Result<std::string> write_plan_response(const planning::PlanResult& result
     planning::head_members(io, result);
     io(may_lack("scene", !format.scene.empty()), format.scene);
     io(may_lack("scene_digest", !format.scene_digest.empty()), format.scene_digest);
+    io(may_lack("scene_reading", format.scene_reading.has_value()), format.scene_reading);
+    io(may_lack("vertical_axis", format.vertical_axis.has_value()), format.vertical_axis);
     io(may_lack("warnings", !format.warnings.empty()), format.warnings);
     io("segments", result.path.segments());
     io("keyframes", result.keyframes);

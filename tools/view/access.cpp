@@ -50,15 +50,19 @@ bool has_token(const http::Request& request, const Lock& lock) {
   for (const std::string_view cookies : values_of(request, "cookie")) {
     if (is_same_secret(value_in(cookies, ';', cookie_name(lock)), lock.token)) return true;
   }
-  const std::size_t query = request.target.find('?');
-  return query != std::string::npos && takes_token_in_target(request) &&
-         is_same_secret(value_in(std::string_view(request.target).substr(query + 1), '&', "token"),
-                        lock.token);
+  return takes_token_in_target(request) &&
+         is_same_secret(parameter_of(request.target, "token"), lock.token);
 }
 
 }  // namespace
 
 std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
+
+std::string_view parameter_of(std::string_view target, std::string_view name) {
+  const std::size_t query = target.find('?');
+  if (query == std::string_view::npos) return {};
+  return value_in(target.substr(query + 1), '&', name);
+}
 
 std::string why_refused(const http::Request& request, const Lock& lock) {
   const std::vector<std::string_view> hosts = values_of(request, "host");

@@ -17,6 +17,9 @@ struct Lock {
 /// Returns the path of a target, without its query.
 std::string_view path_of(std::string_view target);
 
+/// Returns a parameter of the query of a target, as it was sent; empty if there is none.
+std::string_view parameter_of(std::string_view target, std::string_view name);
+
 /// Returns why a request is refused, a sentence; empty if it may pass.
 ///
 /// - `Host` must be 127.0.0.1 or localhost with the port, or else the page that asks was reached by

@@ -8,6 +8,7 @@
 #include "daemon/version/build_info.h"
 #include "tools/answers/interpolation.h"
 #include "tools/json/option_fields.h"
+#include "tools/view/export.h"
 
 namespace camway::view {
 
@@ -76,7 +77,11 @@ Answer Desk::last() const {
   return {code::kOk, fmt::format("{{\"request\": {}}}", options_.first_request), {}};
 }
 
-Answer Desk::fields() { return {code::kOk, tools::option_fields_json(), {}}; }
+Answer Desk::fields() {
+  auto json = nlohmann::ordered_json::parse(tools::option_fields_json());
+  json["exports"] = export_formats();
+  return {code::kOk, json.dump(), {}};
+}
 
 Answer Desk::version() {
   constexpr int kDoorVersion = 1;  // the v1 of the paths

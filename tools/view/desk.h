@@ -50,7 +50,7 @@ class Desk {
   void triangles(TrianglesOrder order, Done done);
   /// Returns the last plan: its request and its answer, as far as there are any.
   [[nodiscard]] Answer last() const;
-  /// Returns the table of the options of requests.
+  /// Returns the table of the options of requests, and the formats of exports.
   [[nodiscard]] static Answer fields();
 
   /// Runs work that takes time on a thread of the desk. Drops it once the desk was stopped.

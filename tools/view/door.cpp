@@ -11,10 +11,12 @@
 #include "daemon/http/server.h"
 #include "tools/view/access.h"
 #include "tools/view/desk.h"
+#include "tools/view/export.h"
 #include "tools/view/http_jobs.h"
 #include "tools/view/mesh_desk.h"
-#include "tools/view/page.h"
+#include "tools/view/plan_picture.h"
 #include "tools/view/responses.h"
+#include "tools/view/review.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
 
@@ -23,11 +25,18 @@ namespace {
 
 constexpr char kHtmlType[] = "text/html; charset=utf-8";
 constexpr char kCssType[] = "text/css; charset=utf-8";
+constexpr char kScriptType[] = "text/javascript; charset=utf-8";
+
+/// Returns a function that sends an answer as JSON.
+Done in_json(http::Reply send) {
+  return [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
+}
 
 class DoorServer final : public Door {
  public:
   DoorServer(const DoorOptions& options, Backend& backend)
-      : lock_{options.port, options.token},
+      : page_(options.page),
+        lock_{options.port, options.token},
         desk_(std::make_shared<Desk>(options, backend)),
         meshes_(std::make_shared<MeshDesk>(backend)),
         jobs_(std::make_shared<HttpJobs>(options.limits.requests)) {}
@@ -35,6 +44,7 @@ class DoorServer final : public Door {
     jobs_->close();
     server_.reset();
     desk_->stop();
+    meshes_->stop();
   }
   DoorServer(const DoorServer&) = delete;
   DoorServer& operator=(const DoorServer&) = delete;
@@ -51,7 +61,8 @@ class DoorServer final : public Door {
   [[nodiscard]] std::optional<http::Response> refuse(const http::Request& request) const;
   void answer(const http::Request& request, const http::Reply& reply);
   void draw(const http::Reply& reply);
-  [[nodiscard]] http::Response page(const http::Request& request) const;
+  /// Returns a file of the page.
+  [[nodiscard]] http::Response page(const http::Request& request, Place place) const;
 
   /// Takes a place for a request over HTTP, and returns what answers it and leaves the place. Null
   /// if there is no place, which the reply says.
@@ -59,16 +70,24 @@ class DoorServer final : public Door {
   /// Sends the mesh of an object.
   void send_mesh(const Route& route, const http::Reply& reply);
   void ask(const http::Request& request, const http::Reply& reply, const Route& route);
-  /// Reads the body of a request and has it answered. `named` has the names of the target. Runs on
-  /// a thread of the desk.
+  /// Reads the body of a request and has it answered. `named` has the names of the target, and the
+  /// format of an export as its object. Runs on a thread of the desk.
   void read_body(const std::string& body, Place place, SceneOrder named, HttpJobs::Ticket ticket,
-                 Done done);
+                 const http::Reply& send);
+  /// Has a document answered in JSON.
+  void read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                     HttpJobs::Ticket ticket, Done done);
   void plan(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void check(const nlohmann::json& document, HttpJobs::Ticket ticket, Done done);
   void interpolate(const nlohmann::json& document, Done done);
   void triangles(const nlohmann::json& document, const std::string& scene, Done done);
   void change(base::Result<SceneOrder> order, const SceneOrder& named, Done done);
+  void review(const nlohmann::json& document, const http::Reply& send);
+  /// Sends the path in a format, which a parameter of the target names.
+  void send_export(const nlohmann::json& document, std::string_view format,
+                   const http::Reply& send);
 
+  const PageFiles page_;
   Lock lock_;  ///< read by the server's thread once the port is set
   const std::shared_ptr<Desk> desk_;
   const std::shared_ptr<MeshDesk> meshes_;
@@ -122,9 +141,9 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
   switch (route.place) {
     case Place::kPage:
-      return reply(page(request));
+    case Place::kScript:
     case Place::kStyle:
-      return reply({code::kOk, kCssType, std::string(page_style())});
+      return reply(page(request, route.place));
     case Place::kPicture:
       return draw(reply);
     case Place::kVersion:
@@ -140,12 +159,18 @@ void DoorServer::answer(const http::Request& request, const http::Reply& reply) 
   }
 }
 
-http::Response DoorServer::page(const http::Request& request) const {
-  const std::shared_ptr<const LastPlan> last = desk_->backend().last();
-  http::Response response{
-      code::kOk, kHtmlType, first_page(desk_->backend().scene(), last.get()), {}};
+http::Response DoorServer::page(const http::Request& request, Place place) const {
+  const auto [file, type] = place == Place::kPage     ? std::pair(page_.html, kHtmlType)
+                            : place == Place::kScript ? std::pair(page_.script, kScriptType)
+                                                      : std::pair(page_.style, kCssType);
+  if (file.text.empty()) {
+    return refusal(code::kNotFound, "this program was built without its page");
+  }
+  http::Response response = file_response(file, type, lock_.port, request);
   // A browser that came by the printed address gets a cookie, so that pages need no token.
-  if (request.target.size() > 1) response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  if (place == Place::kPage && request.target.size() > 1) {
+    response.headers.emplace_back("Set-Cookie", cookie_for(lock_));
+  }
   return response;
 }
 
@@ -186,10 +211,11 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   http::Reply send = begin(reply, ticket);
   if (!send) return;
   if (route.place == Place::kMesh) return send_mesh(route, send);
-  Done done = [send = std::move(send)](Answer answer) { send(to_response(std::move(answer))); };
+  Done done = in_json(send);
   SceneOrder order;
   order.scene = route.scene;
-  order.object = route.object;
+  order.object =
+      route.place == Place::kExport ? parameter_of(request.target, "format") : route.object;
   switch (route.place) {
     case Place::kStatus:
       return desk_->status(std::move(done));
@@ -207,28 +233,35 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   }
   // The route refers to the target of the request, which ends with this call.
   desk_->post([this, body = request.body, place = route.place, order = std::move(order), ticket,
-               done = std::move(done)]() mutable {
-    read_body(body, place, std::move(order), ticket, std::move(done));
+               send = std::move(send)]() mutable {
+    read_body(body, place, std::move(order), ticket, send);
   });
 }
 
 void DoorServer::read_body(const std::string& body, Place place, SceneOrder named,
-                           HttpJobs::Ticket ticket, Done done) {
+                           HttpJobs::Ticket ticket, const http::Reply& send) {
   const base::Result<nlohmann::json> document = tools::parse_document(body, "request");
-  if (!document) return done(failure(code::kInvalid, document.error));
+  if (!document) return send(refusal(code::kInvalid, document.error));
+  if (place == Place::kReview) return review(*document, send);
+  if (place == Place::kExport) return send_export(*document, named.object, send);
+  read_document(*document, place, named, ticket, in_json(send));
+}
+
+void DoorServer::read_document(const nlohmann::json& document, Place place, const SceneOrder& named,
+                               HttpJobs::Ticket ticket, Done done) {
   switch (place) {
     case Place::kPlan:
-      return plan(*document, ticket, std::move(done));
+      return plan(document, ticket, std::move(done));
     case Place::kCheck:
-      return check(*document, ticket, std::move(done));
+      return check(document, ticket, std::move(done));
     case Place::kInterpolate:
-      return interpolate(*document, std::move(done));
+      return interpolate(document, std::move(done));
     case Place::kTriangles:
-      return triangles(*document, named.scene, std::move(done));
+      return triangles(document, named.scene, std::move(done));
     case Place::kObjects:
-      return change(read_added(*document), named, std::move(done));
+      return change(read_added(document), named, std::move(done));
     default:
-      return change(read_moved(*document), named, std::move(done));
+      return change(read_moved(document), named, std::move(done));
   }
 }
 
@@ -264,6 +297,31 @@ void DoorServer::change(base::Result<SceneOrder> order, const SceneOrder& named,
   // One that is added has its name in the body.
   if (!named.object.empty()) order->object = named.object;
   desk_->ask_scene(*std::move(order), std::move(done));
+}
+
+void DoorServer::review(const nlohmann::json& document, const http::Reply& send) {
+  base::Result<ReviewOrder> order = read_review(document);
+  if (!order) return send(refusal(code::kInvalid, order.error));
+  order->plan = desk_->in_scene(std::move(order->plan));
+  // It waits for the backend, which must not keep other requests waiting.
+  meshes_->post([this, order = *std::move(order), send] {
+    ReviewFile made = make_review(order, page_, desk_->backend(), *meshes_);
+    if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+    send({code::kOk,
+          kHtmlType,
+          std::move(made.html),
+          {{"Content-Disposition", "attachment; filename=\"review.html\""}}});
+  });
+}
+
+void DoorServer::send_export(const nlohmann::json& document, std::string_view format,
+                             const http::Reply& send) {
+  ExportFile made = make_export(document, format);
+  if (made.code != code::kOk) return send(refusal(made.code, std::move(made.error)));
+  send({code::kOk,
+        "application/octet-stream",
+        std::move(made.bytes),
+        {{"Content-Disposition", fmt::format("attachment; filename=\"{}\"", made.name)}}});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "daemon/base/result.h"
 #include "tools/view/backend.h"
+#include "tools/view/page_files.h"
 
 namespace camway::view {
 
@@ -32,6 +33,7 @@ struct DoorOptions {
   /// The request that is planned at first, as JSON, until there is a last plan; empty: none.
   std::string first_request = {};
   DoorLimits limits = {};
+  PageFiles page = {};  ///< what `/` shows
 };
 
 /// The door: HTTP and WebSocket on 127.0.0.1, in JSON (docs/http.md). Requests are answered by a

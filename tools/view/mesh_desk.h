@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "tools/view/backend.h"
 #include "tools/view/display/glb_cache.h"
@@ -33,6 +34,11 @@ class MeshDesk : public std::enable_shared_from_this<MeshDesk> {
   void ask(const std::string& scene, const std::string& digest, GlbDone done);
   /// Waits for the file. Not for threads of the backend.
   GlbAnswer wait_for(const std::string& scene, const std::string& digest);
+
+  /// Runs other work with meshes on a thread of the desk. Drops it once the desk was stopped.
+  void post(WorkPool::Work work) { pool_.post(std::move(work)); }
+  /// Waits for the work that runs, and drops the rest.
+  void stop() { pool_.stop(); }
 
  private:
   [[nodiscard]] GlbAnswer made(const std::string& digest, const MeshAnswer& answer);

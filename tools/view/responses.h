@@ -8,14 +8,10 @@
 
 #include "daemon/http/server.h"
 #include "tools/view/answer.h"
+#include "tools/view/page_files.h"
 
 /// Responses of the door over HTTP.
 namespace camway::view {
-
-/// The policy of pages, which load nothing from elsewhere.
-inline constexpr std::string_view kPolicy =
-    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
-    "object-src 'none'";
 
 /// Returns the headers of every response.
 std::vector<std::pair<std::string, std::string>> common_headers();
@@ -26,5 +22,8 @@ http::Response to_response(Answer answer);
 http::Response refusal(int code, std::string error);
 /// Returns a picture in SVG.
 http::Response picture_response(std::string picture);
+/// Returns a file of the page of the door on `port`, compressed if the request takes that.
+http::Response file_response(const PageFile& file, std::string type, int port,
+                             const http::Request& request);
 
 }  // namespace camway::view

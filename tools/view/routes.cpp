@@ -17,8 +17,9 @@ struct FixedPlace {
   std::string_view methods;
 };
 
-constexpr std::array<FixedPlace, 12> kFixedPlaces{{
+constexpr std::array<FixedPlace, 15> kFixedPlaces{{
     {"/", Place::kPage, "GET"},
+    {"/page.js", Place::kScript, "GET"},
     {"/page.css", Place::kStyle, "GET"},
     {"/plan.svg", Place::kPicture, "GET"},
     {"/v1/version", Place::kVersion, "GET"},
@@ -28,6 +29,8 @@ constexpr std::array<FixedPlace, 12> kFixedPlaces{{
     {"/v1/interpolate", Place::kInterpolate, "POST"},
     {"/v1/fields", Place::kFields, "GET"},
     {"/v1/last", Place::kLast, "GET"},
+    {"/v1/review", Place::kReview, "POST"},
+    {"/v1/export", Place::kExport, "POST"},
     {"/v1/socket", Place::kSocket, "GET"},
     {"/v1/scenes", Place::kScenes, "GET"},
 }};

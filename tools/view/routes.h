@@ -11,6 +11,7 @@ namespace camway::view {
 /// A place of the door.
 enum class Place {
   kPage,
+  kScript,
   kStyle,
   kPicture,
   kVersion,
@@ -20,6 +21,8 @@ enum class Place {
   kInterpolate,
   kFields,
   kLast,
+  kReview,
+  kExport,
   kSocket,
   kScenes,
   kScene,

@@ -99,7 +99,7 @@ double end_of_collision_s(const CollisionInterval& found, const Span& changed,
   const double step_s = kStepToEnd * (changed.end_s - changed.begin_s);
   double time_s = found.t_end_s;
   while (time_s < changed.end_s && !deadline.passed() &&
-         !probe.check(motion::standing_at(candidate.path.pose(time_s))).free) {
+         !probe.is_free(candidate.path.pose(time_s))) {
     time_s += step_s;
   }
   return std::max(found.t_end_s, std::min(time_s, changed.end_s));

@@ -8,6 +8,7 @@
 #include "daemon/collision/detect.h"
 #include "daemon/collision/witness.h"
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/geometry/triangle_distance.h"
 #include "daemon/motion/path/stretch.h"
 #include "daemon/scene/field/clearance_field.h"
 #include "daemon/scene/voxels/voxel_map.h"
@@ -35,7 +36,7 @@ FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& pol
 }
 
 bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
-  return probe_.check(motion::standing_at(pose), margin_m).free;
+  return probe_.is_free(pose, margin_m);
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
@@ -94,11 +95,26 @@ double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_
 }
 
 bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m) const {
+  std::optional<std::uint32_t> met;
+  return ball_passes(from_W, to_W, radius_m, met);
+}
+
+bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m,
+                            std::optional<std::uint32_t>& met) const {
   const double inside_m =
       std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   if (!(inside_m > radius_m)) return false;
+  const scene::SceneIndex& index = query_.obstacles.index;
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
-  return !query_.obstacles.index.any_within(way, radius_m + query_.kept_m());
+  const double keep_m = radius_m + query_.kept_m();
+  if (met) {
+    // Nearer by more than the error of distances: the search cannot miss it.
+    const double near_m = keep_m - 2.0 * index.nearest_error_m(way);
+    if (geometry::triangle_distance(way[0], index.triangle(*met), near_m) < near_m) return false;
+  }
+  const std::optional<scene::Nearest> found = index.any_within(way, keep_m);
+  if (found) met = found->triangle;
+  return !found;
 }
 
 double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "daemon/base/deadline.h"
@@ -66,6 +67,10 @@ class FreeSpace {
   /// the bounds, as computed.
   [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double radius_m) const;
+  /// The same for one way after another near by. `met`: a triangle that is tried first, which
+  /// changes no answer; set to what the ball meets.
+  [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
+                                 double radius_m, std::optional<std::uint32_t>& met) const;
 
   /// Gap of the straight line between the two points, at most `up_to_m`.
   [[nodiscard]] double way_gap_m(const geometry::Vec3& from_W, const geometry::Vec3& to_W,

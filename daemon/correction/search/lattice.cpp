@@ -54,7 +54,7 @@ Lattice::Surroundings Lattice::about(const Vec3& place_W) const {
 
 bool Lattice::step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W, double gap_b_m) const {
   if ((a_W - b_W).norm() <= sure_gap_m(gap_a_m) + sure_gap_m(gap_b_m)) return true;
-  return space_.ball_passes(a_W, b_W, options_.ball_radius_m);
+  return space_.ball_passes(a_W, b_W, options_.ball_radius_m, met_);
 }
 
 bool Lattice::meets_end(const Vec3& place_W, double gap_m) const {

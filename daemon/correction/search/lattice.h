@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "daemon/correction/path/free_space.h"
@@ -69,6 +71,7 @@ class Lattice {
   const double comfort_m_;  ///< gap from which a point is not near the scene
   const double horizon_m_;  ///< largest gap that is asked for
   std::vector<Leg> legs_;
+  mutable std::optional<std::uint32_t> met_;  ///< what the last blocked step meets: tried first
 };
 
 }  // namespace camway::correction

@@ -108,7 +108,7 @@ FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow
     }
   }
   for (int k = first_; k <= last_; ++k) {
-    size_ += is_held(k) ? 0 : 1;
+    variables_.push_back(is_held(k) ? kNoVariable : size_++);
     bumps_.push_back(knots.bump(k));
   }
 }
@@ -119,25 +119,20 @@ void FreeCoefficients::hold(int knot) {
                    -knots_.bump_at_knot(knot + 1, knot) / peak});
 }
 
-Eigen::Index FreeCoefficients::variable(int k) const {
-  const auto held_before = std::ranges::count_if(
-      held_, [&](const Held& held) { return first_ <= held.knot && held.knot < k; });
-  return k - first_ - held_before;
-}
-
 void FreeCoefficients::add(int k, double factor, Terms& terms) const {
   if (k < first_ || k > last_ || factor == 0.0) return;
-  const auto held = std::ranges::find(held_, k, &Held::knot);
-  if (held != held_.end()) {
+  const Eigen::Index variable = this->variable(k);
+  if (variable == kNoVariable) {
+    const auto held = std::ranges::find(held_, k, &Held::knot);
     add(k - 1, factor * held->of_before, terms);
     add(k + 1, factor * held->of_after, terms);
     return;
   }
-  const auto known = std::ranges::find(terms, variable(k), &Term::variable);
+  const auto known = std::ranges::find(terms, variable, &Term::variable);
   if (known != terms.end()) {
     known->share += factor;
   } else {
-    terms.push_back({variable(k), factor});
+    terms.push_back({variable, factor});
   }
 }
 

@@ -78,7 +78,12 @@ class FreeCoefficients {
   [[nodiscard]] Offsets offsets_of(const StackedPoints& variables, double lever_m) const;
 
  private:
-  [[nodiscard]] Eigen::Index variable(int k) const;
+  static constexpr Eigen::Index kNoVariable = -1;
+
+  /// The variable of the coefficient at knot `k`; kNoVariable if that is held.
+  [[nodiscard]] Eigen::Index variable(int k) const {
+    return variables_[static_cast<std::size_t>(k - first_)];
+  }
 
   /// The knot of a keyframe. Its coefficient is `of_before` times the one before, plus `of_after`
   /// times the one after.
@@ -91,6 +96,7 @@ class FreeCoefficients {
 
   motion::KnotRow knots_;
   std::vector<motion::KnotBump> bumps_;  ///< from `first_` to `last_`
+  std::vector<Eigen::Index> variables_;  ///< the same
   int first_ = 0;
   int last_ = 0;
   Eigen::Index size_ = 0;

@@ -49,17 +49,26 @@ int knot_before(const KnotRow& knots, double time_s) {
   return k;
 }
 
-/// Adds `row` to `piece`, which lies between two consecutive knots.
-void add(CubicPiece& piece, const BumpRow& row) {
+/// A row with its bumps evaluated, as each reaches over several pieces.
+struct EvaluatedRow {
+  const BumpRow& row;
+  std::vector<KnotBump> bumps;
+
+  explicit EvaluatedRow(const BumpRow& bump_row) : row(bump_row) {
+    const int end = row.first + static_cast<int>(row.bumps.size());
+    for (int k = row.first; k < end; ++k) bumps.push_back(row.knots.bump(k));
+  }
+};
+
+/// Adds a row to `piece`, which lies between two consecutive knots.
+void add(CubicPiece& piece, const EvaluatedRow& evaluated) {
+  const BumpRow& row = evaluated.row;
   const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
   // Outside the supports; returning here also keeps the knot index within int.
   if (middle_s <= row.begin_s() || middle_s >= row.end_s()) return;
   const int before = knot_before(row.knots, middle_s);
-  std::array<double, 8> knots_s;  // of all bumps that reach here
-  for (int i = 0; i < 8; ++i)
-    knots_s[static_cast<std::size_t>(i)] = row.knots.knot_s(before - 3 + i);
-  const double from_s = knots_s[3];
-  const double to_s = knots_s[4];
+  const double from_s = row.knots.knot_s(before);
+  const double to_s = row.knots.knot_s(before + 1);
   const auto parameter = [&](double time_s) {
     // Exact at the knots, where neighbours must agree and the ends must be zero.
     if (time_s == to_s) return 1.0;
@@ -69,12 +78,11 @@ void add(CubicPiece& piece, const BumpRow& row) {
   const double u1 = parameter(piece.t1_s);
   const int end = row.first + static_cast<int>(row.bumps.size());
   for (int k = std::max(row.first, before - 1); k < std::min(end, before + 3); ++k) {
-    const CubicPoint& bump = row.bumps[static_cast<std::size_t>(k - row.first)];
+    const auto at = static_cast<std::size_t>(k - row.first);
+    const CubicPoint& bump = row.bumps[at];
     const auto part = static_cast<std::size_t>(before - (k - 2));
-    const double* support_s = &knots_s[3 - part];
-    const auto pieces =
-        b_spline_pieces({support_s[0], support_s[1], support_s[2], support_s[3], support_s[4]});
-    const std::array<double, 4> weights = bezier::sub_curve(pieces[part], u0, u1);
+    const std::array<double, 4> weights =
+        bezier::sub_curve(evaluated.bumps[at].pieces[part], u0, u1);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       piece.position[i] += weights[i] * bump.position;
       piece.image[i] += weights[i] * bump.image;
@@ -91,6 +99,7 @@ CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows) {
     begin_s = std::min(begin_s, row.begin_s());
     end_s = std::max(end_s, row.end_s());
   }
+  const std::vector<EvaluatedRow> evaluated(rows.begin(), rows.end());
   CubicPath result{path.reference, {}};
   for (const CubicPiece& piece : path.pieces) {
     if (piece.t1_s <= begin_s || piece.t0_s >= end_s) {
@@ -107,7 +116,7 @@ CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows) {
       const double u1 = parameter(cuts[i + 1]);
       CubicPiece part{cuts[i], cuts[i + 1], bezier::sub_curve(piece.position, u0, u1),
                       bezier::sub_curve(piece.image, u0, u1)};
-      for (const BumpRow& row : rows) add(part, row);
+      for (const EvaluatedRow& row : evaluated) add(part, row);
       const bool joins = !result.pieces.empty() && result.pieces.back().t1_s == part.t0_s;
       if (joins && i > 0) {
         part.position[0] = result.pieces.back().position[3];

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <system_error>
 
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import/camera_import.h"
+#include "daemon/scene/import/content_kind.h"
 #include "daemon/scene/import/import_process.h"
 #include "daemon/scene/import/record/cad_names.h"
 #include "daemon/scene/import/record/import_record.h"
@@ -18,6 +20,14 @@ namespace camway::scene {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string begin_of(const fs::path& file) {
+  std::string begin(kContentBegin, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin;
+}
 
 /// The fault of a file before anything reads it; empty if there is none.
 std::string reason_not_to_read(const fs::path& file) {
@@ -31,7 +41,9 @@ std::string reason_not_to_read(const fs::path& file) {
   if (fs::file_size(file, error) == 0 && !error) return "is empty";
   const std::string_view why = why_unsupported(file.extension().string());
   if (!why.empty()) return "cannot be read: " + std::string(why);
-  return error ? error.message() : "";
+  if (error) return error.message();
+  const std::string fault = content_fault(file.extension().string(), begin_of(file));
+  return fault.empty() ? "" : "cannot be read: " + fault;
 }
 
 /// Why the reader refused the file, without its name, which the caller adds.

@@ -44,7 +44,8 @@ double finest_length_m(double interval_tolerance_m, double clearance_m) {
 }
 
 std::vector<std::string> import_warnings(const ImportReport& report,
-                                         std::optional<double> resolution_m) {
+                                         std::optional<double> resolution_m,
+                                         std::string_view resolution_name) {
   std::vector<std::string> warnings;
   if (const std::string list = faces_left_out(report); !list.empty()) {
     warnings.push_back("the scene is without faces of its file: " + list);
@@ -59,17 +60,18 @@ std::vector<std::string> import_warnings(const ImportReport& report,
     }
   }
   if (resolution_m && report.rounding_m > *resolution_m) {
-    warnings.push_back(
-        "the scene's coordinates may be off by " + metres(report.rounding_m) +
-        ", which is more than the " + metres(*resolution_m) + " that the request asks for: " +
-        (report.single_precision ? "files of this format are read in single precision"
-                                 : "doubles are no finer so far from the origin"));
+    warnings.push_back("the scene's coordinates may be off by " + metres(report.rounding_m) +
+                       ", which is more than the " + metres(*resolution_m) + " " +
+                       std::string(resolution_name) + ": " +
+                       (report.single_precision
+                            ? "files of this format are read in single precision"
+                            : "doubles are no finer so far from the origin"));
   }
   if (resolution_m && report.surface_error_m > *resolution_m) {
     warnings.push_back("the scene's smooth surfaces are flat facets within " +
                        metres(report.surface_error_m) + ", which is more than the " +
-                       metres(*resolution_m) +
-                       " that the request asks for: paths keep that far from all of the scene");
+                       metres(*resolution_m) + " " + std::string(resolution_name) +
+                       ": paths keep that far from all of the scene");
   }
   return warnings;
 }

@@ -87,7 +87,10 @@ void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
   std::array<Waiting, kMaxOriented> order;
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < parts(); ++i) {
-    const double squared_m2 = (*part_boxes_)[i].squared_distance_bound_m2(triangle);
+    const OrientedBox& box = (*part_boxes_)[i];
+    const double along_axes_m2 = box.axes_bound_m2(triangle);
+    if (cannot_win(along_axes_m2, index)) continue;
+    const double squared_m2 = std::max(along_axes_m2, box.plane_bound_m2(triangle));
     std::size_t place = count++;
     for (; place > 0 && order[place - 1].squared_m2 > squared_m2; --place) {
       order[place] = order[place - 1];

@@ -17,7 +17,8 @@ using HalfFloats = float __attribute__((vector_size(16)));
 using Doubles = double __attribute__((vector_size(32)));
 using Longs = std::int64_t __attribute__((vector_size(32)));
 using Shorts = std::uint16_t __attribute__((vector_size(16)));
-using Bytes = std::uint8_t __attribute__((vector_size(8)));
+using TwiceShorts = std::uint16_t __attribute__((vector_size(32)));
+using TwiceBytes = std::uint8_t __attribute__((vector_size(16)));
 
 /// Coordinates beyond this many steps are clamped to it. Bounds only become smaller, nothing
 /// overflows, and boxes this far away are beyond any reach.
@@ -54,13 +55,30 @@ constexpr double kLargestLimit = 0x1p126;
   out = x - (size * kRelativeMove + least);
 }
 
-[[gnu::always_inline]] inline void to_floats(const std::array<std::uint8_t, kNodeWidth>& steps,
-                                             Floats& out) {
-  Bytes bytes;
-  std::memcpy(&bytes, steps.data(), sizeof bytes);
-  // In single steps: otherwise GCC 12 converts the eight bytes one by one.
-  out = __builtin_convertvector(
-      __builtin_convertvector(__builtin_convertvector(bytes, Shorts), Ints), Floats);
+/// The sides of eight boxes in steps, axis by axis.
+struct Sides {
+  Floats low[3];
+  Floats high[3];
+};
+
+[[gnu::always_inline]] inline void to_floats(const std::uint8_t* steps, Floats& first,
+                                             Floats& second) {
+  TwiceBytes bytes;
+  std::memcpy(&bytes, steps, sizeof bytes);
+  // Sixteen at a time and in single steps: otherwise GCC 12 converts bytes in halves or one by one.
+  const TwiceShorts shorts = __builtin_convertvector(bytes, TwiceShorts);
+  const Shorts low = __builtin_shufflevector(shorts, shorts, 0, 1, 2, 3, 4, 5, 6, 7);
+  const Shorts high = __builtin_shufflevector(shorts, shorts, 8, 9, 10, 11, 12, 13, 14, 15);
+  first = __builtin_convertvector(__builtin_convertvector(low, Ints), Floats);
+  second = __builtin_convertvector(__builtin_convertvector(high, Ints), Floats);
+}
+
+[[gnu::always_inline]] inline void sides_of(const ByteBoxes& boxes, Sides& out) {
+  static_assert(sizeof(ByteBoxes) == 6 * kNodeWidth && kNodeWidth == 8);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(&boxes);
+  to_floats(bytes, out.low[0], out.low[1]);
+  to_floats(bytes + 16, out.low[2], out.high[0]);
+  to_floats(bytes + 32, out.high[1], out.high[2]);
 }
 
 /// The steps of a frame: their size in metres, and relative to the largest one.
@@ -81,13 +99,10 @@ struct Steps {
 /// Adds the squared gaps on one axis, in units of which a step is `weight`; a product with a power
 /// of two is exact. The sides of the box are rounded down: `from` is the lower one, `minus_to` the
 /// upper one, negated.
-[[gnu::always_inline]] inline void add_gaps(const ByteBoxes& boxes, std::size_t axis, float from,
+[[gnu::always_inline]] inline void add_gaps(const Sides& boxes, std::size_t axis, float from,
                                             float minus_to, float weight, Floats& sum) {
-  Floats begin, end;
-  to_floats(boxes.low[axis], begin);
-  to_floats(boxes.high[axis], end);
-  const Floats below = begin + minus_to;
-  const Floats above = from - end;
+  const Floats below = boxes.low[axis] + minus_to;
+  const Floats above = from - boxes.high[axis];
   Floats gap = below > above ? below : above;
   gap = gap > 0.0F ? gap : Floats{};
   gap *= weight;
@@ -105,11 +120,10 @@ struct Steps {
 }
 
 /// Adds `weight` times the least, and times the greatest, coordinate of each box on this axis.
-[[gnu::always_inline]] inline void add_extremes(const ByteBoxes& boxes, std::size_t axis,
-                                                float weight, Floats& least, Floats& greatest) {
-  Floats begin, end;
-  to_floats(boxes.low[axis], begin);
-  to_floats(boxes.high[axis], end);
+[[gnu::always_inline]] inline void add_extremes(const Sides& boxes, std::size_t axis, float weight,
+                                                Floats& least, Floats& greatest) {
+  const Floats& begin = boxes.low[axis];
+  const Floats& end = boxes.high[axis];
   least += (weight > 0.0F ? begin : end) * weight;
   greatest += (weight > 0.0F ? end : begin) * weight;
 }
@@ -117,7 +131,7 @@ struct Steps {
 /// Adds the squared gaps along one axis of the body, which has these weights along the axes of the
 /// boxes. `above_from` and `below_from` are the distances of the frame's origin from the body's two
 /// sides, rounded down.
-[[gnu::always_inline]] inline void add_oblique_gaps(const ByteBoxes& boxes,
+[[gnu::always_inline]] inline void add_oblique_gaps(const Sides& boxes,
                                                     const std::array<float, 3>& weights,
                                                     float above_from, float below_from,
                                                     Floats& sum) {
@@ -141,24 +155,10 @@ struct Steps {
                                     std::numeric_limits<float>::min());
 }
 
-}  // namespace
-
-ObliqueSides::ObliqueSides(const geometry::OrientedBox& box) {
-  for (int k = 0; k < 3; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    origin_m[at] = box.origin()[k];
-    low_m[at] = box.low_m(k);
-    high_m[at] = box.high_m(k);
-    const geometry::Vec3 axis_W = box.axis(k);
-    for (int c = 0; c < 3; ++c) axis[static_cast<std::size_t>(c)][at] = axis_W[c];
-  }
-}
-
-CAMWAY_FOR_EVERY_PROCESSOR
-void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
-              double squared_reach_m2, BoxGaps& out) {
-  Steps steps;
-  steps_of(frame, steps);
+/// `box_gaps` of boxes that were converted already.
+[[gnu::always_inline]] inline void add_box_gaps(const ByteFrame& frame, const Steps& steps,
+                                                const Sides& boxes, const BoxSides& box,
+                                                double squared_reach_m2, BoxGaps& out) {
   const Doubles origin = {frame.origin[0], frame.origin[1], frame.origin[2], 0.0};
   Doubles low, high;
   load(box.low_m, low);
@@ -177,11 +177,11 @@ void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& bo
   keep_near(sum, steps.largest, squared_reach_m2, out);
 }
 
-CAMWAY_FOR_EVERY_PROCESSOR
-void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
-                  double squared_reach_m2, BoxGaps& gaps) {
-  Steps steps;
-  steps_of(frame, steps);
+/// `oblique_gaps` of boxes that were converted already.
+[[gnu::always_inline]] inline void raise_by_oblique_gaps(const ByteFrame& frame, const Steps& steps,
+                                                         const Sides& boxes,
+                                                         const ObliqueSides& body,
+                                                         double squared_reach_m2, BoxGaps& gaps) {
   Doubles axis_x, axis_y, axis_z, low, high;
   load(body.axis[0], axis_x);
   load(body.axis[1], axis_y);
@@ -208,6 +208,40 @@ void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueS
   Floats known;
   std::memcpy(&known, gaps.squared.data(), sizeof known);
   keep_near(sum > known ? sum : known, steps.largest, squared_reach_m2, gaps);
+}
+
+}  // namespace
+
+ObliqueSides::ObliqueSides(const geometry::OrientedBox& box) {
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    origin_m[at] = box.origin()[k];
+    low_m[at] = box.low_m(k);
+    high_m[at] = box.high_m(k);
+    const geometry::Vec3 axis_W = box.axis(k);
+    for (int c = 0; c < 3; ++c) axis[static_cast<std::size_t>(c)][at] = axis_W[c];
+  }
+}
+
+CAMWAY_FOR_EVERY_PROCESSOR
+void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
+              double squared_reach_m2, BoxGaps& out) {
+  Steps steps;
+  steps_of(frame, steps);
+  Sides sides;
+  sides_of(boxes, sides);
+  add_box_gaps(frame, steps, sides, box, squared_reach_m2, out);
+}
+
+CAMWAY_FOR_EVERY_PROCESSOR
+void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
+              const ObliqueSides& body, double squared_reach_m2, BoxGaps& out) {
+  Steps steps;
+  steps_of(frame, steps);
+  Sides sides;
+  sides_of(boxes, sides);
+  add_box_gaps(frame, steps, sides, box, squared_reach_m2, out);
+  if (out.near != 0) raise_by_oblique_gaps(frame, steps, sides, body, squared_reach_m2, out);
 }
 
 }  // namespace camway::scene

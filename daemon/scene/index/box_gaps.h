@@ -40,7 +40,7 @@ inline constexpr double kBoxGapRelativeError = 8.0 * 0x1p-24;
 void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
               double squared_reach_m2, BoxGaps& out);
 
-/// An oriented box, laid out for `oblique_gaps`. Entry 3 of each array is 0.
+/// An oriented box, laid out for `box_gaps`. Entry 3 of each array is 0.
 struct ObliqueSides {
   ObliqueSides() = default;
   explicit ObliqueSides(const geometry::OrientedBox& box);
@@ -51,12 +51,12 @@ struct ObliqueSides {
   std::array<double, 4> high_m{};
 };
 
-/// Raises the bounds in `gaps`, which `box_gaps` computed for the same boxes and a box around
-/// `body`: along the axes of the body, boxes are often farther away than along those of the world.
-/// As in `box_gaps`, the bounds allow for rounding in units of the steps. They do not allow for the
-/// rounding of coordinates far from each other. The caller must enlarge the reach by that error,
-/// which is that of `OrientedBox::squared_distance_bound_m2`.
-void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
-                  double squared_reach_m2, BoxGaps& gaps);
+/// The same for a body within `box` that fits `body` more closely: raises the bounds by those along
+/// the axes of `body`, where boxes are often farther away than along those of the world. Looks
+/// along these only if a box is near. The bounds allow for rounding in units of the steps. They do
+/// not allow for the rounding of coordinates far from each other. The caller must enlarge the reach
+/// by that error, which is that of `OrientedBox::squared_distance_bound_m2`.
+void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
+              const ObliqueSides& body, double squared_reach_m2, BoxGaps& out);
 
 }  // namespace camway::scene

@@ -98,9 +98,10 @@ class IndexWalk {
   template <class Query>
   static void look(const Query& query, const ByteFrame& frame, const ByteBoxes& boxes,
                    BoxGaps& gaps) {
-    box_gaps(frame, boxes, query.sides(), query.squared_reach_m2(), gaps);
-    if (query.oblique() != nullptr && gaps.near != 0) {
-      oblique_gaps(frame, boxes, *query.oblique(), query.squared_reach_m2(), gaps);
+    if (query.oblique() != nullptr) {
+      box_gaps(frame, boxes, query.sides(), *query.oblique(), query.squared_reach_m2(), gaps);
+    } else {
+      box_gaps(frame, boxes, query.sides(), query.squared_reach_m2(), gaps);
     }
   }
 

@@ -340,8 +340,8 @@ std::optional<Nearest> SceneIndex::search(std::span<const Triangle> body, double
                                           DistanceGoal goal, double certain_m, double share) const {
   if (size() == 0 || body.empty()) return std::nullopt;
   if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
-  WalkedBy<DistanceSearch> query(body, bounds_of(body), cutoff_m, nearest_error_m(body), goal,
-                                 certain_m, share);
+  const Box box = bounds_of(body);
+  WalkedBy<DistanceSearch> query(body, box, cutoff_m, error_m(box), goal, certain_m, share);
   run(query);
   return query.result();
 }
@@ -407,8 +407,11 @@ void SceneIndex::leaves_touching(const Triangle& triangle, std::vector<std::uint
 
 double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
   if (body.empty() || size() == 0) return 0.0;
-  const Box all = bounds_of(body).merged(bounds_);
-  return geometry::triangle_distance_error_m(all.sizes().maxCoeff());
+  return error_m(bounds_of(body));
+}
+
+double SceneIndex::error_m(const Box& body) const {
+  return geometry::triangle_distance_error_m(body.merged(bounds_).sizes().maxCoeff());
 }
 
 std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
@@ -425,7 +428,8 @@ SweptResult SceneIndex::swept(const SweptBody& body) const {
     return {true, std::nullopt, std::numeric_limits<double>::infinity()};
   }
   if (!is_usable(body.middle) || !is_usable(body.ends)) return {false, Nearest{0.0, 0}, 0.0};
-  WalkedBy<SweptSearch> query(body, bounds_of(body.ends), nearest_error_m(body.ends));
+  const Box box = bounds_of(body.ends);
+  WalkedBy<SweptSearch> query(body, box, error_m(box));
   run(query);
   return query.result();
 }

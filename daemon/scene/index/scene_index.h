@@ -215,6 +215,8 @@ class SceneIndex {
   [[nodiscard]] LeafTriangles leaf_triangles(std::uint32_t leaf) const;
 
  private:
+  /// `nearest_error_m` of a body in this box.
+  [[nodiscard]] double error_m(const geometry::Box& body) const;
   /// Runs `query` through the trees of all parts within its reach.
   template <class Query>
   void run(Query& query) const;

@@ -52,8 +52,8 @@ std::int32_t status_of(scene::StoreFault fault) {
 
 std::string warnings_of(const scene::ImportReport& report) {
   std::string text;
-  for (const std::string& warning :
-       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+  for (const std::string& warning : scene::import_warnings(
+           report, planning::PlanOptions{}.interval_tolerance_m, scene::kOfDefault)) {
     text += (text.empty() ? "warning: " : "; warning: ") + warning;
   }
   return text;

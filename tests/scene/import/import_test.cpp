@@ -14,6 +14,7 @@
 #include <string_view>
 #include <thread>
 
+#include "daemon/base/base64.h"
 #include "daemon/scene/import/import_process.h"
 
 namespace camway::scene {
@@ -345,6 +346,27 @@ TEST_F(Import, RefusesGarbageOfEveryType) {
   }
 }
 
+/// A triangle in FBX as text. `unit` is a number, or what stands in its place.
+std::string fbx_of_unit(const std::string& unit) {
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: "
+         "7400\n}\nGlobalSettings: {\nVersion: 1000\nProperties70: {\nP: \"UnitScaleFactor\", "
+         "\"double\", \"Number\", \"\"," +
+         unit +
+         "\n}\n}\nObjects: {\nGeometry: 1000, \"Geometry::t\", \"Mesh\" {\nVertices: *9 {\na: "
+         "0,0,0,100,0,0,0,100,0\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\nGeometryVersion: "
+         "124\n}\nModel: 2000, \"Model::t\", \"Mesh\" {\nVersion: 232\n}\n}\nConnections: {\nC: "
+         "\"OO\",2000,0\nC: \"OO\",1000,2000\n}\n";
+}
+
+TEST_F(Import, TakesTheUnitOfFbxOrSaysWhatIsWrongWithIt) {
+  const ImportResult centimetres = import_mesh(write("a.fbx", fbx_of_unit("1")), {});
+  ASSERT_TRUE(centimetres.mesh.has_value()) << centimetres.error;
+  EXPECT_NEAR(centimetres.report.bounds_m.max().x(), 1.0, 1e-6);
+  for (const char* unit : {"-1", "0", "1e30", "1e-30"}) {
+    EXPECT_THAT(error_of(write("a.fbx", fbx_of_unit(unit))), HasSubstr("UnitScaleFactor"));
+  }
+}
+
 // 27 bytes that cost assimp 5 GB and 15 s. The error has the number only if the file was not read.
 TEST_F(Import, RefusesAFileThatPromisesBillions) {
   EXPECT_THAT(error_of(write("a.off", "OFF\n400000000 1 0\n0 0 0 0 \n")), HasSubstr("400000000"));
@@ -457,6 +479,41 @@ TEST_F(Import, SaysWhatToDoWithFormatsThatAreNotRead) {
   EXPECT_THAT(error_of(write("a.gltf", gltf)), HasSubstr("compressed (EXT_meshopt_compression)"));
   EXPECT_THAT(error_of(write("a.ifc", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('IFC4'));ENDSEC;\n")),
               HasSubstr("is of the schema IFC4"));
+}
+
+TEST_F(Import, SaysWhatAFileIsWhoseNameSaysAnotherFormat) {
+  EXPECT_THAT(error_of(write("a.obj", "#Inventor V2.1 ascii\n")),
+              HasSubstr("its content is Open Inventor: name it .iv"));
+  EXPECT_THAT(error_of(write("b.obj", "ISO-10303-21;\nHEADER;\n")), HasSubstr("name it .step"));
+  EXPECT_THAT(error_of(write("c.obj", "Kaydara FBX Binary  ")), HasSubstr("name it .fbx"));
+  EXPECT_THAT(error_of(write("d.fbx", gltf({1, 2, 3, 4, 2, 3, 1, 5, 3}))),
+              HasSubstr("name it .gltf"));
+  EXPECT_THAT(error_of(write("e.json", "[1]")), HasSubstr(".voxel.json, with its .voxel.bin"));
+}
+
+TEST_F(Import, ReadsTextsBehindAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  expect_the_triangle(import_text("a.obj", mark + std::string(kObj)));
+  expect_the_triangle(import_text("a.off", mark + std::string(kOff)));
+  expect_the_triangle(import_text("a.ply", mark + std::string(kPly)));
+  expect_the_triangle(import_text("a.stl", mark + std::string(kStl)));
+  EXPECT_EQ(import_text("a.ug", mark + "v p 0 0 0; v q 1 0 0; v r 0 1 0; f (p q r);")
+                .mesh->triangles.size(),
+            1U);
+}
+
+TEST_F(Import, OpensTheFilesThatGltfNamesInAUri) {
+  std::string text = gltf({1, 2, 3, 4, 2, 3, 1, 5, 3});
+  const std::string begin = "data:application/octet-stream;base64,";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t end = text.find('"', at);
+  const std::string coded = text.substr(at + begin.size(), end - at - begin.size());
+  const auto bytes = base::decode_base64(coded);
+  ASSERT_TRUE(bytes);
+  write("a b\xC3\xBC.bin", *bytes);
+  text.replace(at, end - at, "a%20b%C3%BC.bin");
+  EXPECT_EQ(import_text("a.gltf", text).mesh->triangles.size(), 1U);
 }
 
 // Many programs write it so; assimp 5.2 refuses the whole file.

@@ -8,6 +8,7 @@ namespace camway::scene {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(ImportWarnings, AreSilentAboutASoundImport) {
@@ -58,6 +59,8 @@ TEST(ImportWarnings, SetRoundingAgainstWhatIsAskedFor) {
 TEST(ImportWarnings, SetSmoothSurfacesAgainstWhatIsAskedFor) {
   ImportReport report;
   report.surface_error_m = 0.02;
+  EXPECT_THAT(import_warnings(report, 0.01, kOfDefault),
+              ElementsAre(HasSubstr("the 0.01 m that requests ask for by default: ")));
   EXPECT_THAT(import_warnings(report, 0.02), IsEmpty());
   EXPECT_THAT(import_warnings(report, std::nullopt), IsEmpty());
   EXPECT_THAT(

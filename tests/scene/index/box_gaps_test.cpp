@@ -151,7 +151,8 @@ TEST(ObliqueGaps, NeverExceedTheDistanceToTheBody) {
       BoxGaps gaps;
       box_gaps(s.frame, s.bytes, BoxSides(geometry::bounds(body[0])), squared_reach_m2, gaps);
       const BoxGaps before = gaps;
-      oblique_gaps(s.frame, s.bytes, ObliqueSides(oriented), squared_reach_m2, gaps);
+      box_gaps(s.frame, s.bytes, BoxSides(geometry::bounds(body[0])), ObliqueSides(oriented),
+               squared_reach_m2, gaps);
       ASSERT_EQ(gaps.near & ~before.near, 0U);
       improved += gaps.near != before.near ? 1 : 0;
       for (std::size_t k = 0; k < s.boxes.size(); ++k) {

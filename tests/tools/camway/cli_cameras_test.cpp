@@ -237,7 +237,7 @@ TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
   folder_.write("flight.csv", "hello\n");
   const CliRun run = import_flight();
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("is of no format that is known"));
+  EXPECT_THAT(run.err, HasSubstr("line 1 names no column for time, x, y"));
   EXPECT_THAT(run_camway({"import", "nowhere.csv", "--request", "-"}).err,
               HasSubstr("nowhere.csv"));
 }

@@ -91,7 +91,11 @@ std::set<std::string> names_in_answers() {
     planning::PlanResult result = testing::sample_result(3, random);
     result.keyframe = 1;
     const auto text =
-        write_plan_response(result, {.scene = "room", .scene_digest = "0", .warnings = {"w"}});
+        write_plan_response(result, {.scene = "room",
+                                     .scene_digest = "0",
+                                     .scene_reading = scene::ImportOptions{.voxel_m = 0.1},
+                                     .vertical_axis = scene::VerticalAxis::kZ,
+                                     .warnings = {"w"}});
     if (!text) ADD_FAILURE() << text.error;
     add_names(nlohmann::json::parse(text.value.value_or("{}")), names);
   }

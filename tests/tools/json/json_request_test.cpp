@@ -279,7 +279,8 @@ TEST(JsonRequest, SaysHowToReadTheScene) {
   EXPECT_EQ(said.value->reading.voxel_m, 0.02);
   const auto tiny = parse_as<RequestFile>(
       edited(R"("scene": "office.obj")", R"("scene": "office.obj", "voxel_m": 1e-10)"), "R.json");
-  EXPECT_THAT(tiny.error, ::testing::HasSubstr("voxel_m: is 1e-10; it must be from 1e-9 to 1e9"));
+  EXPECT_THAT(tiny.error,
+              ::testing::HasSubstr("voxel_m: is 1e-10; it must be from 1e-09 to 1e+09"));
   const auto silent = parse_as<RequestFile>(kGoodRequest, "R.json");
   EXPECT_FALSE(silent.value->reading.scale || silent.value->reading.up ||
                silent.value->reading.unknown || silent.value->reading.voxel_m);

@@ -203,6 +203,30 @@ TEST(JsonResponse, HasTheKeysOfTheFormatInAFixedOrder) {
   EXPECT_EQ(write_plan_response({}, format).value->find("timing_ms"), std::string::npos);
 }
 
+/// A response says how its scene is to be read, and a response of an earlier release need not.
+TEST(JsonResponse, ItsSceneReadsBack) {
+  ResponseFormat format;
+  format.scene_digest = "00ff";
+  format.scene_reading = scene::ImportOptions{.scale = 0.0254,
+                                              .up = scene::UpAxis::kZToY,
+                                              .unknown = scene::UnknownSpace::kOccupied,
+                                              .voxel_m = 0.1};
+  format.vertical_axis = scene::VerticalAxis::kZ;
+  const auto read = parse_as<ResponseFile>(*write_plan_response({}, format).value, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read->scene_digest, "00ff");
+  EXPECT_EQ(read->scene_reading.scale, 0.0254);
+  EXPECT_EQ(read->scene_reading.up, scene::UpAxis::kZToY);
+  EXPECT_EQ(read->scene_reading.unknown, scene::UnknownSpace::kOccupied);
+  EXPECT_EQ(read->scene_reading.voxel_m, 0.1);
+  EXPECT_EQ(read->vertical_axis, scene::VerticalAxis::kZ);
+  const auto old = parse_as<ResponseFile>(*write_plan_response({}).value, "P.json");
+  ASSERT_TRUE(old.value) << old.error;
+  EXPECT_FALSE(old->scene_reading.scale || old->scene_reading.up || old->vertical_axis);
+  const auto wrong = parse_as<ResponseFile>(R"({"status": "ok", "vertical_axis": "x"})", "P.json");
+  EXPECT_THAT(wrong.error, HasSubstr("vertical_axis"));
+}
+
 TEST(JsonResponse, RefusesToWriteWhatJsonCannotHold) {
   planning::PlanResult result;
   result.keyframes.resize(1);

@@ -132,7 +132,9 @@ TEST(ViewAccess, SecretsAreEqualInEveryCharacterOrNotAtAll) {
 class ViewAccessDoor : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto opened = Door::open({.token = kLongToken}, backend_);
+    auto opened = Door::open(
+        {.token = kLongToken, .page = {{"html", "gz"}, {"script", "gz"}, {"style", "gz"}, ""}},
+        backend_);
     ASSERT_TRUE(opened) << opened.error;
     door_ = *std::move(opened);
   }

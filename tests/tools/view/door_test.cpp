@@ -11,7 +11,6 @@
 
 #include "tests/tools/view/door_client.h"
 #include "tests/tools/view/fake_backend.h"
-#include "tools/view/page.h"
 #include "tools/view/routes.h"
 
 namespace camway::view {
@@ -19,7 +18,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
   struct RouteCase {
@@ -31,6 +29,9 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/", 200},
            {"HEAD", "/", 200},
            {"POST", "/", 405},
+           {"GET", "/page.js", 200},
+           {"GET", "/page.css", 200},
+           {"GET", "/page.ts", 404},
            {"GET", "/?token=x", 200},
            {"GET", "//", 404},
            {"GET", "", 404},
@@ -63,6 +64,10 @@ TEST(ViewRoutes, LeadToPlacesByMethodAndPath) {
            {"GET", "/v1/fields", 200},
            {"GET", "/v1/last", 200},
            {"POST", "/v1/last", 405},
+           {"POST", "/v1/review", 200},
+           {"GET", "/v1/review", 405},
+           {"POST", "/v1/export?format=csv", 200},
+           {"GET", "/v1/export", 405},
            {"GET", "/v2/plan", 404},
        }) {
     EXPECT_EQ(route_of(each.method, each.target).code, each.code)
@@ -294,16 +299,62 @@ TEST_F(ViewDoor, APortThatIsTakenIsSaid) {
   EXPECT_THAT(second.error, HasSubstr("cannot listen on 127.0.0.1 port"));
 }
 
-TEST_F(ViewDoor, NamesOnThePageAreText) {
-  LastPlan last;
-  last.result.status = planning::Status::kInfeasible;
-  last.result.message = "shut in by <script>alert('\"&')</script>";
-  backend_.last_plan = std::make_shared<const LastPlan>(last);
+/// A page of three files.
+constexpr PageFiles kPage{
+    {"<html>", "zipped html"}, {"script", "zipped script"}, {"style", "zipped style"}, "policy"};
+
+TEST_F(ViewDoor, ServesThePageCompressedToThoseWhoTakeIt) {
+  const auto door = Door::open({.token = kSecret, .page = kPage}, backend_);
+  HttpClient client((*door)->port(), kSecret);
+  struct FileCase {
+    const char* target;
+    const char* type;
+    PageFile file;
+  };
+  for (const FileCase& each : {FileCase{"/", "text/html; charset=utf-8", kPage.html},
+                               FileCase{"/page.js", "text/javascript; charset=utf-8", kPage.script},
+                               FileCase{"/page.css", "text/css; charset=utf-8", kPage.style}}) {
+    const Reached plain = client.get(each.target);
+    EXPECT_EQ(plain.code, 200);
+    EXPECT_EQ(plain.type, each.type);
+    EXPECT_EQ(plain.body, each.file.text);
+    EXPECT_EQ(plain.header("Content-Encoding"), "");
+    EXPECT_EQ(plain.header("Vary"), "Accept-Encoding");
+    for (const char* const takes : {"gzip", "br, gzip;q=0.5", "gzip, deflate"}) {
+      const Reached packed = client.send("GET", each.target, {}, {{"Accept-Encoding", takes}});
+      EXPECT_EQ(packed.body, each.file.gzip) << takes;
+      EXPECT_EQ(packed.header("Content-Encoding"), "gzip") << takes;
+      EXPECT_EQ(packed.type, each.type);
+    }
+    for (const char* const takes : {"", "br", "gzip;q=0", "deflate, gzip;q=0.0, br"}) {
+      const Reached got = client.send("GET", each.target, {}, {{"Accept-Encoding", takes}});
+      EXPECT_EQ(got.body, each.file.text) << takes;
+    }
+    const Reached head = client.send("HEAD", each.target);
+    EXPECT_EQ(head.code, 200);
+    EXPECT_EQ(head.header("Content-Length"), std::to_string(each.file.text.size()));
+    EXPECT_EQ(client.post(each.target, "{}").code, 405);
+  }
+}
+
+TEST_F(ViewDoor, ThePageMayAskTheDoorAndNobodyElse) {
+  const auto door = Door::open({.token = kSecret, .page = kPage}, backend_);
+  const int port = (*door)->port();
+  const std::string policy = HttpClient(port, kSecret).get("/").header("Content-Security-Policy");
+  EXPECT_EQ(policy,
+            "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+            "object-src 'none'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' data: blob:; "
+            "connect-src 'self' ws://127.0.0.1:" +
+                std::to_string(port) + " ws://localhost:" + std::to_string(port));
+}
+
+TEST_F(ViewDoor, SaysThatThereIsNoPage) {
   open();
-  const Reached page = client_->get("/");
-  EXPECT_EQ(page.type, "text/html; charset=utf-8");
-  EXPECT_THAT(page.body, Not(HasSubstr("<script")));
-  EXPECT_THAT(page.body, HasSubstr("&lt;script&gt;alert(&#39;&quot;&amp;&#39;)"));
+  for (const char* const target : {"/", "/page.js", "/page.css"}) {
+    const Reached got = client_->get(target);
+    EXPECT_EQ(got.code, 404);
+    EXPECT_THAT(error_of(got), HasSubstr("built without its page"));
+  }
   EXPECT_EQ(client_->get("/plan.svg").code, 404) << "there is no path to draw";
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -37,7 +38,7 @@ class ViewHere : public ::testing::Test {
   void open(const std::string& scene = "office", const DoorLimits& limits = {}) {
     const scene::SnapshotResult loaded = scene::load_snapshot(scene, kScenes / (scene + ".obj"));
     if (!loaded.snapshot) throw std::runtime_error(loaded.error);
-    backend_ = plan_here(loaded.snapshot);
+    backend_ = plan_here(loaded.snapshot, {.scene_reading = scene::ImportOptions{}});
     auto opened = Door::open({.token = kSecret, .limits = limits}, *backend_);
     if (!opened) throw std::runtime_error(opened.error);
     door_ = *std::move(opened);
@@ -272,13 +273,11 @@ TEST_F(ViewHere, TheBackendEndsBeforeItsPlansAndSaysSo) {
 TEST_F(ViewHere, DrawsTheLastPlan) {
   open();
   EXPECT_EQ(http().get("/plan.svg").code, 404);
-  EXPECT_THAT(http().get("/").body, HasSubstr("Nothing was planned yet"));
   http().post("/v1/plan", request_text("office-graze-door"));
   const Reached picture = http().get("/plan.svg");
   EXPECT_EQ(picture.code, 200);
   EXPECT_EQ(picture.type, "image/svg+xml");
   EXPECT_THAT(picture.body, HasSubstr("<svg"));
-  EXPECT_THAT(http().get("/").body, HasSubstr("proved free of collision"));
 }
 
 TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
@@ -304,6 +303,19 @@ TEST_F(ViewHere, APathWithoutACollisionIsAsInterpolated) {
     const json edited = http().post("/v1/interpolate", again.dump()).json();
     EXPECT_EQ(edited.at("segments").size(), answer.at("segments").size()) << name;
   }
+}
+
+TEST_F(ViewHere, APathIsInterpolatedAtTheTimesOfItsRequest) {
+  open();
+  json request = json::parse(request_text("office-free-timed"));
+  constexpr double kSince1970_s = 1.76e9;
+  for (json& keyframe : request.at("keyframes")) {
+    keyframe["time"] = keyframe.at("time").get<double>() + kSince1970_s;
+  }
+  const json answer = http().post("/v1/plan", request.dump()).json();
+  const json before = http().post("/v1/interpolate", request.dump()).json();
+  EXPECT_GE(before.at("segments").front().at("t0"), kSince1970_s);
+  EXPECT_EQ(before.at("segments"), answer.at("segments"));
 }
 
 TEST_F(ViewHere, APathIsInterpolatedThroughWhatIsInTheWay) {
@@ -333,6 +345,53 @@ TEST_F(ViewHere, RemembersTheLastPlan) {
   socket.send(R"({"id": 5, "do": "triangles", "indices": [3]})");
   EXPECT_EQ(socket.next().at("answer"),
             http().post("/v1/scenes/office/triangles", R"({"indices": [3]})").json());
+}
+
+TEST_F(ViewHere, ExportsWhatCamwayExportWrites) {
+  open();
+  const testing::TemporaryFolder folder;
+  const std::string request = request_text("office-graze-column");
+  const std::string answer = http().post("/v1/plan", request).body;
+  const std::string response = (folder.path() / "response.json").string();
+  std::ofstream(response) << answer;
+  const std::string document = "{\"request\": " + request + ", \"answer\": " + answer + "}";
+  const json formats = http().get("/v1/fields").json().at("exports");
+  EXPECT_GT(formats.size(), 5U);
+  for (const json& format : formats) {
+    const auto name = format.at("name").get<std::string>();
+    const Reached got = http().post("/v1/export?format=" + name, document);
+    ASSERT_EQ(got.code, 200) << name << got.body;
+    EXPECT_THAT(got.header("Content-Disposition"),
+                HasSubstr("camera" + format.at("extension").get<std::string>()));
+    const std::string file =
+        (folder.path() / ("out" + format.at("extension").get<std::string>())).string();
+    const std::string command =
+        std::string("'") + CAMWAY_BINARY + "' export '" + response + "' --request '" +
+        (kScenes / "requests" / "office-graze-column.json").string() + "' --no-proof --format " +
+        name + " --out '" + file + "' 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    EXPECT_TRUE(*tools::read_text(file) == got.body) << name;
+  }
+}
+
+TEST_F(ViewHere, SaysWhyNothingIsExported) {
+  open();
+  const std::string request = request_text("office-graze-door");
+  const json answer = http().post("/v1/plan", request).json();
+  json document{{"request", json::parse(request)}, {"answer", answer}};
+  const auto error = [&](const std::string& query) {
+    const Reached got = http().post("/v1/export" + query, document.dump());
+    EXPECT_EQ(got.code, 400) << query;
+    return got.json().at("error").get<std::string>();
+  };
+  EXPECT_THAT(error(""), HasSubstr("format: is none of: gltf"));
+  for (const char* const query : {"?format=", "?format=fbx", "?format=../csv", "?fromat=csv"}) {
+    EXPECT_THAT(error(query), HasSubstr("format: is none of: gltf"));
+  }
+  document["answer"]["segments"] = json::array();
+  EXPECT_THAT(error("?format=csv"), HasSubstr("answer"));
+  document.erase("answer");
+  EXPECT_EQ(error("?format=csv"), "answer: is missing");
 }
 
 /// Asks a backend for a mesh and waits for it.

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "daemon/scene/import/readers/tokens.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -30,6 +31,10 @@ base::Result<std::string> read_beside(const fs::path& folder, const std::string&
 base::Result<CameraFile> camera_file(const std::string& name) {
   base::Result<std::string> bytes = read_text(name);
   if (!bytes) return base::Failure{std::move(bytes.error)};
+  // No binary format begins so.
+  if (scene::mesh_readers::without_bom(*bytes).size() < bytes->size()) {
+    *bytes = std::string(scene::mesh_readers::without_bom(*bytes));
+  }
   fs::path folder = fs::path(name).parent_path();
   if (folder.empty()) folder = ".";
   return CameraFile{name, *std::move(bytes),

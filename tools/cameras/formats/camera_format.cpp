@@ -6,13 +6,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "daemon/scene/import/readers/tokens.h"
 #include "tools/cameras/formats/blender_script.h"
 #include "tools/cameras/formats/chan_format.h"
 #include "tools/cameras/formats/colmap_format.h"
 #include "tools/cameras/formats/gltf_formats.h"
 #include "tools/cameras/formats/mcap_formats.h"
-#include "tools/cameras/formats/mcap_records.h"
 #include "tools/cameras/formats/nerf_formats.h"
 #include "tools/cameras/formats/pose_tables.h"
 #include "tools/cameras/formats/scene_file_format.h"
@@ -39,23 +37,6 @@ constexpr std::array<CameraFormat, 12> kFormats = {{
     {"colmap", ".txt", "COLMAP's images.txt", read_colmap, write_colmap, colmap_cameras},
 }};
 
-bool has_text(const CameraFile& file, std::string_view text) {
-  return file.bytes.find(text) != std::string::npos;
-}
-
-/// The words of the first line that is no comment.
-std::size_t first_row_words(std::string_view text) {
-  namespace readers = scene::mesh_readers;
-  while (!text.empty()) {
-    std::string_view line = readers::trimmed(readers::take_line(text));
-    if (line.empty() || line.starts_with('#')) continue;
-    std::size_t words = 0;
-    while (!readers::take_token(line).empty()) ++words;
-    return words;
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::span<const CameraFormat> camera_formats() { return kFormats; }
@@ -65,31 +46,11 @@ const CameraFormat* camera_format(std::string_view name) {
   return found == kFormats.end() ? nullptr : &*found;
 }
 
-const CameraFormat* format_of(const CameraFile& file) {
-  const std::filesystem::path path(file.name);
-  const std::string extension = path.extension().string();
-  const auto is = [&](std::string_view lower) {
-    return scene::mesh_readers::equals_ignoring_case(extension, lower);
-  };
-  if (is(".glb") || is(".gltf")) return camera_format("gltf");
-  if (is(".fbx")) return camera_format("fbx");
-  if (is(".dae")) return camera_format("collada");
-  if (is(".mcap") || file.bytes.starts_with(kMcapMagic)) return camera_format("mcap");
-  if (is(".py")) return camera_format("blender");
-  if (is(".chan")) return camera_format("chan");
-  if (has_text(file, "\"camera_path\"")) return camera_format("nerfstudio");
-  if (has_text(file, "\"transform_matrix\"")) return camera_format("transforms");
-  if (is(".json")) return nullptr;
-  if (path.filename() == "images.txt") return camera_format("colmap");
-  if (has_pose_columns(file) && !is(".txt") && !is(".tum")) return camera_format("csv");
-  const std::size_t words = first_row_words(file.bytes);
-  if (words == 12) return camera_format("kitti");
-  if (words == 8) return camera_format("tum");
-  return nullptr;
-}
-
 base::Result<CameraTrack> read_camera(const CameraFormat& format, const CameraFile& file,
                                       const CameraReadOptions& options) {
+  if (std::string why = why_unreadable(file); !why.empty()) {
+    return base::Failure{file.name + ": " + why};
+  }
   base::Result<CameraTrack> track = format.read(file, options);
   std::string fault = track ? fault_of(*track) : track.error;
   if (!fault.empty()) return base::Failure{file.name + ": " + fault};
@@ -108,6 +69,11 @@ double frame_rate(const CameraReadOptions& options, std::optional<double> of_fil
   if (of_file && *of_file > 0.0) return *of_file;
   notes.emplace_back("the file states no rate of frames: 24 a second are assumed (--fps)");
   return kUsualRate;
+}
+
+std::string choice_note(const std::string& chosen, const std::string& names) {
+  return "camera '" + chosen +
+         "' was taken of several, the first that moves (--camera names one): " + names;
 }
 
 int height_px(const CameraWriteOptions& options) {

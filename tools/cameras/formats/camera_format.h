@@ -33,6 +33,7 @@ struct CameraFile {
 /// both.
 struct CameraReadOptions {
   std::string camera;                ///< the one to read; empty: the only one, or the first
+  std::string animation = {};        ///< of glTF, the one to read; empty: the first for each node
   std::optional<CameraAxes> axes;    ///< else those of the format
   std::optional<double> fps;         ///< of files that count frames [Limit: 0 < value]
   std::optional<std::string> times;  ///< text with a time in seconds in each line, for KITTI
@@ -80,8 +81,13 @@ struct CameraFormat {
 std::span<const CameraFormat> camera_formats();
 /// The format of this name; null if there is none.
 const CameraFormat* camera_format(std::string_view name);
-/// The format that a file seems to be of, by its name and its content; null if none.
+/// The format that a file seems to be of, by its name and its content; null if none. Where a name
+/// is common to several formats, the content counts.
 const CameraFormat* format_of(const CameraFile& file);
+/// Returns why a file is of no format, and what to do. Requires that `format_of` found none.
+std::string why_no_format(const CameraFile& file);
+/// Returns why no reader can read a file: it is empty, or not what all expect. Empty if one may.
+std::string why_unreadable(const CameraFile& file);
 
 /// Reads a track and checks it. The error names the file.
 base::Result<CameraTrack> read_camera(const CameraFormat& format, const CameraFile& file,
@@ -94,6 +100,9 @@ geometry::Quat with_other_axes(const geometry::Quat& orientation, CameraAxes axe
 /// The format's rate, the asked one, or 24 a second, with a note.
 double frame_rate(const CameraReadOptions& options, std::optional<double> of_file,
                   std::vector<std::string>& notes);
+
+/// A note for a file with several cameras, of which nobody asked for one.
+std::string choice_note(const std::string& chosen, const std::string& names);
 
 /// The height of the picture, in pixels, for pixels that are square.
 int height_px(const CameraWriteOptions& options);

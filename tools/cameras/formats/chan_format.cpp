@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "tools/cameras/formats/key_rows.h"
 #include "tools/cameras/formats/text_rows.h"
 
 namespace camway::tools {
@@ -71,16 +73,19 @@ base::Result<CameraTrack> read_chan(const CameraFile& file, const CameraReadOpti
   const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
   std::vector<double> n;
   std::optional<double> first_frame;
+  KeyRows keys(track);
   for (const TextRow& row : rows_of(file.bytes)) {
-    std::string fault = read_numbers(row, 7, n);
+    std::string fault = read_row(row, 7, 8, n);
     if (!fault.empty()) return base::Failure{std::move(fault)};
     if (!first_frame) first_frame = n[0];
     TrackKey key{(n[0] - *first_frame) / *track.fps,
                  {Vec3(n[1], n[2], n[3]), with_other_axes(from_angles(n[4], n[5], n[6]), axes)},
                  std::nullopt};
     if (n.size() > 7) key.fov_y_rad = radians_of_chan(n[7]);
-    track.keys.push_back(key);
+    fault = keys.add(key, row.line);
+    if (!fault.empty()) return base::Failure{std::move(fault)};
   }
+  keys.finish();
   return track;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "daemon/scene/import/readers/tokens.h"
 #include "tools/cameras/formats/text_rows.h"
@@ -46,6 +45,7 @@ std::string read_image(const TextRow& row, CameraAxes axes, Image& image) {
 
 /// Every second line that is no comment is one of points, which may be empty.
 std::string read_images(std::string_view text, CameraAxes axes, std::vector<Image>& images) {
+  text = scene::mesh_readers::without_bom(text);
   bool is_image = true;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::string_view content =
@@ -66,18 +66,49 @@ std::string read_images(std::string_view text, CameraAxes axes, std::vector<Imag
   return "";
 }
 
-/// The fields of view of a camera of `cameras.txt`, distortion left aside.
-std::optional<std::array<double, 2>> fov_of(const std::string& cameras, const std::string& id) {
-  for (const TextRow& row : rows_of(cameras)) {
-    if (row.words.size() < 5 || row.words[0] != id) continue;
-    std::vector<double> n;
-    const TextRow tail{row.line, {row.words.begin() + 2, row.words.end()}};
-    if (!read_numbers(tail, 3, n).empty() || !(n[2] > 0.0)) return std::nullopt;
-    const bool has_two = row.words[1] == "PINHOLE" || row.words[1].find("OPENCV") == 0;
-    const double focal_y = has_two && n.size() > 3 ? n[3] : n[2];
-    return std::array{2.0 * std::atan(0.5 * n[0] / n[2]), 2.0 * std::atan(0.5 * n[1] / focal_y)};
+/// A lens of `cameras.txt`, distortion left aside.
+struct Lens {
+  double fov_x_rad = 0.0;
+  double fov_y_rad = 0.0;
+  std::string why_none;  ///< empty if it has the angles
+};
+
+constexpr std::array<std::string_view, 6> kTwoFocalLengths = {
+    "PINHOLE", "OPENCV", "FULL_OPENCV", "OPENCV_FISHEYE", "FOV", "THIN_PRISM_FISHEYE"};
+
+Lens lens_of(const TextRow& row) {
+  const std::string_view model = row.words[1];
+  if (model == "FOV" || model.ends_with("FISHEYE")) {
+    return {0.0, 0.0, fmt::format("cameras.txt has the model {}, which is no flat picture", model)};
   }
-  return std::nullopt;
+  std::vector<double> n;
+  const TextRow tail{row.line, {row.words.begin() + 2, row.words.end()}};
+  std::string fault = read_numbers(tail, 3, n);
+  const bool has_two = std::ranges::count(kTwoFocalLengths, model) > 0 && n.size() > 3;
+  if (!fault.empty() || !(n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0) || (has_two && !(n[3] > 0.0))) {
+    return {0.0, 0.0, fmt::format("line {} of cameras.txt has no usable lens", row.line)};
+  }
+  const double focal_y = has_two ? n[3] : n[2];
+  return {2.0 * std::atan(0.5 * n[0] / n[2]), 2.0 * std::atan(0.5 * n[1] / focal_y), ""};
+}
+
+/// Gives each key the lens of its image. Returns why that is not possible.
+std::string take_lenses(const std::string& cameras, const std::vector<Image>& images,
+                        CameraTrack& track) {
+  std::map<std::string, Lens, std::less<>> lenses;
+  for (const TextRow& row : rows_of(cameras)) {
+    if (row.words.size() >= 5) lenses.emplace(row.words[0], lens_of(row));
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto lens = lenses.find(images[i].camera);
+    if (lens == lenses.end()) {
+      return fmt::format("cameras.txt has no camera {}", images[i].camera);
+    }
+    if (!lens->second.why_none.empty()) return lens->second.why_none;
+    track.keys[i].fov_x_rad = lens->second.fov_x_rad;
+    track.keys[i].fov_y_rad = lens->second.fov_y_rad;
+  }
+  return "";
 }
 
 }  // namespace
@@ -96,11 +127,10 @@ base::Result<CameraTrack> read_colmap(const CameraFile& file, const CameraReadOp
   }
   if (images.empty() || !file.open_beside) return track;
   const base::Result<std::string> cameras = file.open_beside("cameras.txt");
-  const auto fov = cameras ? fov_of(*cameras, images[0].camera) : std::nullopt;
-  if (fov) {
-    std::tie(track.fov_x_rad, track.fov_y_rad) = std::tuple((*fov)[0], (*fov)[1]);
-  } else {
-    track.notes.emplace_back("cameras.txt beside it states no field of view");
+  track.why_no_fov =
+      cameras ? take_lenses(*cameras, images, track) : "cameras.txt beside it " + cameras.error;
+  if (!track.why_no_fov.empty()) {
+    for (TrackKey& key : track.keys) key.fov_x_rad = key.fov_y_rad = std::nullopt;
   }
   return track;
 }

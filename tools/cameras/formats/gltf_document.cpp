@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/base/base64.h"
+#include "daemon/base/percent.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -52,6 +53,14 @@ std::string split_glb(std::string_view bytes, Chunks& chunks) {
   return chunks.json.empty() ? "has no JSON" : "";
 }
 
+/// Opens the file of a relative URI (glTF 2.0, section 2.8). Programs that do not encode names
+/// write those with '%' as they are.
+base::Result<std::string> open_uri(const CameraFile& file, const std::string& uri) {
+  const std::string name = base::percent_decoded(uri);
+  base::Result<std::string> read = file.open_beside(name);
+  return read || name == uri ? read : file.open_beside(uri);
+}
+
 base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& file,
                                        std::string_view binary) {
   const auto uri = buffer.find("uri");
@@ -60,7 +69,7 @@ base::Result<std::string> buffer_bytes(const json& buffer, const CameraFile& fil
   const auto& text = uri->get_ref<const std::string&>();
   if (!text.starts_with("data:")) {
     if (!file.open_beside) return base::Failure{"needs the file " + text};
-    base::Result<std::string> read = file.open_beside(text);
+    base::Result<std::string> read = open_uri(file, text);
     if (!read) return base::Failure{"needs " + text + ", which " + read.error};
     return read;
   }

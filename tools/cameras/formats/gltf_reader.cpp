@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -154,6 +155,8 @@ struct CameraNode {
   std::string name;
   std::vector<Node> chain;  ///< the camera's node, then what it hangs from, up to the root
   json lens;
+  std::size_t lens_index = 0;
+  std::vector<std::string> animations;  ///< names of those that move it and are not read
 
   [[nodiscard]] bool is_animated() const {
     return std::ranges::any_of(chain, [](const Node& node) { return !node.channels.empty(); });
@@ -179,12 +182,15 @@ class GltfReader {
       : document_(document), options_(options) {}
 
   base::Result<CameraTrack> read() {
+    if (std::string fault = animation_fault(); !fault.empty()) return base::Failure{fault};
     find_parents();
     base::Result<CameraNode> camera = find_camera();
     if (!camera) return base::Failure{camera.error};
     CameraTrack track;
     track.name = camera->name;
-    read_lens(camera->lens, track);
+    track.notes = std::move(notes_);
+    std::string fault = read_lens(*camera, track);
+    if (!fault.empty()) return base::Failure{std::move(fault)};
     if (!camera->is_animated()) {
       track.has_times = false;
       track.keys.push_back({0.0, camera->pose_at(0.0), std::nullopt});
@@ -199,6 +205,16 @@ class GltfReader {
   [[nodiscard]] std::size_t count(const char* array) const {
     const auto found = document_.root().find(array);
     return found != document_.root().end() && found->is_array() ? found->size() : 0;
+  }
+
+  [[nodiscard]] std::string animation_fault() const {
+    if (options_.animation.empty()) return "";
+    std::string names;
+    for (std::size_t i = 0; i < count("animations"); ++i) {
+      if (animation_name(i) == options_.animation) return "";
+      names += (names.empty() ? "" : ", ") + animation_name(i);
+    }
+    return "has no animation '" + options_.animation + "': " + names;
   }
 
   void find_parents() {
@@ -219,7 +235,7 @@ class GltfReader {
       const json& node = document_.element("nodes", i);
       const auto lens = gltf_index(node, "camera");
       if (!lens) continue;
-      CameraNode camera{text_in(node, "name"), {}, document_.element("cameras", *lens)};
+      CameraNode camera{text_in(node, "name"), {}, document_.element("cameras", *lens), *lens, {}};
       if (camera.name.empty() && camera.lens.is_object())
         camera.name = text_in(camera.lens, "name");
       std::string fault = read_chain(i, camera);
@@ -232,7 +248,14 @@ class GltfReader {
                                          : "has no camera '" + options_.camera + "': " + names};
     }
     const auto animated = std::ranges::find_if(cameras, &CameraNode::is_animated);
-    return animated != cameras.end() ? *animated : cameras.front();
+    const CameraNode& chosen = animated != cameras.end() ? *animated : cameras.front();
+    if (cameras.size() > 1) notes_.push_back(choice_note(chosen.name, names));
+    for (const std::string& animation : chosen.animations) {
+      notes_.push_back("animation '" + animation +
+                       "' moves the camera, too, and was not read: the first one counts "
+                       "(--animation names one)");
+    }
+    return chosen;
   }
 
   /// By its own name, that of its lens, or that of the node that it hangs from.
@@ -248,7 +271,7 @@ class GltfReader {
     while (true) {
       if (camera.chain.size() == kDeepestNode) return "has nodes that hang from themselves";
       camera.chain.push_back(node_in(document_.element("nodes", node)));
-      std::string fault = read_channels(node, camera.chain.back());
+      std::string fault = read_channels(node, camera);
       if (!fault.empty()) return fault;
       const auto parent = parents_.find(node);
       if (parent == parents_.end()) return "";
@@ -256,19 +279,21 @@ class GltfReader {
     }
   }
 
-  std::string read_channels(std::size_t node, Node& into) {
+  std::string read_channels(std::size_t node, CameraNode& camera) {
+    Node& into = camera.chain.back();
     for (std::size_t i = 0; i < count("animations"); ++i) {
       const json& animation = document_.element("animations", i);
-      const auto channels = animation.find("channels");
-      if (channels == animation.end() || !channels->is_array()) continue;
-      for (const json& channel : *channels) {
-        if (!channel.is_object() || !channel.contains("target")) continue;
-        if (gltf_index(channel["target"], "node") != node) continue;
-        const std::string path = text_in(channel["target"], "path");
+      const std::string name = animation_name(i);
+      for (const json* const channel : channels_of(animation)) {
+        const std::string path = path_of(*channel, node);
         if (path != "translation" && path != "rotation" && path != "scale") continue;
+        if (!options_.animation.empty() && name != options_.animation) continue;
         // The first animation that moves the node counts.
-        if (into.channels.contains(path)) continue;
-        base::Result<Channel> read = read_channel(animation, channel, path == "rotation" ? 4 : 3);
+        if (into.channels.contains(path)) {
+          if (std::ranges::count(camera.animations, name) == 0) camera.animations.push_back(name);
+          continue;
+        }
+        base::Result<Channel> read = read_channel(animation, *channel, path == "rotation" ? 4 : 3);
         if (!read) return "animation " + std::to_string(i) + ": " + read.error;
         if (!read->times_s.empty()) into.channels.emplace(path, *std::move(read));
       }
@@ -307,15 +332,84 @@ class GltfReader {
     return channel;
   }
 
-  static void read_lens(const json& lens, CameraTrack& track) {
+  /// Reads the lens, and what animates it. Returns why that is not possible.
+  std::string read_lens(const CameraNode& camera, CameraTrack& track) {
+    const json& lens = camera.lens;
     const auto found = lens.is_object() ? lens.find("perspective") : lens.end();
     if (!lens.is_object() || found == lens.end()) {
-      track.notes.emplace_back("the camera has no perspective, so no field of view");
-      return;
+      track.why_no_fov = lens.is_object() && text_in(lens, "type") == "orthographic"
+                             ? "its camera is orthographic"
+                             : "its camera has no perspective";
+      return "";
     }
     track.fov_y_rad = gltf_number(*found, "yfov");
     track.aspect = gltf_number(*found, "aspectRatio");
     track.near_m = gltf_number(*found, "znear");
+    const std::string pointer =
+        "/cameras/" + std::to_string(camera.lens_index) + "/perspective/yfov";
+    for (std::size_t i = 0; i < count("animations"); ++i) {
+      const json& animation = document_.element("animations", i);
+      for (const json* const channel : channels_of(animation)) {
+        if (pointer_of(*channel) != pointer) continue;
+        if (!options_.animation.empty() && animation_name(i) != options_.animation) continue;
+        base::Result<Channel> read = read_channel(animation, *channel, 1);
+        if (!read) return "animation " + std::to_string(i) + ": " + read.error;
+        if (!read->times_s.empty()) take_widest(*read, track);
+      }
+    }
+    return "";
+  }
+
+  /// The widest angle of a lens that changes counts. A cubic is within its Bezier points.
+  static void take_widest(const Channel& channel, CameraTrack& track) {
+    double widest_rad = 0.0;
+    for (std::size_t i = 0; i < channel.times_s.size(); ++i) {
+      const double value = *channel.value(i, kValue);
+      widest_rad = std::max(widest_rad, value);
+      if (channel.curve != Curve::kCubic || i + 1 == channel.times_s.size()) continue;
+      const double third_s = (channel.times_s[i + 1] - channel.times_s[i]) / 3.0;
+      const double next = *channel.value(i + 1, kValue);
+      widest_rad = std::max({widest_rad, value + third_s * *channel.value(i, kOutTangent),
+                             next - third_s * *channel.value(i + 1, kInTangent)});
+    }
+    track.fov_y_rad = widest_rad;
+    track.notes.push_back("the lens changes: its widest angle counts, " +
+                          std::to_string(widest_rad * 180.0 / std::numbers::pi) +
+                          " degrees upwards");
+  }
+
+  std::string animation_name(std::size_t index) const {
+    const json& animation = document_.element("animations", index);
+    const std::string name = animation.is_object() ? text_in(animation, "name") : "";
+    return name.empty() ? std::to_string(index) : name;
+  }
+
+  /// The channels of an animation that are objects with a target.
+  static std::vector<const json*> channels_of(const json& animation) {
+    std::vector<const json*> channels;
+    const auto found = animation.is_object() ? animation.find("channels") : animation.end();
+    if (!animation.is_object() || found == animation.end() || !found->is_array()) return channels;
+    for (const json& channel : *found) {
+      if (channel.is_object() && channel.contains("target") && channel["target"].is_object()) {
+        channels.push_back(&channel);
+      }
+    }
+    return channels;
+  }
+
+  /// The pointer of KHR_animation_pointer; empty without one.
+  static std::string pointer_of(const json& channel) {
+    const json& target = channel["target"];
+    const json::json_pointer at("/extensions/KHR_animation_pointer/pointer");
+    return target.contains(at) && target[at].is_string() ? target[at].get<std::string>() : "";
+  }
+
+  /// The property of the node that a channel animates; empty if it is none of it.
+  static std::string path_of(const json& channel, std::size_t node) {
+    if (gltf_index(channel["target"], "node") == node) return text_in(channel["target"], "path");
+    const std::string pointer = pointer_of(channel);
+    const std::string begin = "/nodes/" + std::to_string(node) + "/";
+    return pointer.starts_with(begin) ? pointer.substr(begin.size()) : "";
   }
 
   static std::set<double> key_times(const CameraNode& camera) {
@@ -402,6 +496,7 @@ class GltfReader {
   const GltfDocument& document_;
   const CameraReadOptions& options_;
   std::map<std::size_t, std::size_t> parents_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/cameras/formats/rotation_matrix.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
@@ -43,12 +44,11 @@ motion::Pose pose_in(const Field& field, CameraAxes axes) {
   const Rows m = rows_in(field);
   Eigen::Matrix3d rotation;
   rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
-  const double determinant = rotation.determinant();
-  if (!(determinant > 0.0) || !rotation.allFinite()) {
-    field.fail("has no rotation: it mirrors, or has no volume");
+  const std::string fault = take_scale(rotation);
+  if (!fault.empty()) {
+    field.fail(fault);
     return {};
   }
-  rotation.colwise().normalize();
   return {Vec3(m[3], m[7], m[11]), with_other_axes(Quat(rotation).normalized(), axes)};
 }
 
@@ -86,22 +86,54 @@ base::Result<CameraTrack> read_json(const CameraFile& file, const Read& read) {
   return track;
 }
 
-/// The angles of view of `transforms.json`.
-void read_angles(const Field& root, CameraTrack& track) {
-  track.fov_x_rad = number_member(root, "camera_angle_x");
-  track.fov_y_rad = number_member(root, "camera_angle_y");
-  const auto width = number_member(root, "w");
-  const auto height = number_member(root, "h");
-  const auto focal_x = number_member(root, "fl_x");
-  const auto focal_y = number_member(root, "fl_y");
-  if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
-  if (!track.fov_x_rad && width && focal_x && *focal_x > 0.0) {
-    track.fov_x_rad = 2.0 * std::atan(0.5 * *width / *focal_x);
+std::string text_member(const Field& object, std::string_view key) {
+  const std::optional<Field> member = object.optional_member(key);
+  return member && !member->is_null() ? member->text() : "";
+}
+
+/// The angles of view of `transforms.json`, which it may have for all frames and for each.
+struct ViewAngles {
+  std::optional<double> x_rad;
+  std::optional<double> y_rad;
+};
+
+/// Reads angles from an object; sizes and focal lengths that it lacks are those of `root`.
+ViewAngles angles_in(const Field& object, const Field& root) {
+  const auto number = [&](std::string_view key) {
+    const auto own = number_member(object, key);
+    return own ? own : number_member(root, key);
+  };
+  ViewAngles angles{number("camera_angle_x"), number("camera_angle_y")};
+  const bool has_own = number_member(object, "fl_x") || number_member(object, "fl_y");
+  const auto width = number("w");
+  const auto height = number("h");
+  const auto focal_x = number("fl_x");
+  const auto focal_y = number("fl_y");
+  if ((!angles.x_rad || has_own) && width && focal_x && *focal_x > 0.0) {
+    angles.x_rad = 2.0 * std::atan(0.5 * *width / *focal_x);
   }
   const auto other = focal_y ? focal_y : focal_x;
-  if (!track.fov_y_rad && height && other && *other > 0.0) {
-    track.fov_y_rad = 2.0 * std::atan(0.5 * *height / *other);
+  if ((!angles.y_rad || has_own) && height && other && *other > 0.0) {
+    angles.y_rad = 2.0 * std::atan(0.5 * *height / *other);
   }
+  return angles;
+}
+
+/// Why a camera model has no field of view as a flat picture has; empty if it is one.
+std::string model_fault(const std::string& model) {
+  for (const std::string_view kind : {"FISHEYE", "EQUIRECTANGULAR", "fisheye", "equirectangular",
+                                      "VR180", "OMNIDIRECTIONAL", "omnidirectional"}) {
+    if (model.find(kind) != std::string::npos) {
+      return fmt::format("its camera is of the kind '{}', which is no flat picture", model);
+    }
+  }
+  return "";
+}
+
+std::string model_fault_of(const Field& root) {
+  const std::optional<Field> fisheye = root.optional_member("is_fisheye");
+  if (fisheye && !fisheye->is_null() && fisheye->boolean()) return model_fault("fisheye");
+  return model_fault(text_member(root, "camera_model"));
 }
 
 }  // namespace
@@ -116,11 +148,13 @@ base::Result<CameraTrack> read_nerfstudio(const CameraFile& file,
     if (!fps && seconds && *seconds > 0.0) fps = static_cast<double>(count) / *seconds;
     track.fps = frame_rate(options, fps, track.notes);
     const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
+    track.why_no_fov = model_fault(text_member(root, "camera_type"));
     for (std::size_t i = 0; i < count && !root.failed(); ++i) {
       const Field each = path.element(i);
       TrackKey key{static_cast<double>(i) / *track.fps,
                    pose_in(each.member("camera_to_world"), axes), std::nullopt};
-      if (const auto fov = number_member(each, "fov")) key.fov_y_rad = radians_of_nerf(*fov);
+      const auto fov = number_member(each, "fov");
+      if (fov && track.why_no_fov.empty()) key.fov_y_rad = radians_of_nerf(*fov);
       track.keys.push_back(key);
     }
     const auto width = number_member(root, "render_width");
@@ -167,15 +201,21 @@ base::Result<std::string> write_nerfstudio(const CameraTrack& track,
 base::Result<CameraTrack> read_transforms(const CameraFile& file,
                                           const CameraReadOptions& options) {
   return read_json(file, [&](const Field& root, CameraTrack& track) {
-    read_angles(root, track);
+    track.why_no_fov = model_fault_of(root);
+    const bool is_flat = track.why_no_fov.empty();
+    const auto width = number_member(root, "w");
+    const auto height = number_member(root, "h");
+    if (width && height && *width > 0.0 && *height > 0.0) track.aspect = *width / *height;
     const Field frames = root.member("frames");
     const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
     track.has_times = options.fps.has_value();
     track.fps = options.fps;
     for (std::size_t i = 0; i < frames.size() && !root.failed(); ++i) {
+      const Field frame = frames.element(i);
+      const ViewAngles angles = is_flat ? angles_in(frame, root) : ViewAngles{};
       track.keys.push_back({static_cast<double>(i) / options.fps.value_or(1.0),
-                            pose_in(frames.element(i).member("transform_matrix"), axes),
-                            std::nullopt});
+                            pose_in(frame.member("transform_matrix"), axes), angles.y_rad,
+                            angles.x_rad});
     }
   });
 }

@@ -2,6 +2,8 @@
 #include "tools/cameras/formats/scene_file_format.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,19 @@ std::string names_of(const std::vector<SceneFileCamera>& cameras) {
   return names;
 }
 
+/// Whether the file seems to animate a lens: by a channel of COLLADA, or a curve of FBX.
+bool animates_a_lens(std::string_view bytes) {
+  constexpr std::array<std::string_view, 6> kMarks = {
+      "/xfov\"",
+      "/yfov\"",
+      std::string_view("FocalLength\0\1AnimCurveNode", 26),
+      std::string_view("FieldOfView\0\1AnimCurveNode", 26),
+      "AnimCurveNode::FocalLength",
+      "AnimCurveNode::FieldOfView"};
+  return std::ranges::any_of(
+      kMarks, [&](std::string_view mark) { return bytes.find(mark) != std::string_view::npos; });
+}
+
 }  // namespace
 
 base::Result<CameraTrack> read_scene_file(const CameraFile& file,
@@ -49,8 +64,15 @@ base::Result<CameraTrack> read_scene_file(const CameraFile& file,
   track.fov_x_rad = camera->fov_x_rad;
   track.aspect = camera->aspect;
   track.near_m = camera->near_m;
-  track.notes.emplace_back(
-      "a lens that changes is not read; --fov-x-deg or --fov-y-deg gives its widest angle");
+  if (options.camera.empty() && cameras->size() > 1) {
+    track.notes.push_back(choice_note(camera->name, names_of(*cameras)));
+  }
+  if (animates_a_lens(file.bytes)) {
+    track.notes.emplace_back(
+        "a lens changes in the file, which is not read: the angle may be the narrowest, so give "
+        "the "
+        "widest with --fov-x-deg or --fov-y-deg");
+  }
   const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
   for (const scene::CameraFileKey& key : camera->keys) {
     const geometry::Quat orientation =

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,12 +13,11 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/planning/result/path_faults.h"
 #include "daemon/planning/stages/path_check.h"
+#include "tools/cameras/export/path_export.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/sparse_keys.h"
-#include "tools/camway/cameras/import_request.h"
 #include "tools/camway/cameras/played_proof.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
@@ -32,9 +30,6 @@ namespace camway::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Ten hours at 24 frames a second.
-constexpr double kMostFrames = 1e6;
 
 /// Which poses become keys of the written animation.
 enum class KeyChoice { kDense, kSparse };
@@ -58,43 +53,14 @@ struct ExportFlags {
   bool no_proof = false;
 };
 
-constexpr double kUsualRate = 24.0;
-
 /// The path that is exported, its request, and the file to write.
 struct ExportInput {
-  double fps = kUsualRate;
+  double fps = 0.0;
   PathFile response;
   RequestFile request;
   const CameraFormat* format = nullptr;
   CameraWriteOptions options;
 };
-
-/// The path at its keyframes. Leaves out those whose time is unknown.
-std::vector<TrackKey> keyframes_of(const PathFile& response) {
-  std::vector<TrackKey> keys;
-  for (const motion::Keyframe& keyframe : response.keyframes) {
-    if (!std::isfinite(keyframe.time_s)) continue;
-    keys.push_back({keyframe.time_s, response.path.pose(keyframe.time_s), std::nullopt});
-  }
-  return keys;
-}
-
-/// The stretches that corrections changed; none where the file is no whole response.
-std::vector<CorrectedStretch> corrections_of(const std::string& text) {
-  const base::Result<planning::PlanResult> response =
-      parse_as<planning::PlanResult>(text, "response");
-  std::vector<CorrectedStretch> stretches;
-  if (!response) return stretches;
-  for (const correction::Correction& each : response->corrections) {
-    if (each.kind == correction::CorrectionKind::kNone) continue;
-    const CorrectedStretch stretch{each.t_begin_s, each.t_end_s, each.moved_m};
-    // One correction may be that of several collisions.
-    const bool is_same = !stretches.empty() && stretches.back().t_begin_s == stretch.t_begin_s &&
-                         stretches.back().t_end_s == stretch.t_end_s;
-    if (!is_same) stretches.push_back(stretch);
-  }
-  return stretches;
-}
 
 base::Result<ExportInput> read_input(const ExportFlags& flags) {
   base::Result<RequestFile> request = read_request(flags.request);
@@ -104,41 +70,22 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   }
   const base::Result<std::string> answer = read_text(flags.response);
   if (!answer) return base::Failure{answer.error};
-  base::Result<PathFile> response = parse_as<PathFile>(*answer, source_of(flags.response));
-  if (!response) return base::Failure{response.error};
-  if (response->path.empty()) {
-    return base::Failure{source_of(flags.response) + ": has no path"};
-  }
-  if (const auto fault = planning::find_fault(response->path.segments())) {
-    return base::Failure{source_of(flags.response) + ": " + *fault};
-  }
   const base::Result<std::string> text = read_text(flags.request);
-  const CameraRemark remark = text ? camera_remark(*text) : CameraRemark{};
-  const double fps = flags.fps ? *flags.fps : remark.fps.value_or(kUsualRate);
-  if (frame_count(response->path, fps) > kMostFrames) {
-    return base::Failure{
-        fmt::format("{}: has more than {} frames", source_of(flags.response), kMostFrames)};
-  }
-  const motion::Camera& camera = request->camera;
-  if (!(camera.fov_x_rad > 0.0)) {
-    return base::Failure{source_of(flags.request) + ": camera: is missing"};
-  }
+  const ExportDocuments documents{text ? *text : std::string(), source_of(flags.request), *answer,
+                                  source_of(flags.response)};
+  base::Result<PathExport> path = path_export(*request, documents, flags.fps);
+  if (!path) return base::Failure{path.error};
   const CameraFormat* const format = camera_format(flags.format);
   if (flags.keys == KeyChoice::kSparse && !format->has_curves) {
     return base::Failure{"--keys sparse: " + flags.format +
                          " has no curves between keys; gltf has"};
   }
-  const std::string name = flags.name.value_or(remark.name.empty() ? "camera" : remark.name);
-  const bool is_text = fs::path(flags.out).extension() == ".gltf";
-  const CameraWriteOptions options{name,
-                                   camera.fov_x_rad,
-                                   camera.fov_y_rad,
-                                   camera.near_m * response->near_scale,
-                                   flags.width_px,
-                                   is_text,
-                                   corrections_of(*answer),
-                                   keyframes_of(*response)};
-  return ExportInput{fps, *std::move(response), *std::move(request), format, options};
+  CameraWriteOptions options = std::move(path->options);
+  if (flags.name) options.name = *flags.name;
+  options.width_px = flags.width_px;
+  options.is_text = fs::path(flags.out).extension() == ".gltf";
+  return ExportInput{path->fps, std::move(path->response), *std::move(request), format,
+                     std::move(options)};
 }
 
 /// Reads what was written back, as its consumer would.

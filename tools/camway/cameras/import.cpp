@@ -44,9 +44,12 @@ struct ImportFlags {
 base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraFormat*& format) {
   const base::Result<CameraFile> file = camera_file(flags.file);
   if (!file) return base::Failure{file.error};
+  if (const std::string why = why_unreadable(*file); !why.empty()) {
+    return base::Failure{flags.file + ": " + why};
+  }
   format = flags.format.empty() ? format_of(*file) : camera_format(flags.format);
   if (format == nullptr) {
-    return base::Failure{flags.file + ": is of no format that is known; --format names one"};
+    return base::Failure{flags.file + ": " + why_no_format(*file)};
   }
   CameraReadOptions options = flags.read;
   if (!flags.times.empty()) {
@@ -55,6 +58,10 @@ base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraForma
     options.times = *times;
   }
   base::Result<CameraTrack> track = read_camera(*format, *file, options);
+  if (!track && flags.format.empty()) {
+    return base::Failure{
+        fmt::format("{} (read as {}; --format names another)", track.error, format->name)};
+  }
   if (track && track->keys.size() < 2) {
     return base::Failure{flags.file + ": has one pose; a path needs two"};
   }
@@ -133,6 +140,8 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
   command.add_option("--format", flags.format, "What the file is, if its name does not say so")
       ->check(cli_support::one_of(names));
   command.add_option("--camera", flags.read.camera, "Name of the camera [the animated one]");
+  command.add_option("--animation", flags.read.animation,
+                     "Name of the animation of a glTF file [the first that moves the camera]");
   command.add_option("--times", flags.times, "File with a time in seconds in each line, for KITTI")
       ->type_name("FILE");
   command.add_option("--fps", flags.read.fps, "Frames a second, of files that count frames")
@@ -158,10 +167,12 @@ void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
 }
 
 void add_lens_flags(CLI::App& command, ImportFlags& flags) {
+  const CLI::Validator angle = cli_support::number_in(
+      {"above 0 and below 180", [](double deg) { return deg > 0.0 && deg < 180.0; }});
   command.add_option("--fov-x-deg", flags.lens.fov_x_deg, "Full angle of view across")
-      ->check(cli_support::above_0());
+      ->check(angle);
   command.add_option("--fov-y-deg", flags.lens.fov_y_deg, "Full angle of view upwards")
-      ->check(cli_support::above_0());
+      ->check(angle);
   command.add_option("--aspect", flags.lens.aspect, "Width of the picture divided by its height")
       ->check(cli_support::above_0());
   command.add_option("--near-m", flags.lens.near_m, "Near distance")->check(cli_support::above_0());

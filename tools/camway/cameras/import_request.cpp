@@ -9,6 +9,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/scene/import/record/import_words.h"
+#include "tools/cameras/export/path_export.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -18,7 +19,6 @@ using geometry::Quat;
 using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRemark = "_camera";
 constexpr double kUsualAspect = 16.0 / 9.0;
 constexpr double kUsualNear_m = 0.1;
 
@@ -50,7 +50,8 @@ Vec3 turned(const Vec3& p, scene::UpAxis up) {
 
 bool changes_lens(const CameraTrack& track) {
   for (const TrackKey& key : track.keys) {
-    if (key.fov_y_rad != track.keys.front().fov_y_rad) return true;
+    const TrackKey& first = track.keys.front();
+    if (key.fov_y_rad != first.fov_y_rad || key.fov_x_rad != first.fov_x_rad) return true;
   }
   return false;
 }
@@ -65,18 +66,22 @@ double aspect_of(CameraTrack& track, const ImportLens& lens) {
 }  // namespace
 
 base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens) {
-  std::optional<double> fov_x_rad = track.fov_x_rad;
+  std::optional<double> fov_x_rad = widest_fov_x_rad(track);
   std::optional<double> fov_y_rad = widest_fov_y_rad(track);
   if (lens.fov_x_deg || lens.fov_y_deg) {
     fov_x_rad = fov_y_rad = std::nullopt;
     if (lens.fov_x_deg) fov_x_rad = radians(*lens.fov_x_deg);
     if (lens.fov_y_deg) fov_y_rad = radians(*lens.fov_y_deg);
   } else if (changes_lens(track)) {
-    track.notes.push_back(fmt::format("the lens changes: its widest angle counts, {:.4g} degrees",
-                                      degrees(fov_y_rad.value_or(0.0))));
+    track.notes.push_back(
+        fmt::format("the lens changes: its widest angle counts, {:.4g} degrees {}",
+                    degrees(fov_y_rad ? *fov_y_rad : fov_x_rad.value_or(0.0)),
+                    fov_y_rad ? "upwards" : "across"));
   }
   if (!fov_x_rad && !fov_y_rad) {
-    return base::Failure{"states no field of view: give --fov-y-deg, and --aspect or --fov-x-deg"};
+    return base::Failure{"states no field of view" +
+                         (track.why_no_fov.empty() ? "" : " (" + track.why_no_fov + ")") +
+                         ": give --fov-y-deg, and --aspect or --fov-x-deg"};
   }
   if (!fov_x_rad) fov_x_rad = fov_across_rad(*fov_y_rad, aspect_of(track, lens));
   if (!fov_y_rad) fov_y_rad = fov_across_rad(*fov_x_rad, 1.0 / aspect_of(track, lens));
@@ -86,19 +91,6 @@ base::Result<RequestCamera> camera_of(CameraTrack& track, const ImportLens& lens
         fmt::format("the near distance is not stated: {} m is assumed (--near-m)", kUsualNear_m));
   }
   return RequestCamera{*fov_x_rad, *fov_y_rad, near_m.value_or(kUsualNear_m)};
-}
-
-CameraRemark camera_remark(const std::string& request_text) {
-  const nlohmann::json request = nlohmann::json::parse(request_text, nullptr, false);
-  CameraRemark remark;
-  if (!request.is_object() || !request.contains(kRemark)) return remark;
-  const nlohmann::json& camera = request[kRemark];
-  if (!camera.is_object()) return remark;
-  if (camera.contains("name") && camera["name"].is_string()) camera["name"].get_to(remark.name);
-  if (camera.contains("fps") && camera["fps"].is_number() && camera["fps"].get<double>() > 0.0) {
-    remark.fps = camera["fps"].get<double>();
-  }
-  return remark;
 }
 
 void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
@@ -122,8 +114,8 @@ void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up) {
 Json request_json(const CameraTrack& track, const ThinnedTrack& kept, const RequestCamera& camera,
                   const RequestScene& scene) {
   Json json;
-  json[kRemark] = {{"name", track.name}};
-  if (track.fps) json[kRemark]["fps"] = *track.fps;
+  json[kCameraRemark] = {{"name", track.name}};
+  if (track.fps) json[kCameraRemark]["fps"] = *track.fps;
   if (!scene.file.empty()) json["scene"] = scene.file;
   if (scene.scale != 1.0) json["scale"] = scene.scale;
   if (scene.up != scene::UpAxis::kAsInFile) json["up"] = base::name_of(scene.up);

@@ -43,14 +43,6 @@ struct RequestScene {
   scene::UpAxis up = scene::UpAxis::kAsInFile;
 };
 
-/// The remark of a request from which `export` writes a file of the same kind again.
-struct CameraRemark {
-  std::string name;
-  std::optional<double> fps;
-};
-/// Returns the remark of a request file; empty where it has none.
-CameraRemark camera_remark(const std::string& request_text);
-
 /// Returns the request as JSON, with the kept keys as keyframes and the remark of its camera.
 nlohmann::ordered_json request_json(const CameraTrack& track, const ThinnedTrack& kept,
                                     const RequestCamera& camera, const RequestScene& scene);

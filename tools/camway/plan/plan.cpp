@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tools/answers/plan_answer.h"
+#include "tools/answers/scene_record.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
@@ -85,12 +86,14 @@ void answer_here(const PlanFlags& flags, const std::string& file, const RequestF
         invalid(source_of(file) + ": scene: is missing, and there is no --scene or --daemon");
     return;
   }
-  const LoadedScene& scene = scenes.load(answer.scene, flags.scene.import_options(request.reading));
+  const scene::ImportOptions reading = flags.scene.import_options(request.reading);
+  const LoadedScene& scene = scenes.load(answer.scene, reading);
   if (!scene.result.snapshot) {
     answer.result = invalid(scene.result.error);
     return;
   }
   answer.mesh = scene.result.snapshot->mesh.share();
+  answer.scene_reading = reading;
   plan_in_scene(*scene.result.snapshot, request,
                 base::Deadline::after_s(request.options.deadline_s), answer);
   answer.result.timing.load_scene_ms = scene.load_ms;
@@ -108,6 +111,7 @@ void answer_by_daemon(const PlanFlags& flags, const std::string& file, const Req
     return;
   }
   answer.scene_digest = response.scene_digest;
+  answer.vertical_axis = vertical_axis(std::nullopt, request);
   answer.result = to_plan_result(response);
 }
 
@@ -326,8 +330,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "and how hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "With --daemon a running daemon plans, and the response is the same, except that it has the "
-      "name of\nthe daemon's scene, and neither the warnings of its import nor the time of loading "
-      "it.\n"
+      "name of\nthe daemon's scene, and neither scene_reading, the warnings of its import nor the "
+      "time of "
+      "loading it.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tools/answers/plan_answer.h"
+#include "tools/answers/scene_record.h"
 #include "tools/support/client_request.h"
 #include "tools/support/client_response.h"
 #include "tools/support/watch_event_name.h"
@@ -60,6 +61,7 @@ tools::PlanAnswer to_plan_answer(const PlanResponse& response, const PlanOrder& 
   tools::PlanAnswer answer;
   answer.scene = order.scene;
   answer.scene_digest = response.scene_digest;
+  answer.vertical_axis = tools::vertical_axis(std::nullopt, order.request);
   answer.request_warnings = tools::request_warnings(order.request);
   answer.result = tools::to_plan_result(response);
   return answer;

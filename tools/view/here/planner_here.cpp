@@ -139,6 +139,7 @@ class PlannerHere final : public Backend {
   PlannerHere(std::shared_ptr<const scene::Snapshot> snapshot, const HereOptions& options)
       : name_(snapshot->name),
         text_(options.scene_text.empty() ? name_ : options.scene_text),
+        reading_(options.scene_reading),
         pool_(options.threads) {
     store_.put(std::move(snapshot), {.operation = "load"});
     store_.on_change([this] { watchers_->tell(scenes_event()); });
@@ -182,6 +183,7 @@ class PlannerHere final : public Backend {
 
   const std::string name_;
   const std::string text_;
+  const std::optional<scene::ImportOptions> reading_;
   scene::SceneStore store_;
   const std::shared_ptr<SceneWatchers> watchers_ = std::make_shared<SceneWatchers>();
   std::stop_source all_;
@@ -223,6 +225,7 @@ Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const 
       base::Deadline::after_s(deadline_s).watched(stop.get_token(), state);
   tools::PlanAnswer answer;
   answer.scene = text_;
+  answer.scene_reading = reading_;
   {
     const ProgressTicker::Entry entry = ticker_.enter(progress, state, deadline, deadline_s);
     tools::plan_in_scene(*snapshot, order.request, deadline, answer);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "daemon/scene/snapshot/snapshot.h"
@@ -13,6 +14,8 @@ struct HereOptions {
   int threads = 2;  ///< plans at a time, each on as many processors as it can use
   /// The name that answers give as their scene, as those of `camway plan` do.
   std::string scene_text = {};
+  /// How the file of the scene was read, which answers say; nothing if it is unknown.
+  std::optional<scene::ImportOptions> scene_reading = {};
 };
 
 /// Returns a backend that plans in this process, in the scene of `snapshot`, which changes as

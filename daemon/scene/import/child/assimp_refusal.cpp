@@ -39,6 +39,10 @@ std::string refusal_of_assimp(std::string_view extension, std::string_view begin
     return "is of the schema IFC4, of which assimp reads a part only (" + error +
            "): export it as IFC2x3, or as glTF";
   }
+  // The name of what its reader threw, which says nothing to people.
+  if (error.starts_with("std::")) {
+    return "it is damaged, or has what assimp does not know (" + error + ")";
+  }
   return error;
 }
 

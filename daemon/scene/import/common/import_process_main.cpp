@@ -109,7 +109,9 @@ int run(int argc, char** argv, const std::function<void()>& prepare,
   try {
     code = import(argv[1]);
   } catch (const std::exception& e) {
-    code = refuse(e.what());
+    // What a library throws is the name of a C++ type often enough.
+    code = refuse(std::string("it is damaged, or has what its reader does not know (") + e.what() +
+                  ")");
   }
   // The output is complete; the destructors of libraries at exit could only fail.
   _exit(code);

@@ -7,6 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "daemon/scene/import/readers/tokens.h"
+
 namespace camway::scene {
 namespace {
 
@@ -23,6 +25,7 @@ base::Result<IncludedFile> open_below(const fs::path& folder, const std::string&
   std::ifstream stream(*path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream) return base::Failure{"cannot be read"};
+  text = mesh_readers::without_bom(text);
   return IncludedFile{path->lexically_relative(folder).string(), std::move(text)};
 }
 

@@ -79,9 +79,10 @@ void add_note(Record& record, std::uint64_t count, const std::string& text,
 
 void add_notes(Record& record, const SceneGraph& graph, const ShapeCounts& shapes) {
   constexpr std::string_view kMark = import_record::kWarningMark;
-  add_note(record, graph.is_vrml ? "VRML is in metres and Y is up, by its specification"
-                                 : "Open Inventor is in metres unless a Units node says otherwise, "
-                                   "and states no axes");
+  add_note(record, graph.is_vrml     ? "VRML is in metres and Y is up, by its specification"
+                   : graph.has_units ? "a Units node of the file is applied; it states no axes"
+                                     : "Open Inventor is in metres unless a Units node says "
+                                       "otherwise, and states no axes");
   add_note(record, graph.inline_files, "inline files were read");
   for (const std::string& url : graph.not_fetched) {
     add_note(record, std::string(kMark) +
@@ -141,7 +142,7 @@ base::Result<Record> read_inventor(std::string_view bytes, const SceneFolder& fo
   record.header.single_precision = 1;
   record.header.absolute_rounding = shapes.rounding;
   record.header.surface_error = shapes.surface_error;
-  record.header.unit_m = graph->is_vrml ? 1.0 : 0.0;
+  record.header.unit_m = graph->is_vrml || graph->has_units ? 1.0 : 0.0;
   add_notes(record, *graph, shapes);
   return record;
 }

@@ -10,6 +10,7 @@
 #include <Inventor/nodes/SoLOD.h>
 #include <Inventor/nodes/SoLevelOfDetail.h>
 #include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoUnits.h>
 #include <Inventor/nodes/SoWWWInline.h>
 
 #include <algorithm>
@@ -26,6 +27,14 @@ namespace camway::scene::inventor {
 namespace {
 
 using Fault = std::string;  ///< empty if there is none
+
+/// Coin knows an EXTERNPROTO only by the file that it names, and no file is fetched for it.
+Fault with_advice(const std::string& error) {
+  if (error.find("EXTERNPROTO") == Fault::npos) return error;
+  return error +
+         ": prototypes of other files are not read; write their nodes into this file, or "
+         "export glTF";
+}
 
 /// Types whose nodes are no geometry and change none, but which a user may look for.
 constexpr std::array kIgnoredTypes = {"Light",
@@ -137,7 +146,7 @@ class GraphReader {
     if (root != nullptr) root->ref();
     if (!input.fault().empty()) return input.fault();
     CoinMessages messages = take_messages();
-    if (!messages.errors.empty()) return messages.errors.front();
+    if (!messages.errors.empty()) return with_advice(messages.errors.front());
     if (root == nullptr) return "is no Open Inventor or VRML file";
     for (std::string& warning : messages.warnings) graph_.warnings.push_back(std::move(warning));
     if (name.empty()) note_format(input);
@@ -174,6 +183,7 @@ class GraphReader {
     if (std::ranges::any_of(ignored_, is_kind)) {
       ++graph_.ignored[node.getTypeId().getName().getString()];
     }
+    graph_.has_units = graph_.has_units || node.isOfType(SoUnits::getClassTypeId());
     if (node.isOfType(SoLOD::getClassTypeId())) {
       auto& lod = static_cast<SoLOD&>(node);
       lod.range.setNum(0);

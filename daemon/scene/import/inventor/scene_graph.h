@@ -23,6 +23,7 @@ struct SceneGraph {
   SoSeparator* root = nullptr;  ///< kept until the process ends
   std::string format;           ///< "Open Inventor 2.1", "VRML 97, binary"
   bool is_vrml = false;
+  bool has_units = false;  ///< a node Units, which Coin applies
   std::uint64_t inline_files = 0;
   std::uint64_t nodes = 0;
   std::uint64_t coarse_levels =

@@ -11,6 +11,13 @@ constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f' || c == '\0';
 }
 
+/// `text` without the mark that some editors put before UTF-8.
+constexpr std::string_view without_bom(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 /// Removes the next word from `text` and returns it; empty exactly if there is none.
 inline std::string_view take_token(std::string_view& text) {
   std::size_t begin = 0;

@@ -20,9 +20,6 @@ namespace layout = import_record;
 using geometry::Vec3;
 using layout::Record;
 
-/// Units of length that a file may state: from the picometre to the parsec.
-constexpr double kSmallestUnit_m = 1e-12;
-constexpr double kLargestUnit_m = 1e17;
 constexpr std::size_t kMostNotes = 50;
 constexpr std::size_t kLongestNote = 500;
 
@@ -57,7 +54,7 @@ class RecordReader {
 
 /// False for NaN.
 bool is_sound_unit(double unit_m) {
-  return unit_m == 0.0 || (unit_m >= kSmallestUnit_m && unit_m <= kLargestUnit_m);
+  return unit_m == 0.0 || (unit_m >= layout::kSmallestUnit_m && unit_m <= layout::kLargestUnit_m);
 }
 
 bool parse(std::span<const std::byte> bytes, Record& record) {

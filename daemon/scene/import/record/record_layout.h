@@ -33,6 +33,10 @@ inline constexpr int kExitOutOfMemory = 41;  ///< nothing was written
 inline constexpr int kExitInternal = 42;     ///< bad arguments, or writing failed
 inline constexpr int kExitNotConfined = 43;  ///< seccomp does not work here, so nothing was read
 
+/// Units of length that a file may state: from the picometre to the parsec.
+inline constexpr double kSmallestUnit_m = 1e-12;
+inline constexpr double kLargestUnit_m = 1e17;
+
 struct Header {
   std::uint64_t magic = kMagic;
   std::uint64_t text_bytes = 0;  ///< size of the format's name, or of the error

@@ -45,6 +45,7 @@ TEST_F(InventorFiles, EachLanguageIsNamed) {
   EXPECT_EQ(read(kVrml1, "Cube { }", "a.wrl").report.format, "VRML 1.0");
   EXPECT_EQ(read(kVrml97, "Shape { geometry Box { } }", "a.WRL").report.format, "VRML 97");
   EXPECT_EQ(read(kInventor, "Cube { }").report.unit_m, 0.0);
+  EXPECT_EQ(read(kInventor, "Units { units INCHES } Cube { }").report.unit_m, 1.0);
   EXPECT_EQ(read(kVrml1, "Cube { }", "a.wrl").report.unit_m, 1.0);
   EXPECT_TRUE(read(kInventor, "Cube { }").report.single_precision);
 }
@@ -83,6 +84,9 @@ TEST_F(InventorFiles, WhatCoinCannotReadIsSaidWithItsLine) {
   EXPECT_THAT(refusal(kInventor, "Cube {\n  colour 1\n}\n"),
               EndsWith("cannot be read: Unknown field \"colour\" in \"Cube\", at line 3"));
   EXPECT_THAT(refusal(kInventor, "Separator {\n Cube {"), HasSubstr("at line 3"));
+  EXPECT_THAT(refusal(kVrml97, "EXTERNPROTO A [ ] \"b.wrl\"\nA { }", "a.wrl"),
+              HasSubstr("prototypes of other files are not read"));
+  EXPECT_EQ(read("\xEF\xBB\xBF" + std::string(kInventor), "Cube { }").report.triangles, 12U);
   EXPECT_THAT(refusal("", "Cube { }"), EndsWith("does not begin with '#Inventor V' or '#VRML V'"));
 }
 

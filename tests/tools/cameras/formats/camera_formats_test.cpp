@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "tests/tools/cameras/formats/read_format.h"
 #include "tests/tools/cameras/random_track.h"
 #include "tools/cameras/formats/camera_format.h"
 
@@ -16,38 +17,18 @@ namespace {
 using geometry::Quat;
 using geometry::Vec3;
 using ::testing::Contains;
+using testing::error_of;
+using testing::expect_near;
+using testing::file_of;
+using testing::Files;
 using ::testing::HasSubstr;
+using testing::kDegree;
+using testing::look;
 using testing::Random;
+using testing::sound;
+using testing::top;
 
 constexpr std::uint64_t kFormatsSeed = 20260603;
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-using Files = std::map<std::string, std::string>;
-
-CameraFile file_of(const std::string& name, const std::string& bytes, const Files& others = {}) {
-  return {name, bytes, [others](const std::string& other) -> base::Result<std::string> {
-            const auto found = others.find(other);
-            if (found == others.end()) return base::Failure{"is not there"};
-            return found->second;
-          }};
-}
-
-CameraTrack sound(std::string_view format, const std::string& text,
-                  const CameraReadOptions& options = {}, const Files& others = {}) {
-  const auto track = read_camera(*camera_format(format), file_of("f", text, others), options);
-  EXPECT_EQ(track.error, "");
-  return track ? *track : CameraTrack{};
-}
-
-std::string error_of(std::string_view format, const std::string& text) {
-  return read_camera(*camera_format(format), file_of("f", text), {}).error;
-}
-
-/// The direction in which the camera looks, and that of the top of its picture.
-Vec3 look(const TrackKey& key) { return key.pose_W.orientation * -Vec3::UnitZ(); }
-Vec3 top(const TrackKey& key) { return key.pose_W.orientation * Vec3::UnitY(); }
-
-void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT((a - b).norm(), 1e-6) << a.transpose(); }
 
 TEST(CameraFormats, ReadBackWhatTheyWrite) {
   Random random(kFormatsSeed);
@@ -103,55 +84,35 @@ TEST(CameraFormats, KnowTheirFilesByNameAndContent) {
   EXPECT_EQ(name_of("a.txt", "# t x y z\n\n1 2 3 4 5 6 7 8\n"), "tum");
   EXPECT_EQ(name_of("a.txt", "1 2 3 4 5 6 7 8 9 10 11 12\n"), "kitti");
   EXPECT_EQ(name_of("a.txt", "hello\n"), "none");
+  // The content counts where names say nothing.
+  EXPECT_EQ(name_of("images.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), "kitti");
+  EXPECT_EQ(name_of("images.txt", "# x\n1 1 0 0 0 0 0 0 1 a.png\n\n"), "colmap");
+  EXPECT_EQ(name_of("poses.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n"), "colmap");
+  EXPECT_EQ(name_of("a.fbx", "glTF\2"), "gltf");
+  EXPECT_EQ(name_of("a.txt",
+                    "\xEF\xBB\xBF"
+                    "1 2 3 4 5 6 7 8\n"),
+            "tum");
 }
 
-TEST(CameraFormats, TakeCamerasOfRobotsToLookAlongZ) {
-  // Identity: looks along +Z, the top of its picture is -Y.
-  const CameraTrack track = sound("tum", "# comment\n5 1 2 3 0 0 0 1\n6 1 2 4 0 0 0 2\n");
-  EXPECT_EQ(track.keys[0].time_s, 5.0);
-  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(1, 2, 3));
-  expect_near(look(track.keys[0]), Vec3::UnitZ());
-  expect_near(top(track.keys[0]), -Vec3::UnitY());
-  CameraReadOptions gl;
-  gl.axes = CameraAxes::kGl;
-  expect_near(look(sound("tum", "5 1 2 3 0 0 0 1\n6 1 2 4 0 0 0 2\n", gl).keys[0]), -Vec3::UnitZ());
-}
-
-TEST(CameraFormats, ReadMatricesOfKitti) {
-  // A quarter turn about Y: the camera's +Z, where it looks, is the world's +X.
-  const std::string row = "0 0 1 10 0 1 0 20 -1 0 0 30\n";
-  CameraReadOptions options;
-  options.times = "0.5\n0.75\n";
-  const CameraTrack track = sound("kitti", row + row, options);
-  EXPECT_EQ(track.keys[1].time_s, 0.75);
-  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(10, 20, 30));
-  expect_near(look(track.keys[0]), Vec3::UnitX());
-  EXPECT_FALSE(sound("kitti", row + row).has_times);
-  options.times = "1\n";
-  EXPECT_THAT(read_camera(*camera_format("kitti"), file_of("f", row + row), options).error,
-              HasSubstr("has 2 poses, but there are 1 times"));
-}
-
-TEST(CameraFormats, FindColumnsByTheirNames) {
-  const CameraTrack track = sound("csv",
-                                  "qw,qx,qy,qz,ignored,pos_z,pos_y,pos_x,time_s,fov_y_deg\n"
-                                  "1,0,0,0,9,3,2,1,0.5,40\n1,0,0,0,9,3,2,1,1.5,40\n");
-  EXPECT_EQ(track.keys[0].pose_W.position, Vec3(1, 2, 3));
-  EXPECT_EQ(track.keys[1].time_s, 1.5);
-  expect_near(look(track.keys[0]), -Vec3::UnitZ());
-  EXPECT_NEAR(*track.keys[0].fov_y_rad, 40.0 * kDegree, 1e-12);
-  EXPECT_THAT(error_of("csv", "a,b\n1,2\n"), HasSubstr("names no columns"));
-}
-
-TEST(CameraFormats, ReadNanosecondsOfEuroc) {
-  const CameraTrack track =
-      sound("csv",
-            "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y "
-            "[], q_RS_z []\n1403715524907143168,0.5,1.9,0.9,1,0,0,0\n"
-            "1403715524912143104,0.6,1.9,0.9,1,0,0,0\n");
-  EXPECT_NEAR(track.keys[1].time_s - track.keys[0].time_s, 0.005, 1e-6);
-  EXPECT_THAT(track.notes, Contains(HasSubstr("IMU")));
-  expect_near(look(track.keys[0]), Vec3::UnitZ());
+TEST(CameraFormats, SayWhyAFileIsNone) {
+  const auto why = [](const std::string& name, const std::string& bytes) {
+    const CameraFile file = file_of(name, bytes);
+    const std::string unreadable = why_unreadable(file);
+    return unreadable.empty() ? why_no_format(file) : unreadable;
+  };
+  EXPECT_EQ(why("a.csv", " \n"), "is empty");
+  EXPECT_EQ(why("a.csv", "\xFF\xFEt"), "is UTF-16: save it as UTF-8, or as plain CSV");
+  EXPECT_THAT(why("a.glb", "Kaydara FBX Binary  "), HasSubstr("rename it to .fbx"));
+  EXPECT_THAT(why("a.blend", "x"), HasSubstr("use the add-on"));
+  EXPECT_THAT(why("a.bag", "x"), HasSubstr("write the poses as TUM"));
+  EXPECT_THAT(why("a.usdz", "x"), HasSubstr("USD is not supported"));
+  EXPECT_THAT(why("a.json", "{\n\"a\": }"), HasSubstr("line 2"));
+  EXPECT_THAT(why("a.json", "{}"), HasSubstr("has neither 'camera_path'"));
+  EXPECT_THAT(why("a.json", R"({"camera": {}, "keyframes": []})"), HasSubstr("camway plan"));
+  EXPECT_THAT(why("a.csv", "t,x,y\n"), HasSubstr("line 1 names no column for z, qw"));
+  EXPECT_THAT(why("a.txt", "# r\n1 2 3\n"), HasSubstr("Its first line has 3 words"));
+  EXPECT_THAT(why("a.dat", std::string("a\0b", 3)), HasSubstr("is binary"));
 }
 
 TEST(CameraFormats, TurnChannelsInTheOrderZxy) {
@@ -196,18 +157,18 @@ TEST(CameraFormats, ReadPathsOfNerfstudio) {
               HasSubstr("camera_path[0].camera_to_world: must be 16 numbers, or 3 or 4 rows of 4"));
   EXPECT_THAT(error_of("nerfstudio", R"({"camera_path": [{"camera_to_world":
               [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})"),
-              HasSubstr("has no rotation"));
+              HasSubstr("is no rotation: it mirrors"));
 }
 
 TEST(CameraFormats, ReadAnglesOfTransforms) {
   const std::string frames =
       R"("frames": [{"transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}])";
-  EXPECT_NEAR(*sound("transforms", R"({"camera_angle_x": 0.7, )" + frames + "}").fov_x_rad, 0.7,
-              1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(sound("transforms", R"({"camera_angle_x": 0.7, )" + frames + "}")),
+              0.7, 1e-12);
   const CameraTrack track =
       sound("transforms", R"({"fl_x": 50, "w": 100, "h": 50, )" + frames + "}");
-  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
-  EXPECT_NEAR(*track.fov_y_rad, 2.0 * std::atan(0.5), 1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(track), 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_y_rad(track), 2.0 * std::atan(0.5), 1e-12);
   EXPECT_FALSE(track.has_times);
 }
 
@@ -224,17 +185,52 @@ TEST(CameraFormats, ReadEverySecondLineOfColmap) {
   expect_near(track.keys[0].pose_W.position, Vec3(1, 0, 5));
   expect_near(track.keys[1].pose_W.position, Vec3(0, 0, 5));
   expect_near(look(track.keys[0]), -Vec3::UnitZ());
-  EXPECT_NEAR(*track.fov_x_rad, 90.0 * kDegree, 1e-12);
-  EXPECT_NEAR(*track.fov_y_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_x_rad(track), 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*widest_fov_y_rad(track), 90.0 * kDegree, 1e-12);
+}
+
+TEST(CameraFormats, ReadTheLensOfEachFrame) {
+  const std::string matrix = R"("transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]])";
+  const std::string file = R"({"w": 100, "h": 100, "frames": [{"fl_x": 50, )" + matrix +
+                           R"(}, {"fl_x": 25, )" + matrix + "}]}";
+  const CameraTrack track = sound("transforms", file);
+  EXPECT_NEAR(*track.keys[0].fov_x_rad, 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(*track.keys[1].fov_x_rad, 2.0 * std::atan(2.0), 1e-12);
+  EXPECT_NEAR(*track.keys[1].fov_y_rad, 2.0 * std::atan(2.0), 1e-12);
+  EXPECT_THAT(
+      error_of("transforms", R"({"frames": [{"transform_matrix":
+              [[1,0.5,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]})"),
+      HasSubstr("frames[0].transform_matrix: is no rotation: its columns are not at right"));
+  // Each image of COLMAP has its camera.
+  const CameraTrack images =
+      sound("colmap", "1 1 0 0 0 0 0 0 1 a\n\n2 1 0 0 0 0 0 0 2 b\n\n", {},
+            {{"cameras.txt", "1 PINHOLE 100 50 50 25 50 25\n2 SIMPLE_RADIAL 100 50 25 50 25 0\n"}});
+  EXPECT_NEAR(*widest_fov_x_rad(images), 2.0 * std::atan(2.0), 1e-12);
+}
+
+TEST(CameraFormats, TakeNoAngleOfWhatIsNoFlatPicture) {
+  const std::string frames =
+      R"("frames": [{"transform_matrix": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]})";
+  const std::string sizes = R"("fl_x": 50, "w": 100, "h": 50, )";
+  for (const std::string kind :
+       {R"("camera_model": "OPENCV_FISHEYE", )", R"("is_fisheye": true, )"}) {
+    const CameraTrack track = sound("transforms", "{" + kind + sizes + frames);
+    EXPECT_FALSE(widest_fov_x_rad(track)) << kind;
+    EXPECT_THAT(track.why_no_fov, HasSubstr("which is no flat picture"));
+  }
+  const CameraTrack path = sound("nerfstudio", R"({"fps": 10, "camera_type": "equirectangular",
+      "camera_path": [{"camera_to_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "fov": 50}]})");
+  EXPECT_FALSE(widest_fov_y_rad(path));
+  EXPECT_THAT(path.why_no_fov, HasSubstr("'equirectangular'"));
+  const std::string image = "1 1 0 0 0 0 0 0 1 a\n\n";
+  EXPECT_THAT(sound("colmap", image, {}, {{"cameras.txt", "1 OPENCV_FISHEYE 9 9 9 9 9 9 0 0\n"}})
+                  .why_no_fov,
+              HasSubstr("the model OPENCV_FISHEYE"));
+  EXPECT_EQ(sound("colmap", image).why_no_fov, "cameras.txt beside it is not there");
+  EXPECT_THAT(error_of("chan", "1 0 0 0 0 0 0 200\n"), HasSubstr("200 degrees"));
 }
 
 TEST(CameraFormats, NameWhatIsWrong) {
-  EXPECT_EQ(error_of("tum", "1 2 3\n"), "f: line 1: has 3 numbers, not 8");
-  EXPECT_EQ(error_of("tum", "\n1 2 3 x 5 6 7 8\n"), "f: line 2: 'x' is no number");
-  EXPECT_EQ(error_of("tum", ""), "f: it has no poses");
-  EXPECT_EQ(error_of("tum", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
-            "f: pose 1: its time is not later than that of the pose before");
-  EXPECT_EQ(error_of("tum", "1 0 0 0 0 0 0 0\n"), "f: pose 0: its orientation has no direction");
   EXPECT_THAT(error_of("colmap", "1 1 0 0 0 0 0\n"), HasSubstr("line 1: has 7 words, not 10"));
   EXPECT_THAT(error_of("transforms", "{"), HasSubstr("f: line 1"));
 }

@@ -56,15 +56,32 @@ class Document {
                                      {"target", {{"node", node}, {"path", path}}}});
   }
   [[nodiscard]] base::Result<CameraTrack> read(const CameraReadOptions& options = {}) const {
-    const std::string bytes = bytes_;
     return read_gltf({"f.gltf", root_.dump(),
-                      [bytes](const std::string&) -> base::Result<std::string> { return bytes; }},
+                      [this](const std::string& name) -> base::Result<std::string> {
+                        opened_.push_back(name);
+                        return bytes_;
+                      }},
                      options);
+  }
+  /// The files that were opened.
+  [[nodiscard]] const std::vector<std::string>& opened() const { return opened_; }
+
+  void animate_by_pointer(const std::string& pointer, const std::vector<float>& times,
+                          const std::vector<float>& values, const std::string& type,
+                          std::size_t parts) {
+    json& animation = root_["animations"][0];
+    const std::size_t input = add(times, "SCALAR", 1);
+    animation["samplers"].push_back({{"input", input}, {"output", add(values, type, parts)}});
+    json target = {{"path", "pointer"}};
+    target["extensions"]["KHR_animation_pointer"]["pointer"] = pointer;
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size() - 1}, {"target", target}});
   }
 
  private:
   json root_;
   std::string bytes_;
+  mutable std::vector<std::string> opened_;
 };
 
 TEST(GltfReader, TakesKeysOfACameraThatAloneMoves) {
@@ -157,6 +174,62 @@ TEST(GltfReader, ChoosesTheCameraByName) {
   EXPECT_EQ(other->keys[0].pose_W.position, Vec3(7, 8, 9));
   options.camera = "none";
   EXPECT_EQ(document.read(options).error, "has no camera 'none': eye, other");
+}
+
+TEST(GltfReader, TakesTheWidestAngleOfALensThatChanges) {
+  Document document;
+  document.animate(0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  document.animate_by_pointer("/cameras/0/perspective/yfov", {0, 1, 2}, {0.4F, 1.25F, 0.6F},
+                              "SCALAR", 1);
+  const auto track = document.read();
+  ASSERT_TRUE(track) << track.error;
+  EXPECT_NEAR(*track->fov_y_rad, 1.25, 1e-6);
+  EXPECT_THAT(track->notes, Contains(HasSubstr("the lens changes: its widest angle counts")));
+}
+
+TEST(GltfReader, FollowsPointersToNodes) {
+  Document document;
+  document.animate_by_pointer("/nodes/0/translation", {0, 1}, {0, 0, 0, 4, 0, 0}, "VEC3", 3);
+  const auto track = document.read();
+  ASSERT_TRUE(track) << track.error;
+  ASSERT_EQ(track->keys.size(), 2U);
+  EXPECT_EQ(track->keys[1].pose_W.position, Vec3(4, 0, 0));
+}
+
+TEST(GltfReader, SaysWhatItLeavesOut) {
+  Document document;
+  document.animate(0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  document.root()["animations"][0]["name"] = "first";
+  document.root()["animations"].push_back(document.root()["animations"][0]);
+  document.root()["animations"][1]["name"] = "second";
+  document.root()["animations"][1]["samplers"][0]["output"] =
+      document.add({0, 0, 0, 0, 5, 0}, "VEC3", 3);
+  EXPECT_THAT(document.read()->notes,
+              Contains(HasSubstr("animation 'second' moves the camera, too, and was not read")));
+  CameraReadOptions options;
+  options.animation = "second";
+  const auto second = document.read(options);
+  ASSERT_TRUE(second) << second.error;
+  EXPECT_EQ(second->keys[1].pose_W.position, Vec3(0, 5, 0));
+  options.animation = "third";
+  EXPECT_EQ(document.read(options).error, "has no animation 'third': first, second");
+  document.root()["nodes"].push_back({{"name", "other"}, {"camera", 0}});
+  EXPECT_THAT(document.read()->notes,
+              Contains(HasSubstr("camera 'eye' was taken of several, the first that moves "
+                                 "(--camera names one): eye, other")));
+  document.root()["cameras"][0] = {{"type", "orthographic"}};
+  EXPECT_EQ(document.read()->why_no_fov, "its camera is orthographic");
+}
+
+TEST(GltfReader, DecodesTheNamesOfFiles) {
+  Document document;
+  document.animate(0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  document.root()["buffers"][0]["uri"] = "sub/a%20b%C3%BC.bin";
+  EXPECT_EQ(document.read().error, "");
+  EXPECT_EQ(document.opened().back(), "sub/a b\xC3\xBC.bin");
+  document.root()["buffers"][0]["uri"] = "100%.bin";
+  EXPECT_EQ(document.read().error, "");
+  EXPECT_EQ(document.opened().back(), "100%.bin");
 }
 
 TEST(GltfReader, RefusesWhatReachesTooFar) {

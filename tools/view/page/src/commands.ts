@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // All that keys and buttons do, in one table: the keyboard, the tool bar and the help are made from it.
 
-import type { Actions } from './model/actions.js';
+import type { Actions, Pose } from './model/actions.js';
 import type { Store } from './model/store.js';
 import type { Viewport } from './viewport/viewport.js';
 
 export interface Command {
   /** As `KeyboardEvent.key`, with `Ctrl+` and `Alt+` before it; letters are small. */
   keys: readonly string[];
-  /** The keys as people read them. */
-  shown: string;
+  /** The keys as people read them; commands without are listed with another one. */
+  shown?: string;
   name: string;
   group: 'Keyframes' | 'Time' | 'View' | 'Scene' | 'Files and planning';
   run: () => void;
@@ -57,14 +57,15 @@ function selectNext(store: Store, actions: Actions, step: number): void {
 }
 
 function keyframeCommands({ store, actions, viewport }: CommandContext): Command[] {
-  const nudge = (right: number, up: number, back: number): void => {
+  const change = (poseOf: (keyframe: number) => Pose | undefined): void => {
     const keyframe = selectedKeyframe(store);
-    if (keyframe !== undefined) actions.setKeyframe(keyframe, viewport.nudged(keyframe, [right, up, back], kNudge_m), 'full');
+    const pose = keyframe === undefined ? undefined : poseOf(keyframe);
+    if (keyframe !== undefined && pose) actions.setKeyframe(keyframe, pose, 'full');
   };
-  const turn = (yaw: number, pitch: number): void => {
-    const keyframe = selectedKeyframe(store);
-    if (keyframe !== undefined) actions.setKeyframe(keyframe, viewport.turned(keyframe, yaw * kTurn_deg, pitch * kTurn_deg), 'full');
-  };
+  const nudge = (right: number, up: number, back: number): void =>
+    change((keyframe) => viewport.editing.nudged(keyframe, [right, up, back], kNudge_m));
+  const turn = (yaw: number, pitch: number): void =>
+    change((keyframe) => viewport.editing.turned(keyframe, yaw * kTurn_deg, pitch * kTurn_deg));
   const remove = (): void => {
     const { selection } = store.now;
     if (selection && 'keyframe' in selection) actions.deleteKeyframe(selection.keyframe);
@@ -77,18 +78,18 @@ function keyframeCommands({ store, actions, viewport }: CommandContext): Command
     { keys: ['Delete', 'Backspace'], shown: 'Del', name: 'Delete what is selected', group, icon: 'delete', run: remove },
     { keys: ['g'], shown: 'G', name: 'Handles that move', group, icon: 'move', isOn: () => viewport.handleMode === 'translate', run: () => (viewport.handleMode = 'translate') },
     { keys: ['r'], shown: 'R', name: 'Handles that turn', group, icon: 'turn', isOn: () => viewport.handleMode === 'rotate', run: () => (viewport.handleMode = 'rotate') },
-    { keys: ['n'], shown: 'N', name: 'Select the next keyframe', group, isViewing: true, run: () => selectNext(store, actions, 1) },
-    { keys: ['Shift+n'], shown: 'Shift N', name: 'Select the previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, -1) },
-    { keys: ['Alt+ArrowLeft'], shown: 'Alt ←', name: 'Move it to the left by 5 cm', group, run: () => nudge(-1, 0, 0) },
-    { keys: ['Alt+ArrowRight'], shown: 'Alt →', name: 'Move it to the right', group, run: () => nudge(1, 0, 0) },
-    { keys: ['Alt+ArrowUp'], shown: 'Alt ↑', name: 'Move it away', group, run: () => nudge(0, 0, -1) },
-    { keys: ['Alt+ArrowDown'], shown: 'Alt ↓', name: 'Move it nearer', group, run: () => nudge(0, 0, 1) },
-    { keys: ['Alt+PageUp'], shown: 'Alt PgUp', name: 'Move it up', group, run: () => nudge(0, 1, 0) },
-    { keys: ['Alt+PageDown'], shown: 'Alt PgDn', name: 'Move it down', group, run: () => nudge(0, -1, 0) },
-    { keys: ['Alt+Shift+ArrowLeft'], shown: 'Alt Shift ←', name: 'Turn it to the left by 5°', group, run: () => turn(1, 0) },
-    { keys: ['Alt+Shift+ArrowRight'], shown: 'Alt Shift →', name: 'Turn it to the right', group, run: () => turn(-1, 0) },
-    { keys: ['Alt+Shift+ArrowUp'], shown: 'Alt Shift ↑', name: 'Turn it up', group, run: () => turn(0, 1) },
-    { keys: ['Alt+Shift+ArrowDown'], shown: 'Alt Shift ↓', name: 'Turn it down', group, run: () => turn(0, -1) },
+    { keys: ['n'], shown: 'N, Shift N', name: 'Select the next or previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, 1) },
+    { keys: ['Shift+n'], name: 'Select the previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, -1) },
+    { keys: ['Alt+ArrowLeft'], shown: 'Alt ← → ↑ ↓', name: 'Move it level by 5 cm', group, run: () => nudge(-1, 0, 0) },
+    { keys: ['Alt+ArrowRight'], name: 'Move it to the right', group, run: () => nudge(1, 0, 0) },
+    { keys: ['Alt+ArrowUp'], name: 'Move it away', group, run: () => nudge(0, 0, -1) },
+    { keys: ['Alt+ArrowDown'], name: 'Move it nearer', group, run: () => nudge(0, 0, 1) },
+    { keys: ['Alt+PageUp'], shown: 'Alt PgUp PgDn', name: 'Move it up or down', group, run: () => nudge(0, 1, 0) },
+    { keys: ['Alt+PageDown'], name: 'Move it down', group, run: () => nudge(0, -1, 0) },
+    { keys: ['Alt+Shift+ArrowLeft'], shown: 'Alt Shift ← → ↑ ↓', name: 'Turn it by 5°', group, run: () => turn(1, 0) },
+    { keys: ['Alt+Shift+ArrowRight'], name: 'Turn it to the right', group, run: () => turn(-1, 0) },
+    { keys: ['Alt+Shift+ArrowUp'], name: 'Turn it up', group, run: () => turn(0, 1) },
+    { keys: ['Alt+Shift+ArrowDown'], name: 'Turn it down', group, run: () => turn(0, -1) },
     {
       keys: ['Enter'],
       shown: 'Enter',
@@ -113,14 +114,14 @@ function timeCommands({ store, actions }: CommandContext): Command[] {
   const isViewing = true;
   return [
     { keys: [' '], shown: 'Space', name: 'Play or pause', group, isViewing, run: () => (store.now.isPlaying ? actions.pause() : actions.play(1)) },
-    { keys: ['ArrowLeft'], shown: '←', name: 'Back by a hundredth of the path', group, isViewing, run: () => step(-0.01) },
-    { keys: ['ArrowRight'], shown: '→', name: 'On by a hundredth of the path', group, isViewing, run: () => step(0.01) },
-    { keys: ['Home'], shown: 'Home', name: 'To the begin', group, isViewing, run: () => actions.seek(-Infinity) },
-    { keys: ['End'], shown: 'End', name: 'To the end', group, isViewing, run: () => actions.seek(Infinity) },
-    { keys: ['.'], shown: '.', name: 'To the next keyframe', group, isViewing, run: () => actions.jump('keyframe', 'next') },
-    { keys: [','], shown: ',', name: 'To the previous keyframe', group, isViewing, run: () => actions.jump('keyframe', 'previous') },
-    { keys: [']'], shown: ']', name: 'To the next collision', group, isViewing, run: () => actions.jump('collision', 'next') },
-    { keys: ['['], shown: '[', name: 'To the previous collision', group, isViewing, run: () => actions.jump('collision', 'previous') },
+    { keys: ['ArrowLeft'], shown: '← →', name: 'Back or on by a hundredth of the path', group, isViewing, run: () => step(-0.01) },
+    { keys: ['ArrowRight'], name: 'On by a hundredth of the path', group, isViewing, run: () => step(0.01) },
+    { keys: ['Home'], shown: 'Home End', name: 'To the begin or the end', group, isViewing, run: () => actions.seek(-Infinity) },
+    { keys: ['End'], name: 'To the end', group, isViewing, run: () => actions.seek(Infinity) },
+    { keys: ['.'], shown: ', .', name: 'To the previous or next keyframe', group, isViewing, run: () => actions.jump('keyframe', 'next') },
+    { keys: [','], name: 'To the previous keyframe', group, isViewing, run: () => actions.jump('keyframe', 'previous') },
+    { keys: [']'], shown: '[ ]', name: 'To the previous or next collision', group, isViewing, run: () => actions.jump('collision', 'next') },
+    { keys: ['['], name: 'To the previous collision', group, isViewing, run: () => actions.jump('collision', 'previous') },
   ];
 }
 

@@ -32,7 +32,9 @@ export class Help {
     columns.className = 'columns';
     columns.append(section('Mouse and moving', kMouse));
     for (const group of new Set(commands.map((command) => command.group))) {
-      const rows = commands.filter((command) => command.group === group).map(({ shown, name }) => [shown, name] as const);
+      const rows = commands
+        .filter((command) => command.group === group)
+        .flatMap(({ shown, name }) => (shown === undefined ? [] : [[shown, name] as const]));
       columns.append(section(group, rows));
     }
     this.dialog.append(head, columns);

@@ -57,6 +57,7 @@ export class Page {
   readonly viewport: Viewport;
   report: ViewReport | undefined;
   private facts: Facts;
+  private toldDocument = '';
   private readonly actions: PageActions;
   private readonly panels: Panels;
   private readonly statusBar: StatusBar;
@@ -82,6 +83,7 @@ export class Page {
         viewPose: () => this.viewport.viewPose,
         viewTarget: () => this.viewport.viewTarget,
         showSelection: () => this.viewport.showSelection(),
+        opened: () => this.viewport.showOpened(),
       },
       backing.request ?? kNoRequest,
     );
@@ -108,6 +110,7 @@ export class Page {
     watchTheme(() => this.viewport.applyTheme());
     store.listen((now, before) => {
       if (now.answer !== before.answer || now.before !== before.before) this.keepCursorOnPath();
+      this.tellDocument();
     });
     backing.start();
   }
@@ -124,6 +127,15 @@ export class Page {
     this.facts = { ...this.facts, ...facts };
     this.panels?.setFacts(this.facts);
     this.statusBar?.setFacts(this.facts);
+  }
+
+  /** Tells the panels of the document, when that changed. */
+  private tellDocument(): void {
+    const { name, isDirty, canUndo, canRedo } = this.actions.document;
+    const told = `${name} ${isDirty} ${canUndo} ${canRedo}`;
+    if (told === this.toldDocument) return;
+    this.toldDocument = told;
+    this.panels.setDocument({ name, isDirty, canUndo, canRedo });
   }
 
   private drawn(report: ViewReport): void {

@@ -42,7 +42,7 @@ export function makeToolbar(host: HTMLElement, commands: readonly Command[], sto
     .map((command) => {
       const button = document.createElement('button');
       button.type = 'button';
-      button.title = `${command.name} (${command.shown})`;
+      button.title = `${command.name} (${command.shown ?? command.keys[0] ?? ''})`;
       button.setAttribute('aria-label', command.name);
       button.dataset['command'] = command.icon ?? '';
       button.append(makeIcon(command.icon ?? ''));

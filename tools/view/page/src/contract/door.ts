@@ -28,15 +28,22 @@ export interface SceneDescription {
   warnings?: string;
 }
 
-/** An option of a request, as `GET /v1/fields` lists it. */
+/** An option of a request, or a member of one that is an object, as `GET /v1/fields` lists it. */
 export interface Field {
   name: string;
-  type: 'number' | 'count' | 'boolean' | 'choice' | 'object';
+  type: 'number' | 'count' | 'boolean' | 'choice' | 'vector' | 'object';
   help: string;
+  /** The range in words. */
   range?: string;
+  least?: number;
+  most?: number;
   default?: unknown;
+  /** Words for what holds where the option is not set and has no default. */
+  unset?: string;
   choices?: string[];
   unit?: string;
+  /** Members of an object. */
+  fields?: Field[];
 }
 
 /** `GET /v1/last`: what was planned last, for a page that is opened. */

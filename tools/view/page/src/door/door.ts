@@ -17,7 +17,7 @@ import {
   fetchTriangles,
   listScenes,
 } from './places.js';
-import { completed, Planner } from './planner.js';
+import { completed, kProfileOption, Planner } from './planner.js';
 import { SceneEditor } from './scene_editor.js';
 import { DoorSocket } from './socket.js';
 
@@ -31,6 +31,7 @@ export function openDoor(store: Store, page: PageParts): Backing {
   const nameNow = (): string | undefined => sceneName;
   const onError = (message: string): void => store.set({ message });
   let stateBefore: boolean | undefined;
+  let isProfileMissing = false;
   const socket = new DoorSocket(`ws://${location.host}/v1/socket`, (isOpen) => {
     const isBack = isOpen && stateBefore === false;
     stateBefore = isOpen;
@@ -46,7 +47,8 @@ export function openDoor(store: Store, page: PageParts): Backing {
       void scenes.refresh();
     }
     const { request, answer } = store.now;
-    if (request && (isBack || !answer)) planner.plan(request, 'full');
+    if (request && (isBack || isProfileMissing || !answer)) planner.plan(request, 'full');
+    isProfileMissing = false;
   });
   const planner = new Planner(socket, store, () => undefined);
   const scenes = new SceneWatch(socket, store, nameNow, () => {
@@ -61,13 +63,17 @@ export function openDoor(store: Store, page: PageParts): Backing {
     sceneName = status.backend?.scene ?? sceneStem(last.request?.scene) ?? list[0]?.name;
     store.set({ isReadOnly: status.read_only === true });
     page.setFacts({ status: status as Record<string, unknown> });
-    void fetchFields().then((fields) => page.setFacts({ fields }), () => undefined);
+    const fields = await fetchFields().catch(() => []);
+    page.setFacts({ fields });
+    planner.hasProfile = fields.some(({ name }) => name === kProfileOption);
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
     page.load(request);
     if (last.answer) {
       store.set({ answer: completed(last.answer) });
       planner.interpolate(request);
+      // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
+      isProfileMissing = planner.hasProfile && last.answer.clearance_profile === undefined;
     }
     socket.open();
   }

@@ -37,13 +37,15 @@ export interface Surroundings {
   viewPose(): Pose;
   viewTarget(): Vec3;
   showSelection(): void;
+  /** A request was opened: shows its path. */
+  opened(): void;
 }
 
 const kDragName = 'keyframe';
 const kNewName = 'request.json';
 
 export class PageActions implements Actions {
-  readonly document: RequestDocument;
+  private documentNow: RequestDocument;
   private playSpeed = 0;
   private playedAt_ms = 0;
 
@@ -52,7 +54,11 @@ export class PageActions implements Actions {
     private readonly around: Surroundings,
     request: PlanRequest,
   ) {
-    this.document = new RequestDocument(request, kNewName);
+    this.documentNow = new RequestDocument(request, kNewName);
+  }
+
+  get document(): RequestDocument {
+    return this.documentNow;
   }
 
   private get canEdit(): boolean {
@@ -216,12 +222,15 @@ export class PageActions implements Actions {
     this.around.plan(read.request, 'full');
   }
 
-  /** Makes a request the document's, as one step of undo, without planning it. */
+  /** Makes a request the document's, without planning it: one step of undo, unless there was nothing before. */
   load(request: PlanRequest, name = kNewName): void {
+    const isFirst = this.document.current.keyframes.length === 0 && !this.document.canUndo;
+    if (isFirst) this.documentNow = new RequestDocument(request, name);
     this.document.apply(request);
     this.document.name = name;
     this.document.markSaved();
-    this.store.set({ request, selection: undefined, cursor_s: 0, answer: undefined, before: [] });
+    this.store.set({ request, selection: undefined, cursor_s: 0, answer: undefined, before: [], message: '' });
+    this.around.opened();
   }
 
   save(): void {

@@ -45,9 +45,13 @@ export async function listScenes(): Promise<SceneFacts[]> {
 
 const scenePlace = (scene: string): string => `/v1/scenes/${encodeURIComponent(scene)}`;
 
-export async function describeScene(scene: string): Promise<SceneDescription> {
-  const description = await fetchJson<SceneDescription>(scenePlace(scene));
+/** The description of a scene as the door sends it, with `bounds`. */
+export function asDescribed(description: SceneDescription): SceneDescription {
   return { ...description, scene: withBounds(description.scene), objects: description.objects.map(withBounds) };
+}
+
+export async function describeScene(scene: string): Promise<SceneDescription> {
+  return asDescribed(await fetchJson<SceneDescription>(scenePlace(scene)));
 }
 
 export async function fetchMesh(scene: string, digest: string): Promise<ArrayBuffer> {

@@ -14,6 +14,8 @@ const kDrag = 'page';
 /** A frame of a drag that takes longer is answered as far as it came: the hand does not wait. */
 const kDraftDeadline_s = 0.2;
 const kDefaultDeadline_s = 10;
+/** Option of requests that adds `clearance_profile` to answers. */
+export const kProfileOption = 'clearance_profile';
 
 /** An answer in which the members that the page relies on are there; an invalid one has few. */
 export function completed(answer: Answer): Answer {
@@ -24,6 +26,11 @@ export function completed(answer: Answer): Answer {
     collisions: answer.collisions ?? [],
     remaining_collisions: answer.remaining_collisions ?? [],
   };
+}
+
+/** The request with the profile that colours the path, if the door has that option. */
+function withProfile(request: PlanRequest): PlanRequest {
+  return { ...request, options: { [kProfileOption]: true, ...request.options } };
 }
 
 function draftOf(request: PlanRequest): PlanRequest {
@@ -62,6 +69,8 @@ export class Planner {
   private asked = 0;
   private shown = 0;
   private running: number | undefined;
+  /** Whether the door has the option for profiles of the clearance. */
+  hasProfile = false;
   private readonly interpolation: Interpolation;
 
   constructor(
@@ -101,9 +110,10 @@ export class Planner {
 
   private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
     const isDraft = kind === 'draft';
+    const asking = this.hasProfile ? withProfile(request) : request;
     const question = isDraft
-      ? { do: 'plan', drag: kDrag, finish: true, clearance_profile: true, request: draftOf(request) }
-      : { do: 'plan', drag: kDrag, progress: true, clearance_profile: true, request };
+      ? { do: 'plan', drag: kDrag, finish: true, request: draftOf(asking) }
+      : { do: 'plan', drag: kDrag, progress: true, request: asking };
     const { id, answer } = this.socket.ask(question, (part) => this.showProgress(asked, part['progress']));
     this.running = id;
     try {

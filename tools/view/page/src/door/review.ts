@@ -4,6 +4,7 @@
 import type { Review } from '../contract/door.js';
 import type { Backing } from '../page.js';
 import type { Store } from '../model/store.js';
+import { asDescribed } from './places.js';
 import { completed } from './planner.js';
 
 function bytesOf(base64: string): ArrayBuffer {
@@ -38,7 +39,7 @@ export function openReview(review: Review, store: Store): Backing {
       store.set({
         connection: 'review',
         isReadOnly: true,
-        scene: review.scene,
+        scene: asDescribed(review.scene),
         request: review.request,
         answer: completed(review.answer),
         before: review.before?.segments ?? [],

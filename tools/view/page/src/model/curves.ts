@@ -36,9 +36,9 @@ export const kCurveKinds: readonly CurveKind[] = [
   { name: 'shift', label: 'shift', unit: '°', help: 'Shift of the picture from the path as interpolated' },
 ];
 
-/** Parts of a segment to begin with: a cubic has no more bends in one. */
-const kFirstParts = 4;
-const kMostHalvings = 5;
+/** Parts of a segment to begin with: fewer would miss bends whose middle is on the line. */
+const kFirstParts = 8;
+const kMostHalvings = 4;
 
 /** A part is halved where its middle is off the line by more than this share of the largest value. */
 const kTolerance = 0.004;

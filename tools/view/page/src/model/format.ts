@@ -15,6 +15,14 @@ export function numberText(value: number, digits = 3): string {
   return value.toFixed(Math.min(decimals, 8)).replace('-', '−');
 }
 
+/** A proved lower bound: rounded down, as a larger number would not be proved. Requires `value` to be 0 or more. */
+export function lowerBoundText(value: number, digits = 3): string {
+  if (!(value > 0) || !Number.isFinite(value)) return numberText(value, digits);
+  const step = 10 ** (Math.floor(Math.log10(value)) - digits + 1);
+  const floored = Number((Math.floor(value / step) * step).toPrecision(digits));
+  return numberText(floored > value ? floored - step : floored, digits);
+}
+
 export function withUnit(value: number, unit: string, digits = 3): string {
   return `${numberText(value, digits)}${unit.startsWith('°') || unit === '' ? '' : ' '}${unit}`;
 }

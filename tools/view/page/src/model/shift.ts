@@ -6,7 +6,7 @@
 import type { Answer, Segment } from '../contract/answer.js';
 import type { PlanRequest, Vec3 } from '../contract/request.js';
 import type { Pose } from './actions.js';
-import { angleBetween, lengthOf, poseAt } from './path.js';
+import { angleBetween, lengthOf, motionIn, poseAt } from './path.js';
 import type { TimeMap } from './times.js';
 
 export const kDegreesPerRadian = 180 / Math.PI;
@@ -14,21 +14,18 @@ export const kDegreesPerRadian = 180 / Math.PI;
 /** Used where neither the request nor the answer tells: the middle of the distances that Camway derives. */
 const kAssumedDistance_m = 3;
 
-/** Range of the fit. Camway derives distances from 1 m to 10 m; a request may ask for any. */
-const kLeastDistance_m = 1e-3;
-const kMostDistance_m = 1e9;
-const kFitSteps = 60;
-const kFitSamplesASegment = 12;
-const kMostFitSegments = 500;
+/** Samples of a segment for means: even, for Simpson's rule. */
+const kMeanSamples = 12;
+const kMostMeanSegments = 500;
 
-/** Below this the largest shift says nothing about the distance: nothing was changed. */
-const kLeastShift_deg = 1e-6;
+/** If moves are a smaller share of the mean shift than this, it says too little about the distance. */
+const kLeastMoveShare = 0.02;
 
 export interface ShiftScale {
   viewingDistance_m: number;
   /** A turn by an angle counts as much as a move by this length times the angle. */
   turnLever_m: number;
-  /** Where the distance is from: an option, the largest shift that the answer states, or a guess. */
+  /** Where the distance is from: an option, the mean shift that the answer states, or a guess. */
   source: 'request' | 'answer' | 'assumed';
 }
 
@@ -49,7 +46,10 @@ export function shiftOf(change: Change, scale: ShiftScale): number {
   return shift_rad * kDegreesPerRadian;
 }
 
-/** The scale of shifts of an answer. Without the option it is fitted to the largest shift that the answer states. */
+/**
+ * The scale of shifts of an answer. Without the option, the viewing distance follows from the mean shift that the
+ * answer states: the mean shift is the mean turn plus the mean move over the distance.
+ */
 export function shiftScale(
   request: PlanRequest | undefined,
   answer: Answer | undefined,
@@ -64,43 +64,34 @@ export function shiftScale(
   });
   const asked = request?.options?.['viewing_distance_m'];
   if (typeof asked === 'number' && asked > 0) return scaleOf(asked, 'request');
-  const largest_deg = answer?.measures?.after['largest_shift_deg'] ?? 0;
-  if (!answer || before.length === 0 || !(largest_deg > kLeastShift_deg)) return scaleOf(kAssumedDistance_m, 'assumed');
-  const changes = sampledChanges(answer.segments, before, times);
-  const distance_m = fittedDistance(changes, largest_deg, (distance) => scaleOf(distance, 'answer'));
-  return distance_m === undefined ? scaleOf(kAssumedDistance_m, 'assumed') : scaleOf(distance_m, 'answer');
+  const shift_rad = (answer?.measures?.after['mean_shift_deg'] ?? 0) / kDegreesPerRadian;
+  if (!answer || before.length === 0 || !(shift_rad > 0)) return scaleOf(kAssumedDistance_m, 'assumed');
+  const mean = meanChange(answer.segments, before, times);
+  if (radius_m !== undefined) return scaleOf((mean.moved_m + radius_m * mean.turned_rad) / shift_rad, 'answer');
+  const byMoves_rad = shift_rad - mean.turned_rad;
+  if (byMoves_rad < kLeastMoveShare * shift_rad) return scaleOf(kAssumedDistance_m, 'assumed');
+  return scaleOf(mean.moved_m / byMoves_rad, 'answer');
 }
 
-/** The distance for which the largest shift is `largest_deg`, by bisection: shifts fall with the distance. */
-function fittedDistance(changes: readonly Change[], largest_deg: number, scaleOf: (distance_m: number) => ShiftScale): number | undefined {
-  const largest = (distance_m: number): number => {
-    const scale = scaleOf(distance_m);
-    return changes.reduce((most, change) => Math.max(most, shiftOf(change, scale)), 0);
-  };
-  if (largest(kLeastDistance_m) < largest_deg || largest(kMostDistance_m) > largest_deg) return undefined;
-  let low = Math.log(kLeastDistance_m);
-  let high = Math.log(kMostDistance_m);
-  for (let step = 0; step < kFitSteps; ++step) {
-    const middle = (low + high) / 2;
-    if (largest(Math.exp(middle)) > largest_deg) low = middle;
-    else high = middle;
-  }
-  return Math.exp((low + high) / 2);
-}
-
-function sampledChanges(after: readonly Segment[], before: readonly Segment[], times: TimeMap): Change[] {
-  const changes: Change[] = [];
-  const stride = Math.max(1, Math.ceil(after.length / kMostFitSegments));
+/** Means over time, by Simpson's rule in each segment. */
+function meanChange(after: readonly Segment[], before: readonly Segment[], times: TimeMap): Change {
+  const sum = { moved_m: 0, turned_rad: 0, duration_s: 0 };
+  const stride = Math.max(1, Math.ceil(after.length / kMostMeanSegments));
   for (let i = 0; i < after.length; i += stride) {
-    const { t0, t1 } = after[i] as Segment;
-    for (let k = 0; k < kFitSamplesASegment; ++k) {
-      const time_s = t0 + ((t1 - t0) * k) / kFitSamplesASegment;
-      const now = poseAt(after, time_s);
-      const then = poseAt(before, times.toGiven(time_s));
-      if (now && then) changes.push(changeBetween(then, now));
+    const segment = after[i] as Segment;
+    const duration_s = segment.t1 - segment.t0;
+    sum.duration_s += duration_s;
+    for (let k = 0; k <= kMeanSamples; ++k) {
+      const u = k / kMeanSamples;
+      const then = poseAt(before, times.toGiven(segment.t0 + u * duration_s));
+      if (!then) continue;
+      const weight_s = (duration_s * (k === 0 || k === kMeanSamples ? 1 : k % 2 === 1 ? 4 : 2)) / (3 * kMeanSamples);
+      const change = changeBetween(then, motionIn(segment, u));
+      sum.moved_m += weight_s * change.moved_m;
+      sum.turned_rad += weight_s * change.turned_rad;
     }
   }
-  return changes;
+  return { moved_m: sum.moved_m / sum.duration_s, turned_rad: sum.turned_rad / sum.duration_s };
 }
 
 /** Radius of the ball about the eye that holds the body. Undefined for cameras, and for bodies that are files. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type { Answer, Collision, Correction, KeyframeFault } from '../contract/answer.js';
 import type { Actions } from '../model/actions.js';
-import { numberText, timeText, withUnit } from '../model/format.js';
+import { lowerBoundText, numberText, timeText, withUnit } from '../model/format.js';
 import { beginOf } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
@@ -82,7 +82,7 @@ function faultsOf(state: State, faults: readonly KeyframeFault[], actions: Actio
     if (!pose) row.append(make('p', { class: 'cw-muted', text: 'No free pose was found near it.' }));
     else if (state.connection !== 'review') {
       const away = freePoseText(state.request, fault.keyframe, pose);
-      const button = makeButton(`Move it to the nearest free pose${away ? ` (${away})` : ''}`, () => actions.acceptFreePose(fault.keyframe));
+      const button = makeButton(`Accept the free pose${away ? ` (${away})` : ''}`, () => actions.acceptFreePose(fault.keyframe));
       button.dataset['key'] = `fault ${fault.keyframe}`;
       row.append(button);
     }
@@ -119,14 +119,15 @@ function collisionsOf(state: State, answer: Answer, actions: Actions): Node[] {
   const begin_s = beginOf(pathOf(state));
   const row = (collision: Collision, detail: string, key: string): HTMLElement => {
     const { object, time, depth_m } = collision.witness;
-    const times = `${timeText(collision.t_begin, begin_s)}–${timeText(collision.t_end, begin_s)} s`;
-    const depth = depth_m > 0 ? `, ${withUnit(depth_m, 'm')} deep` : '';
+    const [from, to] = [timeText(collision.t_begin, begin_s), timeText(collision.t_end, begin_s)];
+    const times = from === to ? `${from} s` : `${from}–${to} s`;
+    const depth = depth_m > 0 ? `${withUnit(depth_m, 'm')} deep` : '';
     const button = makeButton('', () => actions.seek(time), { class: 'cw-item', title: 'Go there' });
     button.dataset['key'] = key;
     button.append(
       make('span', { class: 'cw-item-time', text: times }),
-      make('span', { class: 'cw-item-name', text: `${object}${depth}` }),
-      make('span', { class: 'cw-item-detail', text: detail }),
+      make('span', { class: 'cw-item-name', text: object }),
+      make('span', { class: 'cw-item-detail', text: [depth, detail].filter((words) => words !== '').join('; ') }),
     );
     return make('li', {}, button);
   };
@@ -141,16 +142,17 @@ function collisionsOf(state: State, answer: Answer, actions: Actions): Node[] {
     const rows = remaining.map((collision, i) => row(collision, detailOf(collision), `remaining ${i}`));
     sections.push(section(`Remaining collisions: ${remaining.length}`, listOf(rows, 'cw-remaining')));
   }
-  const before = answer.collisions ?? [];
+  const before = (answer.collisions ?? []).filter((collision) => !remaining.some((left) => isOf(left, collision)));
   if (before.length > 0) {
     const rows = before.map((collision, i) => row(collision, detailOf(collision), `collision ${i}`));
-    sections.push(section(`Collisions before: ${before.length}`, listOf(rows, 'cw-before')));
+    const title = remaining.length > 0 ? 'Corrected collisions' : 'Collisions before';
+    sections.push(section(`${title}: ${before.length}`, listOf(rows, 'cw-before')));
   }
   return sections;
 }
 
-function isOf(correction: Correction, collision: Collision): boolean {
-  return correction.t_begin === collision.t_begin && correction.t_end === collision.t_end;
+function isOf(other: Correction | Collision, collision: Collision): boolean {
+  return other.t_begin === collision.t_begin && other.t_end === collision.t_end;
 }
 
 function listOf(rows: readonly HTMLElement[], name: string): HTMLElement {
@@ -167,9 +169,10 @@ function listOf(rows: readonly HTMLElement[], name: string): HTMLElement {
 function measuresOf(answer: Answer): Node[] {
   const rows = measureRows(answer);
   if (rows.length === 0) return [];
-  const cell = (value: number | undefined): HTMLElement => make('td', { text: value === undefined ? '–' : numberText(value) });
+  const cell = (value: number | undefined, isLowerBound: boolean): HTMLElement =>
+    make('td', { text: value === undefined ? '–' : isLowerBound ? lowerBoundText(value) : numberText(value) });
   const head = make('tr', {}, make('th', { scope: 'col', text: 'Measure' }), ...['before', 'after', 'unit'].map((text) => make('th', { scope: 'col', text })));
-  const body = rows.map((row) => make('tr', {}, make('th', { scope: 'row', text: row.label }), cell(row.before), cell(row.after), make('td', { class: 'cw-unit', text: row.unit })));
+  const body = rows.map((row) => make('tr', {}, make('th', { scope: 'row', text: row.label }), cell(row.before, row.isLowerBound), cell(row.after, row.isLowerBound), make('td', { class: 'cw-unit', text: row.unit })));
   return [section('Measures', make('table', { class: 'cw-table' }, make('thead', {}, head), make('tbody', {}, ...body)))];
 }
 

@@ -5,9 +5,12 @@
 import type { Answer, Correction, Infeasibility, KeyframeFault, Status } from '../contract/answer.js';
 import type { PlanRequest } from '../contract/request.js';
 import type { Pose } from '../model/actions.js';
-import { counted, numberText, withUnit } from '../model/format.js';
+import { counted, lowerBoundText, numberText, withUnit } from '../model/format.js';
 import { changeBetween, kDegreesPerRadian } from '../model/shift.js';
 import { correctionWords } from '../timeline/bands.js';
+
+/** Smaller lengths and angles are of rounding, and shown as 0. */
+const kRounding = 1e-9;
 
 export interface StatusWords {
   /** Tells statuses apart without colour. */
@@ -33,7 +36,7 @@ export function statusWords(status: Status): StatusWords {
 export function certificateWords(answer: Answer): string | undefined {
   if (!answer.certificate?.certified) return undefined;
   const clearance_m = answer.certificate.clearance_lower_bound;
-  return `Certified: ${withUnit(clearance_m, 'm')} or more from the scene at every instant.`;
+  return `Certified: ${lowerBoundText(clearance_m)} m or more from the scene at every instant.`;
 }
 
 export function correctionText(correction: Correction): string {
@@ -41,11 +44,11 @@ export function correctionText(correction: Correction): string {
     const tried = triedWords(correction.tried);
     return tried ? `not corrected; tried ${tried}` : 'not corrected';
   }
-  const parts = [correctionWords(correction)];
-  if (correction.moved_m > 0) parts.push(`by up to ${withUnit(correction.moved_m, 'm')}`);
-  if (correction.turned_deg > 0) parts.push(`turned by up to ${withUnit(correction.turned_deg, '°')}`);
-  parts.push(`shift up to ${withUnit(correction.largest_shift_deg, '°')}`);
-  return parts.join(', ').replace(', by', ' by');
+  const sizes: string[] = [];
+  if (correction.moved_m > kRounding) sizes.push(withUnit(correction.moved_m, 'm'));
+  if (correction.turned_deg > kRounding) sizes.push(withUnit(correction.turned_deg, '°'));
+  const most = sizes.length > 0 ? `, at most ${sizes.join(' and ')}` : '';
+  return `${correctionWords(correction)}${most}; shift up to ${withUnit(correction.largest_shift_deg, '°')}`;
 }
 
 const kTried: readonly (readonly [name: string, noun: string])[] = [
@@ -117,11 +120,15 @@ export interface MeasureRow {
   unit: string;
   before: number | undefined;
   after: number | undefined;
+  /** Rounded down, not to the nearest. */
+  isLowerBound: boolean;
 }
+
+const kClearance = 'clearance_lower_bound_m';
 
 const kMeasures: readonly (readonly [name: string, label: string, unit: string])[] = [
   ['length_m', 'length', 'm'],
-  ['clearance_lower_bound_m', 'clearance, certified', 'm'],
+  [kClearance, 'clearance, certified', 'm'],
   ['largest_deviation_m', 'largest deviation', 'm'],
   ['largest_shift_deg', 'largest shift', '°'],
   ['mean_shift_deg', 'mean shift', '°'],
@@ -132,14 +139,11 @@ const kMeasures: readonly (readonly [name: string, label: string, unit: string])
   ['bending_energy_m2_per_s3', 'bending energy', 'm²/s³'],
 ];
 
-/** Rounding of the measures: smaller values are shown as 0. */
-const kRounding = 1e-9;
-
 export function measureRows(answer: Answer): MeasureRow[] {
   const { before, after } = answer.measures ?? { before: {}, after: {} };
   const rounded = (value: number | undefined): number | undefined => (value !== undefined && Math.abs(value) < kRounding ? 0 : value);
   return kMeasures
-    .map(([name, label, unit]) => ({ label, unit, before: rounded(before[name]), after: rounded(after[name]) }))
+    .map(([name, label, unit]) => ({ label, unit, before: rounded(before[name]), after: rounded(after[name]), isLowerBound: name === kClearance }))
     .filter((row) => row.before !== undefined || row.after !== undefined);
 }
 
@@ -162,16 +166,15 @@ export interface StageTime {
 }
 
 const kStages: Readonly<Record<string, string>> = {
-  load_scene: 'read the scene',
   motion: 'interpolate',
   detect: 'find collisions',
   correct: 'correct',
   certify: 'prove',
 };
 
-/** The stages of planning without the total, in their order; reading the scene only if it was read. */
+/** The stages that the total time of planning has, in their order. Reading the scene is none of them. */
 export function stageTimes(answer: Answer | undefined): StageTime[] {
   return Object.entries(answer?.timing_ms ?? {})
-    .filter(([name, milliseconds]) => name !== 'total' && milliseconds > 0)
+    .filter(([name, milliseconds]) => name !== 'total' && name !== 'load_scene' && milliseconds > 0)
     .map(([name, milliseconds]) => ({ stage: kStages[name] ?? name.replaceAll('_', ' '), milliseconds }));
 }

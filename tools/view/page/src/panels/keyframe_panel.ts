@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type { Keyframe } from '../contract/request.js';
 import type { Actions, DocumentFacts } from '../model/actions.js';
-import { numberText, timeText } from '../model/format.js';
+import { timeText } from '../model/format.js';
 import { beginOf } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
@@ -73,7 +73,7 @@ function toolsOf(state: State, actions: Actions, facts: DocumentFacts | undefine
   const selected = selectedOf(state);
   const hasPath = pathOf(state).length > 0;
   const tool = (key: string, text: string, title: string, isOn: boolean, run: () => void): HTMLButtonElement => {
-    const button = makeButton(text, run, { title });
+    const button = makeButton(text, run, { title, 'aria-label': text.length > 1 ? text : title });
     button.dataset['key'] = key;
     button.disabled = !isOn;
     return button;
@@ -81,11 +81,11 @@ function toolsOf(state: State, actions: Actions, facts: DocumentFacts | undefine
   return make(
     'div',
     { class: 'cw-row cw-tools' },
-    tool('insert', 'Insert at cursor', 'A keyframe on the path, at the time of the cursor', hasPath, () => actions.insertKeyframe(state.cursor_s)),
-    tool('view', 'Add view', 'A keyframe at the end, from the view of the scene', true, () => actions.insertKeyframe()),
+    tool('insert', 'Insert', 'Inserts a keyframe into the path, at the time of the cursor', hasPath, () => actions.insertKeyframe(state.cursor_s)),
+    tool('view', 'Add view', 'Adds a keyframe at the end, from the view of the scene', true, () => actions.insertKeyframe()),
     tool('delete', 'Delete', 'Deletes the selected keyframe', selected !== undefined, () => selected !== undefined && actions.deleteKeyframe(selected)),
-    tool('undo', 'Undo', 'Takes the last edit back', facts?.canUndo ?? false, () => actions.undo()),
-    tool('redo', 'Redo', 'Does it again', facts?.canRedo ?? false, () => actions.redo()),
+    tool('undo', '↶', 'Undo', facts?.canUndo ?? false, () => actions.undo()),
+    tool('redo', '↷', 'Redo', facts?.canRedo ?? false, () => actions.redo()),
   );
 }
 
@@ -133,7 +133,7 @@ function itemOf(state: State, row: Row, isSelected: boolean, isCurrent: boolean,
     make('span', { class: isGiven ? 'cw-mark-given' : 'cw-mark-inserted', 'aria-hidden': 'true' }),
     make('span', { class: 'cw-item-index', text: isGiven ? String(row.index) : 'inserted' }),
     make('span', { class: 'cw-item-time', text: `${timeText(row.time_s, beginOf(pathOf(state)))} s` }),
-    make('span', { class: 'cw-item-name', text: row.keyframe.position.map((x) => numberText(x)).join('  ') }),
+    make('span', { class: 'cw-item-name', text: row.keyframe.position.map((x) => x.toFixed(2)).join('  ') }),
   );
   if (words.length > 0) button.append(make('span', { class: isFault ? 'cw-item-detail cw-bad' : 'cw-item-detail', text: words.join(', ') }));
   return make('li', isCurrent ? { class: 'cw-current' } : {}, button);

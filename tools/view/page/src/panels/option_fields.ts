@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which fields the options panel has. The door lists the options; the members of its objects are here, as
-// docs/requests.md has them.
+// Which fields the options panel has: those that the door lists.
 
 import type { Field } from '../contract/door.js';
 import type { PlanRequest } from '../contract/request.js';
@@ -19,8 +18,10 @@ export interface OptionField {
   help: string;
   unit: string;
   range: Range | undefined;
-  /** Words about range and default. */
+  /** Words about the range. */
   rule: string;
+  /** What holds where the option is not set. */
+  unset: string;
   choices: readonly string[];
   /** Shown only where this holds of the request. */
   isUsed: (request: PlanRequest | undefined) => boolean;
@@ -33,49 +34,33 @@ export interface FieldGroup {
   fields: readonly OptionField[];
 }
 
+/** What the field table has no words for: help on members of objects, and when they count. */
 interface Member {
-  name: string;
-  control: Control;
-  help: string;
-  range?: string;
-  unset: string;
-  choices?: readonly string[];
+  help?: string;
+  unset?: string;
   isUsed?: (policy: unknown) => boolean;
 }
 
-const kAboveZero = 'above 0';
-
-const kMembers: Readonly<Record<string, readonly Member[]>> = {
-  limits: [
-    { name: 'speed_m_per_s', control: 'number', help: 'of the eye', range: kAboveZero, unset: 'no limit' },
-    { name: 'acceleration_m_per_s2', control: 'number', help: 'of the eye', range: kAboveZero, unset: 'no limit' },
-    { name: 'turn_rate_deg_per_s', control: 'number', help: 'of the camera', range: kAboveZero, unset: 'no limit' },
-    { name: 'retime', control: 'boolean', help: 'the path may be slowed to meet the limits', unset: 'false' },
-  ],
-  orientation: [
-    {
-      name: 'policy',
-      control: 'choice',
+const kMembers: Readonly<Record<string, Readonly<Record<string, Member>>>> = {
+  limits: {
+    speed_m_per_s: { help: 'of the eye', unset: 'no limit' },
+    acceleration_m_per_s2: { help: 'of the eye', unset: 'no limit' },
+    turn_rate_deg_per_s: { help: 'of the camera', unset: 'no limit' },
+    retime: { help: 'the path may be slowed to meet the limits' },
+  },
+  orientation: {
+    policy: {
       help: 'free: turn the camera as needed; keep: do not turn it; level: do not tilt the horizon; target: look at a point',
-      unset: 'free',
-      choices: ['free', 'keep', 'level', 'target'],
     },
-    { name: 'up', control: 'vector', help: 'upward direction', unset: '0, 1, 0', isUsed: (policy) => policy === 'level' },
-    { name: 'target', control: 'vector', help: 'point to look at, m', unset: '', isUsed: (policy) => policy === 'target' },
-    {
-      name: 'cone_deg',
-      control: 'number',
-      help: 'the direction of view stays within this angle of the target',
-      range: 'above 0 and at most 180',
-      unset: '28.6',
-      isUsed: (policy) => policy === 'target',
-    },
-    { name: 'max_turn_deg', control: 'number', help: 'never turn the camera further', range: 'between 0 and 180', unset: 'no limit' },
-  ],
-  bounds: [
-    { name: 'min', control: 'vector', help: 'lower corner, m; an empty coordinate is no limit', unset: '' },
-    { name: 'max', control: 'vector', help: 'upper corner, m; an empty coordinate is no limit', unset: '' },
-  ],
+    up: { help: 'the upward direction', isUsed: (policy) => policy === 'level' },
+    target: { help: 'the point to look at, m', isUsed: (policy) => policy === 'target' },
+    cone_deg: { help: 'the direction of view stays this near to the target', isUsed: (policy) => policy === 'target' },
+    max_turn_deg: { unset: 'no limit' },
+  },
+  bounds: {
+    min: { help: 'lower corner, m; without a coordinate there is no limit' },
+    max: { help: 'upper corner, m; without a coordinate there is no limit' },
+  },
 };
 
 const kControls: Readonly<Record<Field['type'], Control>> = {
@@ -83,8 +68,12 @@ const kControls: Readonly<Record<Field['type'], Control>> = {
   count: 'whole',
   boolean: 'boolean',
   choice: 'choice',
+  vector: 'vector',
   object: 'json',
 };
+
+/** Of a default, as angles in degrees have sixteen. */
+const kShownDigits = 6;
 
 /** The groups of the panel, in the order of the door. */
 export function fieldGroups(fields: readonly Field[]): FieldGroup[] {
@@ -92,38 +81,33 @@ export function fieldGroups(fields: readonly Field[]): FieldGroup[] {
 }
 
 function fieldsOf(field: Field): OptionField[] {
-  const members = field.type === 'object' ? kMembers[field.name] : undefined;
-  if (!members) {
-    return [
-      {
-        path: [field.name],
-        control: kControls[field.type] ?? 'json',
-        help: '',
-        unit: field.unit ?? unitOf(field.name),
-        range: rangeOf(field.range),
-        rule: ruleOf(field.range, field.default),
-        choices: field.choices ?? [],
-        isUsed: () => true,
-      },
-    ];
-  }
-  return members.map((member) => ({
-    path: [field.name, member.name],
-    control: member.control,
-    help: member.help,
-    unit: unitOf(member.name),
-    range: rangeOf(member.range),
-    rule: ruleOf(member.range, member.unset),
-    choices: member.choices ?? [],
-    isUsed: (request) => member.isUsed?.(optionAt(request, ['orientation', 'policy'])) ?? true,
-  }));
+  if (!field.fields?.length) return [{ ...controlOf(field), path: [field.name], help: '', isUsed: () => true }];
+  return field.fields.map((member) => {
+    const words = kMembers[field.name]?.[member.name];
+    return {
+      ...controlOf(member, words?.unset),
+      path: [field.name, member.name],
+      help: plain(member.help) || words?.help || '',
+      isUsed: (request) => words?.isUsed?.(optionAt(request, ['orientation', 'policy'])) ?? true,
+    };
+  });
 }
 
-function ruleOf(range: string | undefined, unset: unknown): string {
-  const text = typeof unset === 'object' && unset !== null ? JSON.stringify(unset) : String(unset ?? '');
-  const isValue = /^[-0-9`]|^(true|false|free|ladder|closest)$/.test(text);
-  const words = text === '' ? '' : isValue ? `default ${plain(text)}` : plain(text);
-  return [range, words].filter((part) => part).join('; ');
+function controlOf(field: Field, unset = ''): Omit<OptionField, 'path' | 'help' | 'isUsed'> {
+  return {
+    control: kControls[field.type] ?? 'json',
+    unit: field.unit ?? unitOf(field.name),
+    range: rangeOf(field.range),
+    rule: field.range ?? '',
+    unset: unsetOf(field.default ?? field.unset) || unset,
+    choices: field.choices ?? [],
+  };
+}
+
+function unsetOf(unset: unknown): string {
+  if (typeof unset === 'number') return String(Number(unset.toPrecision(kShownDigits)));
+  if (Array.isArray(unset)) return unset.join(', ');
+  return typeof unset === 'object' && unset !== null ? JSON.stringify(unset) : plain(String(unset ?? ''));
 }
 
 const kUnits: readonly (readonly [suffix: string, unit: string])[] = [

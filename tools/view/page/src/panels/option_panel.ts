@@ -102,12 +102,17 @@ function fieldRow(state: State, field: OptionField, helpId: string, actions: Act
   const isMember = field.path.length > 1;
   const control = controlOf(field, value, `${helpId} ${rule.id}`, (next) => actions.setOption(field.path, next));
   if (control instanceof HTMLInputElement && control.type === 'checkbox') {
-    return make('div', { class: 'cw-option-field' }, make('label', { class: 'cw-check', title: field.help }, control, isMember ? name : 'on'), rule);
+    const label = make('label', { class: 'cw-check' }, control, isMember ? memberOf(name, field.help) : 'on');
+    return make('div', { class: 'cw-option-field' }, label, rule);
   }
   control.setAttribute('aria-label', isMember ? `${field.path[0]}, ${name}` : name);
-  const words = isMember ? make('span', { class: 'cw-member', text: name, title: field.help }) : undefined;
+  const words = isMember ? memberOf(name, field.help) : undefined;
   const unit = field.unit ? make('span', { class: 'cw-unit', text: field.unit }) : undefined;
   return make('div', { class: 'cw-option-field' }, words, control, unit, rule);
+}
+
+function memberOf(name: string, help: string): HTMLElement {
+  return make('span', { class: 'cw-member' }, name, help ? make('span', { class: 'cw-rule', text: help }) : undefined);
 }
 
 function controlOf(field: OptionField, value: unknown, describedBy: string, changed: (value: unknown) => void): HTMLElement {
@@ -126,7 +131,7 @@ function controlOf(field: OptionField, value: unknown, describedBy: string, chan
     case 'json':
       return jsonOf(value, key, describedBy, changed);
     default: {
-      const settings = { key, describedBy, isWhole: field.control === 'whole', placeholder: 'default', ...(field.range ? { range: field.range } : {}) };
+      const settings = { key, describedBy, isWhole: field.control === 'whole', placeholder: field.unset, ...(field.range ? { range: field.range } : {}) };
       return numberField(typeof value === 'number' ? value : undefined, settings, changed);
     }
   }
@@ -134,7 +139,7 @@ function controlOf(field: OptionField, value: unknown, describedBy: string, chan
 
 function choiceOf(field: OptionField, value: unknown, key: string, describedBy: string, changed: (value: unknown) => void): HTMLElement {
   const select = make('select', { 'data-key': key, 'aria-describedby': describedBy });
-  select.append(new Option('default', ''));
+  select.append(new Option(field.unset ? `default: ${field.unset}` : 'default', ''));
   for (const choice of field.choices) select.append(new Option(choice, choice));
   select.value = typeof value === 'string' ? value : '';
   select.addEventListener('change', () => changed(select.value === '' ? undefined : select.value));
@@ -145,9 +150,10 @@ function choiceOf(field: OptionField, value: unknown, key: string, describedBy: 
 function vectorOf(field: OptionField, value: unknown, key: string, describedBy: string, changed: (value: unknown) => void): HTMLElement {
   const list = Array.isArray(value) ? (value as unknown[]) : [];
   const now = [0, 1, 2].map((k) => (typeof list[k] === 'number' ? (list[k] as number) : undefined));
+  const unset = field.unset === '' ? [] : field.unset.split(',');
   const mayLack = field.path[0] === 'bounds';
   const inputs = now.map((coordinate, k) => {
-    const input = numberField(coordinate, { key: `${key} ${k}`, describedBy, placeholder: 'xyz'.charAt(k) }, (next) => {
+    const input = numberField(coordinate, { key: `${key} ${k}`, describedBy, placeholder: unset[k]?.trim() ?? 'xyz'.charAt(k) }, (next) => {
       now[k] = next;
       const isEmpty = now.every((x) => x === undefined);
       const isComplete = now.every((x) => x !== undefined);

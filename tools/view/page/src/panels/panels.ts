@@ -59,11 +59,12 @@ export function makePanels(host: HTMLElement, store: Store, actions: Actions): P
   makeAnswerPanel(panelOf('answer'), store, actions);
   const keyframes = makeKeyframePanel(panelOf('keyframes'), store, actions);
   const options = makeOptionPanel(panelOf('options'), store, actions);
-  makeScenePanel(panelOf('scene'), store, actions);
+  const scene = makeScenePanel(panelOf('scene'), store, actions);
   const file = makeFilePanel(panelOf('file'), store, actions);
   return {
     setFacts(facts) {
       options.setFacts(facts);
+      scene.setFacts(facts);
       file.setFacts(facts);
     },
     setDocument(facts) {
@@ -82,7 +83,7 @@ interface Tab {
 
 function tabOf(name: PanelName, title: string): Tab {
   const tab = make('button', { type: 'button', role: 'tab', text: title, id: uniqueId() });
-  const panel = make('div', { class: 'cw-panel', role: 'tabpanel', 'aria-labelledby': tab.id, id: uniqueId(), 'data-panel': name });
+  const panel = make('div', { class: 'cw-panel', role: 'tabpanel', tabindex: '0', 'aria-labelledby': tab.id, id: uniqueId(), 'data-panel': name });
   tab.setAttribute('aria-controls', panel.id);
   return { name, tab, panel };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { ObjectFacts } from '../contract/door.js';
-import type { Actions, ObjectForm } from '../model/actions.js';
+import type { Actions, Facts, ObjectForm } from '../model/actions.js';
 import { counted } from '../model/format.js';
 import type { State, Store } from '../model/store.js';
 import { make, makeButton } from './dom.js';
@@ -12,18 +12,42 @@ const kMostRows = 150;
 
 const kDefaultSize_m = '0.5';
 
-/** Makes the list of the objects of the scene, with a filter; and, unless read only, what adds and removes them. */
-export function makeScenePanel(host: HTMLElement, store: Store, actions: Actions): void {
+export interface ScenePanel {
+  setFacts(facts: Facts): void;
+}
+
+/**
+ * Makes the list of the objects of the scene, with a filter; and, unless read only, what adds and removes them. With
+ * a daemon the path can be watched.
+ */
+export function makeScenePanel(host: HTMLElement, store: Store, actions: Actions): ScenePanel {
   const list = make('div', { class: 'cw-objects' });
   const filter = make('input', { type: 'search', placeholder: 'Find an object', 'aria-label': 'Find an object by its name' });
   const adder = adderOf(store, actions);
-  host.append(filter, list, adder);
+  const watch = make('input', { type: 'checkbox' });
+  watch.addEventListener('change', () => actions.watchPath(watch.checked));
+  const watching = make('label', { class: 'cw-check cw-watch' }, watch, 'Watch this path: say when a change of the scene breaks it');
+  let hasDaemon = false;
+  const updateWatch = (now: State): void => {
+    watching.hidden = !hasDaemon || now.connection !== 'open';
+    watch.checked = now.watched !== 'off';
+    watch.disabled = (now.answer?.segments?.length ?? 0) === 0;
+  };
+  store.listen(updateWatch);
+  updateWatch(store.now);
+  host.append(watching, filter, list, adder);
   const render = (now: State): void => {
     adder.hidden = !mayChange(now);
     renderKeepingFocus(list, rowsOf(now, filter.value, actions));
   };
   const invalidate = whileVisible(host, store, isChanged, render);
   filter.addEventListener('input', invalidate);
+  return {
+    setFacts(facts) {
+      hasDaemon = facts.status?.['planner'] === 'daemon';
+      updateWatch(store.now);
+    },
+  };
 }
 
 function isChanged(now: State, before: State): boolean {

@@ -28,13 +28,13 @@ export function makeStatusBar(host: HTMLElement, store: Store, actions: Actions)
   const connection = make('span', { class: 'cw-connection' });
   const scene = make('span', {});
   const watched = make('span', { class: 'cw-watched' });
-  const message = make('span', { class: 'cw-say', role: 'status', 'aria-live': 'polite' });
+  const space = make('span', { class: 'cw-space' });
   const cancel = makeButton('Cancel', () => actions.cancel(), { class: 'cw-cancel' });
   const stages = make('span', { class: 'cw-stages', role: 'img' });
   const took = make('span', { class: 'cw-took' });
   const draws = make('span', { class: 'cw-draws', title: 'What the picture is made of' });
   host.classList.add('cw-status');
-  host.append(connection, scene, watched, message, cancel, stages, took, draws);
+  host.append(connection, scene, watched, space, cancel, stages, took, draws);
   let who = '';
 
   const update = (now: State): void => {
@@ -45,7 +45,6 @@ export function makeStatusBar(host: HTMLElement, store: Store, actions: Actions)
     setText(watched, kWatched[now.watched]);
     watched.dataset['state'] = now.watched;
     const goesOn = now.isPending && !now.isDraft;
-    setText(message, now.message || (goesOn ? 'planning…' : ''));
     cancel.hidden = !goesOn;
   };
   const updateTimes = (now: State): void => {

@@ -2,9 +2,9 @@
 //
 // Places on the time line, in CSS pixels.
 
-export const kLeft = 104;
+export const kLeft = 120;
 export const kRight = 84;
-export const kRulerHeight = 22;
+export const kRulerHeight = 27;
 export const kMarksHeight = 22;
 export const kBandHeight = 14;
 export const kLaneHeight = 40;

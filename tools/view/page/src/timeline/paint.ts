@@ -3,7 +3,7 @@
 // Draws the time line on a canvas whose unit is a CSS pixel.
 
 import type { Curve, CurveKind } from '../model/curves.js';
-import { isEpoch, numberText, timeText } from '../model/format.js';
+import { isEpoch, lowerBoundText, numberText, timeText } from '../model/format.js';
 import { kPalette } from '../model/palette.js';
 import type { Band, BandRow, Mark } from './bands.js';
 import type { Layout } from './layout.js';
@@ -77,10 +77,10 @@ function paintRuler(context: Context, { layout, theme }: Picture): void {
     context.strokeStyle = theme.line;
     verticalLine(context, x, kRulerHeight - 4, layout.height);
     context.fillStyle = theme.muted;
-    context.fillText(timeText(origin_s + offset_s, layout.t0, ticks.decimals), x, 9);
+    context.fillText(timeText(origin_s + offset_s, layout.t0, ticks.decimals), x, 7);
   }
   context.textAlign = 'right';
-  context.fillText('time, s', layout.x0 - 12, 9);
+  context.fillText('time, s', layout.x0 - 12, 7);
 }
 
 function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }: Picture): void {
@@ -90,8 +90,8 @@ function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }
   for (const mark of marks) {
     const x = xOf(layout, mark.time_s);
     const isSelected = mark.index !== undefined && mark.index === selectedKeyframe;
-    if (mark.origin === 'inserted') ring(context, theme, x, y);
-    else diamond(context, theme, x, y, isSelected);
+    if (mark.origin === 'inserted') lozenge(context, x, y);
+    else disc(context, theme, x, y, isSelected);
     if (mark.index === undefined || !(x - numbered >= kNumberDistance || isSelected)) continue;
     numbered = x;
     context.fillStyle = isSelected ? theme.accent : theme.muted;
@@ -100,26 +100,23 @@ function paintMarks(context: Context, { layout, theme, marks, selectedKeyframe }
   }
 }
 
-function diamond(context: Context, theme: Theme, x: number, y: number, isSelected: boolean): void {
-  const size = isSelected ? 6.5 : 5;
+/** Given keyframes are discs and inserted ones lozenges, as in the view and in the pictures of `camway draw`. */
+function disc(context: Context, theme: Theme, x: number, y: number, isSelected: boolean): void {
   context.fillStyle = isSelected ? theme.accent : theme.text;
+  context.beginPath();
+  context.arc(x, y, isSelected ? 5.5 : 4.5, 0, 2 * Math.PI);
+  context.fill();
+}
+
+function lozenge(context: Context, x: number, y: number): void {
+  const size = 5;
+  context.fillStyle = kPalette.inserted;
   context.beginPath();
   context.moveTo(x, y - size);
   context.lineTo(x + size, y);
   context.lineTo(x, y + size);
   context.lineTo(x - size, y);
   context.fill();
-}
-
-function ring(context: Context, theme: Theme, x: number, y: number): void {
-  context.fillStyle = theme.panel;
-  context.strokeStyle = kPalette.inserted;
-  context.lineWidth = 2;
-  context.beginPath();
-  context.arc(x, y, 3.5, 0, 2 * Math.PI);
-  context.fill();
-  context.stroke();
-  context.lineWidth = 1;
 }
 
 function paintRow(context: Context, { layout, theme }: Picture, row: BandRow, top: number): void {
@@ -208,13 +205,18 @@ function paintLane(context: Context, { layout, theme }: Picture, lane: Lane, top
   const yOf = (value: number): number => low - (Math.min(value, most) / most) * (low - high);
   paintCurve(context, layout, curve, yOf, low, theme);
   context.textAlign = 'left';
-  if (curve.limit !== undefined) paintLimit(context, layout, lane, curve.limit, yOf(curve.limit));
+  if (curve.limit !== undefined) paintLimit(context, theme, layout, lane, curve.limit, yOf(curve.limit));
   context.fillStyle = theme.muted;
-  context.fillText(`max ${numberText(curve.largest)}`, layout.x1 + 8, curve.limit === undefined ? (low + high) / 2 : low - 5);
+  // Below the limit's words, or above them where the limit is low.
+  const y = curve.limit === undefined ? (low + high) / 2 : yOf(curve.limit) < (low + high) / 2 ? low - 5 : high + 1;
+  // Of a clearance the least matters.
+  const least = curve.values.reduce((smallest, value) => Math.min(smallest, value), Infinity);
+  const words = lane.kind.name === 'clearance' ? `min ${lowerBoundText(least)}` : `max ${numberText(curve.largest)}`;
+  context.fillText(words, layout.x1 + 8, y);
 }
 
 /** A limit as a dashed line with a word: an upper one, or for the clearance a lower one. */
-function paintLimit(context: Context, layout: Layout, lane: Lane, limit: number, y: number): void {
+function paintLimit(context: Context, theme: Theme, layout: Layout, lane: Lane, limit: number, y: number): void {
   context.strokeStyle = kPalette.collision;
   context.setLineDash([6, 4]);
   context.beginPath();
@@ -222,9 +224,8 @@ function paintLimit(context: Context, layout: Layout, lane: Lane, limit: number,
   context.lineTo(layout.x1, Math.round(y) + 0.5);
   context.stroke();
   context.setLineDash([]);
-  context.fillStyle = kPalette.collision;
-  const middle = layout.lanesTop;
-  context.fillText(`${lane.kind.name === 'clearance' ? 'least' : 'limit'} ${numberText(limit)}`, layout.x1 + 8, Math.max(y, middle));
+  context.fillStyle = theme.text;
+  context.fillText(`${lane.kind.name === 'clearance' ? 'least' : 'limit'} ${numberText(limit)}`, layout.x1 + 8, y);
 }
 
 /** Draws a curve with at most some points for each pixel: of those in one pixel, the lowest and the highest. */

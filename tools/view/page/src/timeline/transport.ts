@@ -29,10 +29,10 @@ export function makeTransport(store: Store, actions: Actions, curvesChanged: () 
     if (store.now.isPlaying) actions.play(Number(speed.value));
   });
   const jumps = [
-    makeIconButton('◆◂', 'Previous keyframe', () => actions.jump('keyframe', 'previous')),
-    makeIconButton('▸◆', 'Next keyframe', () => actions.jump('keyframe', 'next')),
-    makeIconButton('✕◂', 'Previous collision', () => actions.jump('collision', 'previous')),
-    makeIconButton('▸✕', 'Next collision', () => actions.jump('collision', 'next')),
+    makeIconButton('◂●', 'Previous keyframe', () => actions.jump('keyframe', 'previous')),
+    makeIconButton('●▸', 'Next keyframe', () => actions.jump('keyframe', 'next')),
+    makeIconButton('◂✕', 'Previous collision', () => actions.jump('collision', 'previous')),
+    makeIconButton('✕▸', 'Next collision', () => actions.jump('collision', 'next')),
   ] as const;
   const time = make('output', { class: 'cw-time', 'aria-live': 'off' });
   const shown = new Set<CurveName>(['speed', 'clearance']);

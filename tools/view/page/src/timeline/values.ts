@@ -4,7 +4,7 @@
 
 import type { Curve } from '../model/curves.js';
 import { kCurveKinds, valueAt } from '../model/curves.js';
-import { timeText, withUnit } from '../model/format.js';
+import { lowerBoundText, timeText, withUnit } from '../model/format.js';
 import type { BandRow, Mark } from './bands.js';
 import { bandsAt } from './bands.js';
 import type { Layout } from './layout.js';
@@ -30,7 +30,7 @@ export function linesAt(readable: Readable, time_s: number): string[] {
   for (const curve of curves) {
     const kind = kCurveKinds.find((known) => known.name === curve.name);
     const value = valueAt(curve, time_s);
-    if (kind && value !== undefined) lines.push(`${kind.label} ${withUnit(value, kind.unit)}${excess(curve, value)}`);
+    if (kind && value !== undefined) lines.push(`${kind.label} ${curve.name === 'clearance' ? `${lowerBoundText(value)} m` : withUnit(value, kind.unit)}${excess(curve, value)}`);
   }
   const details = bandsAt(rows, time_s).map((band) => band.detail);
   return [...lines, ...new Set(details)];

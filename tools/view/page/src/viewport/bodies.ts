@@ -93,6 +93,6 @@ export function bodyGeometries(request: PlanRequest): BufferGeometry[] {
 }
 
 /** The length at which pyramids of keyframes are drawn: to be seen, and not to fill rooms. */
-export function pyramidLength(camera: Camera, sceneSize_m: number): number {
-  return Math.min(Math.max(2 * camera.near, 0.25), Math.max(0.05 * sceneSize_m, 2 * camera.near));
+export function pyramidLength(camera: Camera, pathSize_m: number): number {
+  return Math.max(2 * camera.near, Math.min(Math.max(0.07 * pathSize_m, 0.25), 1));
 }

@@ -3,7 +3,7 @@
 // before would have it.
 
 import { DoubleSide, Group, Mesh, ShaderMaterial, Vector3 } from 'three';
-import type { BufferGeometry, IUniform } from 'three';
+import type { BufferGeometry } from 'three';
 import type { PlanRequest } from '../contract/request.js';
 import type { Pose } from '../model/actions.js';
 import { kPalette } from '../model/palette.js';
@@ -11,7 +11,7 @@ import { addPyramid, bodyGeometries, kDefaultCamera, pictureCorners, pyramidLeng
 import { toQuaternion } from './frame.js';
 import type { Frame } from './frame.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
-import type { Rgb } from './tubes.js';
+import type { Rgb, TubeUniforms } from './tubes.js';
 
 const kVertexShader = /* glsl */ `
 varying vec3 vEyeward;
@@ -52,8 +52,8 @@ export class CursorView {
   private readonly material = makeGlassMaterial([0, 0, 0], 0.5);
   private shown: PlanRequest | undefined;
 
-  constructor(viewHeight: IUniform<number>) {
-    this.lines = new Tubes(viewHeight, 40);
+  constructor(shared: TubeUniforms) {
+    this.lines = new Tubes(shared, 40);
     this.bodies.renderOrder = 55;
     this.group.add(this.bodies, this.lines);
   }
@@ -63,7 +63,7 @@ export class CursorView {
     pose: Pose | undefined,
     before: Pose | undefined,
     frame: Frame,
-    sceneSize_m: number,
+    pathSize_m: number,
     colour: Rgb,
     nearScale: number,
   ): void {
@@ -78,7 +78,7 @@ export class CursorView {
     const lines = new TubeBuilder();
     const camera = { ...(request.camera ?? kDefaultCamera) };
     camera.near *= nearScale;
-    const length_m = 2.5 * pyramidLength(camera, sceneSize_m);
+    const length_m = 1.8 * pyramidLength(camera, pathSize_m);
     const add = (at: Pose, tone: Rgb, isDashed: boolean): void => {
       const eye = frame.toLocal(at.position);
       const turn = toQuaternion(at.orientation);

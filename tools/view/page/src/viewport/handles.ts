@@ -5,6 +5,9 @@ import { Object3D, Quaternion, Vector3 } from 'three';
 import type { Camera, Scene } from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
 
+/** For x, y, z, and the axis in the hand: told apart by any kind of colour vision. */
+const kAxisColours = [0xd55e00, 0x009e73, 0x2b86c9, 0xf0e442] as const;
+
 export type HandleMode = 'translate' | 'rotate';
 
 export interface HandleTarget {
@@ -30,6 +33,7 @@ export class Handles {
   constructor(camera: Camera, element: HTMLElement, scene: Scene, events: HandleEvents) {
     this.controls = new TransformControls(camera, element);
     this.controls.setSize(0.75);
+    this.controls.setColors(...kAxisColours);
     this.controls.setMode('translate');
     scene.add(this.proxy, this.controls.getHelper());
     this.controls.addEventListener('change', events.onChange);

@@ -3,7 +3,6 @@
 // vermillion with the nearest free pose as a dashed ghost; each with a small pyramid that shows where it looks.
 
 import { Group, Vector3 } from 'three';
-import type { IUniform } from 'three';
 import type { Answer } from '../contract/answer.js';
 import type { PlanRequest } from '../contract/request.js';
 import { kPalette } from '../model/palette.js';
@@ -13,7 +12,7 @@ import type { Frame } from './frame.js';
 import { Markers } from './markers.js';
 import type { Marker } from './markers.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
-import type { Rgb } from './tubes.js';
+import type { Rgb, TubeUniforms } from './tubes.js';
 
 /** Beyond that many keyframes, pyramids are drawn for the selected and the invalid ones alone. */
 const kMostPyramids = 120;
@@ -33,7 +32,7 @@ export interface KeyframeScene {
   answer: Answer | undefined;
   selected: number | undefined;
   frame: Frame;
-  sceneSize_m: number;
+  pathSize_m: number;
 }
 
 export class KeyframesView {
@@ -43,17 +42,17 @@ export class KeyframesView {
   /** Places of the keyframes of the request, for picking and labels. */
   places: Vector3[] = [];
 
-  constructor(viewHeight: IUniform<number>) {
-    this.pyramids = new Tubes(viewHeight, 30);
+  constructor(shared: TubeUniforms) {
+    this.pyramids = new Tubes(shared, 30);
     this.group.add(this.pyramids, this.markers);
   }
 
-  show({ request, answer, selected, frame, sceneSize_m }: KeyframeScene, look: KeyframeLook): void {
+  show({ request, answer, selected, frame, pathSize_m }: KeyframeScene, look: KeyframeLook): void {
     const tubes = new TubeBuilder();
     const markers: Marker[] = [];
     const keyframes = request?.keyframes ?? [];
     const camera = request?.camera ?? kDefaultCamera;
-    const length_m = pyramidLength(camera, sceneSize_m);
+    const length_m = pyramidLength(camera, pathSize_m);
     const invalid = rgbOf(kPalette.collision);
     const faults = new Map((answer?.keyframe_faults ?? []).map((fault) => [fault.keyframe, fault]));
     const special = specialKeyframes(answer);

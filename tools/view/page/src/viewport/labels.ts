@@ -2,6 +2,7 @@
 // Names beside what they name: numbers of keyframes, and the name of the object under the mouse or selected.
 
 import { Vector3 } from 'three';
+import type { Part } from './camera_views.js';
 import type { Camera } from 'three';
 
 /** Beyond that many, numbers would cover the path. */
@@ -39,8 +40,11 @@ export class Labels {
     });
   }
 
-  /** Moves the names to where their places are on the screen; of numbers that would overlap, one is shown. */
-  place(camera: Camera, width: number, height: number, isVisible: boolean): void {
+  /**
+   * Moves the names to where their places are on the screen; of numbers that would overlap, one is shown. Parts of the
+   * canvas that show something else are `covered`.
+   */
+  place(camera: Camera, width: number, height: number, isVisible: boolean, covered: readonly Part[]): void {
     const taken: [number, number][] = [];
     const projected = new Vector3();
     this.host.hidden = !isVisible;
@@ -53,7 +57,8 @@ export class Labels {
       const y = (0.5 - projected.y * 0.5) * height;
       const isInside = Math.abs(projected.z) < 1 && x > 0 && x < width && y > 0 && y < height;
       const isCrowded = kind === 'keyframe' && taken.some(([u, v]) => Math.hypot(u - x, v - y) < kLeastDistance_px);
-      element.hidden = !isInside || isCrowded;
+      const isCovered = covered.some((part) => x > part.x - 20 && x < part.x + part.width && height - y > part.y && height - y < part.y + part.height);
+      element.hidden = !isInside || isCrowded || isCovered;
       if (element.hidden) return;
       taken.push([x, y]);
       element.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;

@@ -34,6 +34,7 @@ const kWalkSpeed_m_per_s = 1.6;
 const kWheelStep_m = 0.35;
 const kOrbitSpeed = 0.9; // of the distance to the middle, per second
 const kTransition_s = 0.16;
+const kFitLift = 0.22;
 const kNearShare = 0.004;
 const kLeastNear_m = 0.01;
 
@@ -121,13 +122,15 @@ export class Navigation {
     const from = (direction ?? eye.sub(target)).clone().normalize();
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance_m = Math.max(sphere.radius, 0.3) / Math.sin(Math.atan(half));
-    this.place(sphere.center.clone().addScaledVector(from, distance_m), sphere.center, isSmooth);
+    // A little above the middle of the sphere, as the upper edge of the view has the pictures of the camera.
+    const right = this.camera.up.clone().cross(from).normalize();
+    const middle = sphere.center.clone().addScaledVector(from.clone().cross(right), kFitLift * sphere.radius);
+    this.place(middle.clone().addScaledVector(from, distance_m), middle, isSmooth);
   }
 
-  /** Puts the eye at a pose and walks from there. */
-  walkFrom(eye: Vector3, orientation: Quaternion): void {
+  /** Puts the eye at a place, to walk from there in a direction. */
+  walkFrom(eye: Vector3, forward: Vector3): void {
     this.setMode('walk');
-    const forward = new Vector3(0, 0, -1).applyQuaternion(orientation);
     this.place(eye, eye.clone().addScaledVector(forward, kWalkDistance_m), true);
   }
 

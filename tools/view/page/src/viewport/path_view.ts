@@ -3,7 +3,6 @@
 // ghost where it differs, and collisions in vermillion on whichever path has them.
 
 import { Group, Vector3 } from 'three';
-import type { IUniform } from 'three';
 import type { Answer, Segment } from '../contract/answer.js';
 import type { PlanRequest } from '../contract/request.js';
 import { clearanceColour, kPalette } from '../model/palette.js';
@@ -11,7 +10,7 @@ import { bezierAt, poseAt } from '../model/path.js';
 import { TimeMap } from '../model/times.js';
 import type { Frame } from './frame.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
-import type { Rgb, TubeStyle } from './tubes.js';
+import type { Rgb, TubeStyle, TubeUniforms } from './tubes.js';
 
 const kSamplesOfPath = 700;
 const kMostSamplesOfSegment = 32;
@@ -95,10 +94,10 @@ export class PathView {
   private readonly ghost: Tubes;
   private readonly tube: Tubes;
 
-  constructor(viewHeight: IUniform<number>) {
-    this.sleeve = new Tubes(viewHeight, 20, 0.3);
-    this.ghost = new Tubes(viewHeight, 21);
-    this.tube = new Tubes(viewHeight, 22);
+  constructor(shared: TubeUniforms) {
+    this.sleeve = new Tubes(shared, 20, 0.3);
+    this.ghost = new Tubes(shared, 21);
+    this.tube = new Tubes(shared, 22);
     this.group.add(this.sleeve, this.ghost, this.tube);
   }
 

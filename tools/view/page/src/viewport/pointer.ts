@@ -13,7 +13,8 @@ const kLeastIncidence = 0.17;
 export interface PointerTarget {
   readonly element: HTMLElement;
   readonly camera: PerspectiveCamera;
-  readonly up: Vector3;
+  /** The upward direction. */
+  up(): Vector3;
   /** Whether a drag may begin, and not the handles or a picture have the mouse. */
   canDrag(): boolean;
   isTaken(): boolean;
@@ -95,8 +96,8 @@ export class Pointer {
   /** The level plane through a place, or one that faces the eye if that is seen edge on. */
   private dragPlane(place: Vector3): Plane {
     const toEye = this.target.camera.position.clone().sub(place).normalize();
-    const isFlat = Math.abs(toEye.dot(this.target.up)) < kLeastIncidence;
-    return new Plane().setFromNormalAndCoplanarPoint(isFlat ? toEye : this.target.up, place);
+    const isFlat = Math.abs(toEye.dot(this.target.up())) < kLeastIncidence;
+    return new Plane().setFromNormalAndCoplanarPoint(isFlat ? toEye : this.target.up(), place);
   }
 
   private move(event: PointerEvent): void {

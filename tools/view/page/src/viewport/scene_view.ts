@@ -2,7 +2,7 @@
 // The objects of the scene. A new description fetches the meshes with new digests alone, and moves the others.
 
 import { Group, LineSegments, Mesh, Raycaster, ShaderMaterial, Vector3 } from 'three';
-import type { BufferGeometry, Ray } from 'three';
+import type { BufferGeometry, IUniform, Ray } from 'three';
 import { acceleratedRaycast } from 'three-mesh-bvh';
 import type { ObjectFacts, SceneDescription } from '../contract/door.js';
 import { toQuaternion } from './frame.js';
@@ -43,12 +43,13 @@ export class SceneView {
 
   constructor(
     private readonly look: SurfaceLook,
+    viewHeight: IUniform<number>,
     private readonly source: MeshSource,
     /** Hears that something to draw has changed. */
     private readonly onChange: () => void,
     private readonly onError: (sentence: string) => void,
   ) {
-    this.edgeMaterial = makeEdgeMaterial(look);
+    this.edgeMaterial = makeEdgeMaterial(look, viewHeight);
   }
 
   /** Shows a scene. A later call replaces an earlier one, even if its meshes are not there yet. */

@@ -61,7 +61,14 @@ export function makeEdges(shape: Shape): BufferGeometry | undefined {
   const positions = shape.geometry.getAttribute('position').array as Float32Array;
   const indices = shape.geometry.getIndex()?.array as Uint32Array;
   shape.edges = new BufferGeometry();
-  shape.edges.setAttribute('position', new BufferAttribute(sharpEdges(positions, indices), 3));
+  const ends = sharpEdges(positions, indices);
+  const spans = new Float32Array(ends.length / 3);
+  for (let i = 0; i < spans.length; i += 2) {
+    const at = (k: number): number => (ends[3 * i + k] ?? 0) - (ends[3 * i + 3 + k] ?? 0);
+    spans.fill(Math.hypot(at(0), at(1), at(2)), i, i + 2);
+  }
+  shape.edges.setAttribute('position', new BufferAttribute(ends, 3));
+  shape.edges.setAttribute('span', new BufferAttribute(spans, 1));
   return shape.edges;
 }
 

@@ -2,9 +2,9 @@
 // The canvas: draws when something changed, and never otherwise.
 
 import { ColorManagement, LinearSRGBColorSpace, Scene, Vector4, WebGLRenderer } from 'three';
-import type { IUniform, PerspectiveCamera } from 'three';
+import type { PerspectiveCamera } from 'three';
 import type { Part } from './camera_views.js';
-import type { Rgb } from './tubes.js';
+import type { Rgb, TubeUniforms } from './tubes.js';
 
 // All colours are given as they are shown; nothing is lit by physics here.
 ColorManagement.enabled = false;
@@ -30,7 +30,7 @@ export interface DrawCount {
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly scene = new Scene();
-  readonly viewHeight: IUniform<number> = { value: 1 };
+  readonly tubes: TubeUniforms = { viewHeight: { value: 1 }, fade_m: { value: 0 } };
   private readonly renderer: WebGLRenderer;
   private isDue = false;
   private last_ms = 0;
@@ -109,7 +109,7 @@ export class Stage {
 
   private drawOne({ camera, part, before, after }: Drawing): void {
     const { x, y, width, height } = part ?? { x: 0, y: 0, width: this.width, height: this.height };
-    this.viewHeight.value = height;
+    this.tubes.viewHeight.value = height;
     this.renderer.setViewport(x, y, width, height);
     if (part) {
       this.renderer.setScissor(x, y, width, height);

@@ -65,15 +65,29 @@ void main() {
   gl_FragColor = vec4(base * min(light, 1.0), 1.0);
 }`;
 
+/** Edges that are a few pixels long would cover the surfaces of a dense scene, so they fade. */
+const kEdgeVertexShader = /* glsl */ `
+uniform float uViewHeight;
+attribute float span; // length of the edge
+varying vec3 vPlace;
+varying float vShare;
+void main() {
+  vec4 place = modelMatrix * vec4(position, 1.0);
+  vPlace = place.xyz;
+  gl_Position = projectionMatrix * viewMatrix * place;
+  float pixels = 0.5 * uViewHeight * projectionMatrix[1][1] * span / max(gl_Position.w, 1e-6);
+  vShare = clamp(pixels / 9.0, 0.06, 1.0);
+}`;
+
 const kEdgeFragmentShader = /* glsl */ `
 uniform vec4 uSection;
 uniform vec3 uEdge;
 uniform float uEdgeOpacity;
 varying vec3 vPlace;
-varying vec3 vEyeward;
+varying float vShare;
 void main() {
   if (dot(uSection.xyz, vPlace) > uSection.w) discard;
-  gl_FragColor = vec4(uEdge, uEdgeOpacity);
+  gl_FragColor = vec4(uEdge, uEdgeOpacity * vShare);
 }`;
 
 /** A material for one object: its tint is its own, the rest is shared. */
@@ -104,10 +118,10 @@ export function tint(material: ShaderMaterial, colour: Rgb | undefined, share = 
   uTinted.value = colour ? share : 0;
 }
 
-export function makeEdgeMaterial(look: SurfaceLook): ShaderMaterial {
+export function makeEdgeMaterial(look: SurfaceLook, viewHeight: IUniform<number>): ShaderMaterial {
   return new ShaderMaterial({
-    uniforms: { uSection: look.section, uEdge: look.edge, uEdgeOpacity: look.edgeOpacity },
-    vertexShader: kVertexShader,
+    uniforms: { uViewHeight: viewHeight, uSection: look.section, uEdge: look.edge, uEdgeOpacity: look.edgeOpacity },
+    vertexShader: kEdgeVertexShader,
     fragmentShader: kEdgeFragmentShader,
     transparent: true,
     depthWrite: false,

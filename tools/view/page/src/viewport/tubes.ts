@@ -20,6 +20,14 @@ export function rgbOf(hex: string): Rgb {
   return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
 }
 
+/** What all tubes of a view share. */
+export interface TubeUniforms {
+  /** Height of the picture in CSS pixels. */
+  readonly viewHeight: IUniform<number>;
+  /** Nearer than that, tubes fade away: somebody who walks along a path would see nothing else. */
+  readonly fade_m: IUniform<number>;
+}
+
 const kSides = 7;
 const kHiddenOpacity = 0.28;
 
@@ -32,6 +40,7 @@ varying vec3 vColour;
 varying vec3 vNormal;
 varying float vAlong;
 varying float vDashed;
+varying float vDepth;
 void main() {
   vec4 centre = modelViewMatrix * vec4(position, 1.0);
   float pixel = 2.0 * max(-centre.z, 1e-6) / (projectionMatrix[1][1] * uViewHeight);
@@ -43,19 +52,24 @@ void main() {
   // A dash and its gap take some 14 pixels; powers of two, so that dashes stand still while the view moves.
   vAlong = style.z / exp2(ceil(log2(14.0 * pixel)));
   vDashed = style.w;
+  vDepth = -centre.z;
   gl_Position = projectionMatrix * centre;
 }`;
 
 const kFragmentShader = /* glsl */ `
 uniform float uOpacity;
+uniform float uFade;
+varying float vDepth;
 varying vec3 vColour;
 varying vec3 vNormal;
 varying float vAlong;
 varying float vDashed;
 void main() {
+  float near = smoothstep(0.5 * uFade, uFade, vDepth);
+  if (near < 0.02) discard;
   if (vDashed > 0.5 && fract(vAlong) > 0.55) discard;
   float light = 0.80 + 0.20 * abs(normalize(vNormal).z);
-  gl_FragColor = vec4(vColour * light, uOpacity);
+  gl_FragColor = vec4(vColour * light, uOpacity * near);
 }`;
 
 export interface TubeStyle {
@@ -154,12 +168,11 @@ export class Tubes extends Group {
   private readonly visiblePart: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly hiddenPart: Mesh<BufferGeometry, ShaderMaterial>;
 
-  /** `viewHeight` is shared by all views, in CSS pixels. */
-  constructor(viewHeight: IUniform<number>, order: number, opacity = 1) {
+  constructor(shared: TubeUniforms, order: number, opacity = 1) {
     super();
     const material = (opacityHere: number): ShaderMaterial =>
       new ShaderMaterial({
-        uniforms: { uViewHeight: viewHeight, uOpacity: { value: opacityHere } },
+        uniforms: { uViewHeight: shared.viewHeight, uFade: shared.fade_m, uOpacity: { value: opacityHere } },
         vertexShader: kVertexShader,
         fragmentShader: kFragmentShader,
         transparent: true, // drawn after the scene, whose depth tells what is hidden

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The view of the scene: it listens to the store, and what the mouse does in it becomes actions.
 
-import { Box3, Quaternion, Sphere, Vector3 } from 'three';
+import { Quaternion, Ray, Sphere, Vector3 } from 'three';
 import type { Vec3 } from '../contract/request.js';
 import type { Actions, Pose } from '../model/actions.js';
 import { poseAt } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
-import { TimeMap } from '../model/times.js';
-import { kDefaultCamera } from './bodies.js';
 import { CameraViews } from './camera_views.js';
-import type { CameraMode, Eye } from './camera_views.js';
-import { CursorView } from './cursor_view.js';
-import { FindingsView } from './findings_view.js';
+import type { CameraMode } from './camera_views.js';
+import { Content } from './content.js';
+import type { Picked } from './content.js';
+import { Editing } from './editing.js';
+import { Extent } from './extent.js';
 import type { TriangleSource } from './findings_view.js';
-import { Frame, toQuat, toQuaternion, upVector, uprightAxis } from './frame.js';
+import { Frame, toQuaternion, upVector, uprightAxis } from './frame.js';
 import type { UpAxis } from './frame.js';
-import { Handles } from './handles.js';
 import type { HandleMode } from './handles.js';
-import { KeyframesView } from './keyframes_view.js';
 import { Labels } from './labels.js';
-import type { Label } from './labels.js';
 import { findFloors } from './levels.js';
 import { Navigation } from './navigation.js';
-import { PathView } from './path_view.js';
-import { Pointer } from './pointer.js';
 import { SceneView } from './scene_view.js';
 import type { Hit, MeshSource } from './scene_view.js';
 import { Section } from './section.js';
@@ -45,25 +40,25 @@ export interface ViewReport extends DrawCount {
   error_m: number;
 }
 
-/** Objects that are a larger part of the scene are the building, and are not dragged by accident. */
-const kLargestMovable = 0.4;
-const kLeastView_m = 2;
-const kSurfaceMargin_m = 0.05;
-const kDefaultDirection = new Vector3(0.15, 1, 0.75);
+/** While somebody walks, lines nearer than that are not drawn. */
+const kWalkFade_m = 0.8;
+/** New objects are put that far off the surface that the view looks at, and that far ahead if there is none. */
+const kOffSurface_m = 0.3;
+const kAhead_m = 3;
+/** Of a person who stands. */
+const kEyeHeight_m = 1.6;
 
 export class Viewport {
   readonly section: Section;
   readonly navigation: Navigation;
+  private readonly host: HTMLElement;
   private readonly stage: Stage;
   private readonly look = makeSurfaceLook();
   private readonly sceneView: SceneView;
-  private readonly pathView: PathView;
-  private readonly keyframesView: KeyframesView;
-  private readonly cursorView: CursorView;
-  private readonly findings: FindingsView;
+  readonly editing: Editing;
+  private readonly content: Content;
+  private readonly extent: Extent;
   private readonly cameraViews: CameraViews;
-  private readonly handles: Handles;
-  private readonly pointer: Pointer;
   private readonly labels: Labels;
   private frame = new Frame();
   private sceneName: string | undefined;
@@ -73,8 +68,9 @@ export class Viewport {
   private isPlaced = false;
   private isFast = false;
   private dirty = { content: true, cursor: true };
-  private picked: { name: string; point: Vector3 } | undefined;
-  private dragged: Pose | undefined;
+  private picked: Picked | undefined;
+  private floorsKey = '';
+  private floors: number[] = [];
 
   constructor(
     host: HTMLElement,
@@ -83,34 +79,35 @@ export class Viewport {
     private readonly sources: Sources,
     private readonly onDrawn: (report: ViewReport) => void,
   ) {
+    this.host = host;
     const part = (name: string): HTMLElement => host.querySelector<HTMLElement>(`[data-part="${name}"]`) ?? host;
     this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h));
     const invalidate = (): void => this.stage.invalidate();
-    this.sceneView = new SceneView(this.look, sources.mesh, invalidate, (message) => store.set({ message }));
+    this.extent = new Extent(store, () => this.frame, () => this.up);
+    this.sceneView = new SceneView(this.look, this.stage.tubes.viewHeight, sources.mesh, invalidate, (message) => store.set({ message }));
     this.labels = new Labels(part('labels'));
     this.cameraViews = new CameraViews(part('camera-views'));
     this.section = new Section(part('section'), this.look.section, invalidate);
-    const { canvas, scene, viewHeight } = this.stage;
+    const { canvas, scene, tubes } = this.stage;
     this.navigation = new Navigation(canvas, invalidate);
-    this.handles = new Handles(this.navigation.camera, canvas, scene, {
-      onDrag: (position, orientation) => this.dragHandle(position, orientation, 'draft'),
-      onRelease: (position, orientation) => this.dragHandle(position, orientation, 'full'),
-      onBusy: (isBusy) => (this.navigation.controls.enabled = !isBusy),
-      onChange: invalidate,
+    this.navigation.setSize(this.stage.width, this.stage.height);
+    this.content = new Content(tubes, this.look.section, this.extent, invalidate);
+    this.editing = new Editing({
+      store,
+      actions,
+      stage: this.stage,
+      navigation: this.navigation,
+      sceneView: this.sceneView,
+      extent: this.extent,
+      frame: () => this.frame,
+      up: () => this.up,
+      places: () => this.content.places,
+      isCovered: () => this.cameraViews.mode === 'full',
+      onPicked: (hit) => this.pick(hit),
     });
-    this.pathView = new PathView(viewHeight);
-    this.keyframesView = new KeyframesView(viewHeight);
-    this.cursorView = new CursorView(viewHeight);
-    this.findings = new FindingsView(viewHeight, invalidate);
-    scene.add(this.sceneView.group, ...this.overlays);
-    this.pointer = this.makePointer();
+    scene.add(this.sceneView.group, this.content.group);
     this.applyTheme();
     store.listen((now, before) => this.follow(now, before));
-    this.follow(store.now, { ...store.now, scene: undefined });
-  }
-
-  private get overlays() {
-    return [this.pathView.group, this.keyframesView.group, this.cursorView.group, this.findings.group];
   }
 
   // The view, for keys and buttons.
@@ -121,35 +118,14 @@ export class Viewport {
     return this.frame.toPose(camera.position, camera.getWorldQuaternion(new Quaternion()));
   }
 
-  /** The point that the view looks at: on a surface if there is one in the middle. */
+  /** Where the view looks: just off the surface in its middle, or ahead if there is none. */
   get viewTarget(): Vec3 {
     const { camera, controls, mode } = this.navigation;
-    const direction = camera.getWorldDirection(new Vector3());
-    const reach = mode === 'walk' ? 3 : controls.distance;
-    return this.frame.toPose(camera.position.clone().addScaledVector(direction, reach), new Quaternion()).position;
-  }
-
-  /** The pose of a keyframe after a step to the right, up and back, as the view has these directions. */
-  nudged(index: number, [right, up, back]: Vec3, step_m: number): Pose {
-    const keyframe = this.store.now.request?.keyframes[index];
-    if (!keyframe) return this.viewPose;
-    const upward = upVector(this.up);
-    const ahead = this.navigation.camera.getWorldDirection(new Vector3());
-    ahead.addScaledVector(upward, -ahead.dot(upward)).normalize();
-    const sideways = ahead.clone().cross(upward);
-    const place = this.frame.toLocal(keyframe.position).addScaledVector(sideways, right * step_m);
-    place.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
-    return { position: this.frame.toPose(place, new Quaternion()).position, orientation: keyframe.orientation };
-  }
-
-  /** The pose of a keyframe after a turn about the upward axis, and up about its own right. */
-  turned(index: number, yaw_deg: number, pitch_deg: number): Pose {
-    const keyframe = this.store.now.request?.keyframes[index];
-    if (!keyframe) return this.viewPose;
-    const yaw = new Quaternion().setFromAxisAngle(upVector(this.up), (yaw_deg * Math.PI) / 180);
-    const pitch = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), (pitch_deg * Math.PI) / 180);
-    const turned = yaw.multiply(toQuaternion(keyframe.orientation)).multiply(pitch);
-    return { position: keyframe.position, orientation: toQuat(turned) };
+    const ray = new Ray(camera.position.clone(), camera.getWorldDirection(new Vector3()));
+    const reach_m = mode === 'walk' ? kAhead_m : controls.distance;
+    const hit = this.sceneView.pick(ray, 3 * reach_m);
+    const place = hit ? hit.point.addScaledVector(hit.normal, kOffSurface_m) : ray.at(reach_m, new Vector3());
+    return this.frame.toPose(place, new Quaternion()).position;
   }
 
   get upAxis(): UpAxis {
@@ -163,11 +139,11 @@ export class Viewport {
   }
 
   get handleMode(): HandleMode {
-    return this.handles.mode;
+    return this.editing.handles.mode;
   }
 
   set handleMode(mode: HandleMode) {
-    this.handles.mode = mode;
+    this.editing.handles.mode = mode;
     this.stage.invalidate();
   }
 
@@ -177,6 +153,7 @@ export class Viewport {
 
   set cameraMode(mode: CameraMode) {
     this.cameraViews.setMode(mode);
+    this.host.dataset['camera'] = mode;
     this.dirty.cursor = true;
     this.stage.invalidate();
   }
@@ -186,33 +163,58 @@ export class Viewport {
   }
 
   toggleSection(): void {
-    this.section.toggle(this.pathRange()[1]);
+    this.section.toggle(this.extent.pathRange[1]);
   }
 
   toggleWalk(): void {
-    this.navigation.setMode(this.navigation.mode === 'walk' ? 'orbit' : 'walk');
-    this.section.pause(this.navigation.mode === 'walk');
+    if (this.navigation.mode === 'walk') this.navigation.setMode('orbit');
+    else this.beginWalk();
+    this.modeChanged();
+  }
+
+  /** From within the scene it goes on as it is; from above or outside, people come down to where they look. */
+  private beginWalk(): void {
+    const { camera } = this.navigation;
+    const up = upVector(this.up);
+    const isWithin = this.extent.scene.containsPoint(camera.position) && camera.position.dot(up) <= this.section.cutHeight;
+    const forward = camera.getWorldDirection(new Vector3());
+    const hit = isWithin ? undefined : this.sceneView.pick(new Ray(camera.position.clone(), forward));
+    if (!hit) {
+      this.navigation.setMode('walk');
+      return;
+    }
+    const level = forward.addScaledVector(up, -forward.dot(up));
+    if (level.lengthSq() < 1e-6) level.set(0, 1, 0).applyQuaternion(camera.quaternion);
+    this.navigation.walkFrom(hit.point.addScaledVector(up, kEyeHeight_m), level.normalize());
   }
 
   /** Puts the view where the camera is at the cursor. */
   walkFromCursor(): void {
     const pose = poseAt(pathOf(this.store.now), this.store.now.cursor_s);
     if (!pose) return;
-    this.navigation.walkFrom(this.frame.toLocal(pose.position), toQuaternion(pose.orientation));
-    this.section.pause(true);
+    this.navigation.walkFrom(this.frame.toLocal(pose.position), new Vector3(0, 0, -1).applyQuaternion(toQuaternion(pose.orientation)));
+    this.modeChanged();
+  }
+
+  /** In a walk nothing is cut off, and lines that are in the way of the eye are not drawn. */
+  private modeChanged(): void {
+    const isWalk = this.navigation.mode === 'walk';
+    this.section.pause(isWalk);
+    this.stage.tubes.fade_m.value = isWalk ? kWalkFade_m : 0;
+    this.stage.invalidate();
   }
 
   /** Shows the path, or the scene if there is none. */
   home(isSmooth = true): void {
-    const sphere = this.pathSphere() ?? this.sceneSphere();
-    this.navigation.fit(sphere, this.homeDirection(), isSmooth);
-    this.section.pause(false);
-    this.section.openAbove(this.pathRange()[1]);
+    const sphere = this.extent.pathSphere ?? this.extent.sceneSphere;
+    this.navigation.fit(sphere, this.extent.homeDirection, isSmooth);
+    this.modeChanged();
+    this.section.openAbove(this.extent.pathRange[1]);
   }
 
   showScene(): void {
-    this.navigation.fit(this.sceneSphere(), this.homeDirection(), true);
-    this.section.pause(false);
+    this.navigation.fit(this.extent.sceneSphere, this.extent.homeDirection, true);
+    this.modeChanged();
     this.section.cutAt(Infinity);
   }
 
@@ -220,14 +222,14 @@ export class Viewport {
     const { selection, request } = this.store.now;
     if (selection && 'keyframe' in selection) {
       const keyframe = request?.keyframes[selection.keyframe];
-      if (keyframe) this.navigation.fit(new Sphere(this.frame.toLocal(keyframe.position), kLeastView_m), undefined, true);
+      if (keyframe) this.navigation.fit(this.extent.around(keyframe.position), undefined, true);
     } else if (selection) {
       const bounds = this.sceneView.factsOf(selection.object)?.bounds;
-      if (bounds) this.navigation.fit(this.boxOf(bounds).getBoundingSphere(new Sphere()), undefined, true);
+      if (bounds) this.navigation.fit(this.extent.boxOf(bounds).getBoundingSphere(new Sphere()), undefined, true);
     } else {
       this.home();
     }
-    this.section.pause(false);
+    this.modeChanged();
   }
 
   applyTheme(): void {
@@ -237,7 +239,6 @@ export class Viewport {
     this.look.cut.value.set(...this.theme.cut);
     this.look.edge.value.set(...this.theme.edge);
     this.look.edgeOpacity.value = this.theme.edgeOpacity;
-    this.findings.setLook([...this.theme.rim], this.stage.pixelRatio);
     this.dirty = { content: true, cursor: true };
     this.stage.invalidate();
   }
@@ -265,7 +266,7 @@ export class Viewport {
     this.dirty.cursor ||= isCursor;
     if (now.answer !== before.answer && !now.isDraft) this.showFindings(now);
     if (isCursor) this.stage.invalidate();
-    if (now.request && !this.isPlaced) this.placeFirst();
+    if (!this.isPlaced && now.scene && now.request) this.showOpened();
   }
 
   private async showScenes(now: State): Promise<void> {
@@ -276,26 +277,26 @@ export class Viewport {
       const middle = (axis: 0 | 1 | 2): number => Math.round((bounds.min[axis] + bounds.max[axis]) / 2);
       this.frame = new Frame([middle(0), middle(1), middle(2)]);
       this.isPlaced = false;
-      this.placeFirst();
+      this.dirty = { content: true, cursor: true };
+      this.showOpened();
       this.showFindings(now);
     }
-    this.navigation.setReach(this.sceneSphere().radius);
+    this.navigation.setReach(this.extent.sceneSphere.radius);
     await this.sceneView.show(now.scene, this.frame);
     this.updateSection();
     this.select(this.store.now);
   }
 
-  /** Places the view when it is known what to show. */
-  private placeFirst(): void {
+  /** Shows a request that was opened, once it is known in which scene. */
+  showOpened(): void {
     const { scene, request } = this.store.now;
     if (!scene) return;
-    this.isPlaced = request !== undefined && request.keyframes.length > 0;
+    this.isPlaced = request !== undefined;
     if (!this.isUpChosen) {
-      const flatZ = scene.scene.bounds;
-      const isFlat = flatZ.max[2] - flatZ.min[2] < 0.5 * (flatZ.max[1] - flatZ.min[1]);
+      const { min, max } = scene.scene.bounds;
+      const isFlat = max[2] - min[2] < 0.5 * (max[1] - min[1]);
       this.applyUp(uprightAxis(request?.keyframes.map(({ orientation }) => orientation) ?? []) ?? (isFlat ? 'z' : 'y'));
     }
-    this.updateSection();
     this.home(false);
   }
 
@@ -308,13 +309,17 @@ export class Viewport {
 
   private updateSection(): void {
     const up = upVector(this.up);
-    const box = this.sceneBox();
+    const { scene } = this.extent;
     const zero = up.dot(new Vector3(...this.frame.origin));
-    this.section.setScene(up, [up.dot(box.min), up.dot(box.max)], findFloors(this.sceneView, up), zero);
+    // Floors are looked for in new shapes, and not whenever a crate moves.
+    const key = `${this.up} ${this.sceneView.shapesShown.map(({ shape }) => shape.geometry.id).join()}`;
+    if (key !== this.floorsKey) this.floors = findFloors(this.sceneView, up);
+    this.floorsKey = key;
+    this.section.setScene(up, [up.dot(scene.min), up.dot(scene.max)], this.floors, zero);
   }
 
   private showFindings(now: State): void {
-    void this.findings.show(now.answer, this.frame, now.isDraft ? undefined : this.sources.triangles);
+    this.content.showFindings(now, this.frame, this.sources.triangles);
     this.stage.invalidate();
   }
 
@@ -324,131 +329,24 @@ export class Viewport {
     this.sceneView.highlight(name, this.theme.object);
   }
 
-  // Geometry of what there is, in the frame that is drawn.
-
-  private boxOf({ min, max }: { min: Vec3; max: Vec3 }): Box3 {
-    return new Box3(this.frame.toLocal(min), this.frame.toLocal(max));
-  }
-
-  private sceneBox(): Box3 {
-    const bounds = this.store.now.scene?.scene.bounds;
-    return bounds ? this.boxOf(bounds) : new Box3(new Vector3(-5, -5, -5), new Vector3(5, 5, 5));
-  }
-
-  private sceneSphere(): Sphere {
-    return this.sceneBox().getBoundingSphere(new Sphere());
-  }
-
-  private pathPoints(): Vector3[] {
-    const { request, before, answer } = this.store.now;
-    const ends = [...before, ...(answer?.segments ?? [])].flatMap(({ position }) => position);
-    return [...(request?.keyframes.map(({ position }) => position) ?? []), ...ends].map((p) => this.frame.toLocal(p));
-  }
-
-  private pathSphere(): Sphere | undefined {
-    const points = this.pathPoints();
-    if (points.length === 0) return undefined;
-    const sphere = new Box3().setFromPoints(points).getBoundingSphere(new Sphere());
-    sphere.radius = Math.max(1.3 * sphere.radius, kLeastView_m);
-    return sphere;
-  }
-
-  /** Heights of the path along `up`. */
-  private pathRange(): [number, number] {
-    const up = upVector(this.up);
-    const heights = this.pathPoints().map((point) => point.dot(up));
-    if (heights.length > 0) return [Math.min(...heights.slice(0, 50_000)), Math.max(...heights.slice(0, 50_000))];
-    const box = this.sceneBox();
-    return [up.dot(box.min), up.dot(box.max)];
-  }
-
-  /** From above, and across the path, so that it runs from side to side. */
-  private homeDirection(): Vector3 {
-    const up = upVector(this.up);
-    const tilt = new Vector3(kDefaultDirection.x, 0, kDefaultDirection.z);
-    if (this.up === 'z') tilt.set(kDefaultDirection.x, -kDefaultDirection.z, 0);
-    const keyframes = this.store.now.request?.keyframes ?? [];
-    const [first, last] = [keyframes[0], keyframes[keyframes.length - 1]];
-    if (first && last) {
-      const along = this.frame.toLocal(last.position).sub(this.frame.toLocal(first.position));
-      along.addScaledVector(up, -along.dot(up));
-      const across = along.clone().cross(up);
-      if (across.lengthSq() > 1e-4) {
-        if (across.dot(tilt) < 0) across.negate();
-        tilt.copy(across.normalize().multiplyScalar(kDefaultDirection.z)).addScaledVector(along.normalize(), kDefaultDirection.x);
-      }
-    }
-    return tilt.addScaledVector(up, kDefaultDirection.y);
-  }
-
   // Frames.
 
   private advance(elapsed_s: number): boolean {
     const goesOn = this.navigation.update(elapsed_s, this.isFast);
-    if (this.dirty.content) this.updateContent();
-    if (this.dirty.cursor) this.updateCursor();
+    const { now } = this.store;
+    if (this.dirty.content) {
+      this.content.showPath(now, this.frame, this.theme, this.stage.pixelRatio);
+      this.labels.show(this.content.labels(now, this.picked));
+      this.editing.update();
+    }
+    if (this.dirty.cursor) this.content.showCursor(now, this.frame, this.theme, this.cameraViews);
     this.dirty = { content: false, cursor: false };
     this.navigation.camera.updateMatrixWorld();
     const isFull = this.cameraViews.mode === 'full';
-    this.labels.place(this.navigation.camera, this.stage.width, this.stage.height, !isFull);
+    const canvas = this.stage.canvas.getBoundingClientRect();
+    const covered = this.cameraViews.parts(canvas).map(({ part }) => part);
+    this.labels.place(this.navigation.camera, this.stage.width, this.stage.height, !isFull, covered);
     return goesOn;
-  }
-
-  private updateContent(): void {
-    const { answer, before, request, selection } = this.store.now;
-    const { theme } = this;
-    const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
-    const sceneSize_m = this.sceneSphere().radius;
-    this.pathView.show(request, answer, before, this.frame, { unproved: theme.ink });
-    this.keyframesView.show(
-      { request, answer, selected, frame: this.frame, sceneSize_m },
-      { given: theme.ink, selected: theme.accent, rim: theme.rim, pixelRatio: this.stage.pixelRatio },
-    );
-    this.labels.show(this.labelsNow(selected));
-    this.handles.show(this.handleTarget());
-  }
-
-  private labelsNow(selected: number | undefined): Label[] {
-    const { answer, selection } = this.store.now;
-    const faults = new Set((answer?.keyframe_faults ?? []).map(({ keyframe }) => keyframe));
-    const proof = answer?.infeasibility;
-    const suffix = (i: number): string =>
-      proof?.keyframe_inside === i ? ' inside' : proof?.keyframe_outside === i ? ' outside' : faults.has(i) ? ' collides' : '';
-    const labels = this.keyframesView.places.slice(0, 2000).map((at, i): Label => ({
-      text: `${i}${suffix(i)}`,
-      at,
-      kind: faults.has(i) ? 'invalid' : i === selected ? 'selected' : 'keyframe',
-    }));
-    if (selection && 'object' in selection) {
-      const bounds = this.sceneView.factsOf(selection.object)?.bounds;
-      const at = this.picked?.point ?? (bounds ? this.boxOf(bounds).getCenter(new Vector3()) : undefined);
-      if (at) labels.unshift({ text: selection.object, at, kind: 'object' });
-    }
-    // The selected one first: numbers give way to those before them.
-    return labels.sort((a, b) => Number(a.kind === 'keyframe') - Number(b.kind === 'keyframe'));
-  }
-
-  private updateCursor(): void {
-    const { answer, before, request, cursor_s } = this.store.now;
-    const path = pathOf(this.store.now);
-    const pose = poseAt(path, cursor_s);
-    const given_s = new TimeMap(request, answer).toGiven(cursor_s);
-    const poseBefore = answer?.segments.length ? poseAt(before, given_s) : undefined;
-    const camera = { ...(request?.camera ?? kDefaultCamera) };
-    camera.near *= answer?.near_scale ?? 1;
-    const size_m = this.sceneSphere().radius;
-    this.cursorView.show(request, pose, poseBefore, this.frame, size_m, this.theme.accent, answer?.near_scale ?? 1);
-    const eye = (at: Pose | undefined, isColliding: boolean): Eye | undefined =>
-      at && { position: this.frame.toLocal(at.position), orientation: toQuaternion(at.orientation), isColliding };
-    const collides = (list: readonly { t_begin: number; t_end: number }[] | undefined, t: number): boolean =>
-      (list ?? []).some(({ t_begin, t_end }) => t >= t_begin && t <= t_end);
-    const isCorrected = (answer?.corrections?.length ?? 0) > 0;
-    this.cameraViews.setEyes(
-      camera,
-      eye(pose, collides(answer?.remaining_collisions, cursor_s)),
-      isCorrected ? eye(poseBefore, collides(answer?.collisions, given_s)) : undefined,
-      4 * size_m,
-    );
   }
 
   private drawings(): Drawing[] {
@@ -473,8 +371,8 @@ export class Viewport {
   }
 
   private showOverlays(areVisible: boolean): void {
-    for (const overlay of this.overlays) overlay.visible = areVisible;
-    this.handles.visible = areVisible;
+    this.content.group.visible = areVisible;
+    this.editing.handles.visible = areVisible && !this.editing.isDragging;
   }
 
   private report(count: DrawCount): void {
@@ -487,87 +385,10 @@ export class Viewport {
     this.navigation?.setSize(width, height);
   }
 
-  // What the mouse does.
-
-  private get canEdit(): boolean {
-    return this.store.now.connection !== 'review';
-  }
-
-  private handleTarget() {
-    const { selection, request, isReadOnly } = this.store.now;
-    if (!selection || !this.canEdit) return undefined;
-    if ('keyframe' in selection) {
-      const keyframe = request?.keyframes[selection.keyframe];
-      if (!keyframe) return undefined;
-      const position = this.frame.toLocal(keyframe.position);
-      return { key: `keyframe ${selection.keyframe}`, position, orientation: toQuaternion(keyframe.orientation) };
-    }
-    const facts = this.sceneView.factsOf(selection.object);
-    if (!facts || isReadOnly) return undefined;
-    const share = this.boxOf(facts.bounds).getSize(new Vector3()).length() / (2 * this.sceneSphere().radius);
-    if (share > kLargestMovable) return undefined;
-    return {
-      key: `object ${facts.name}`,
-      position: this.frame.toLocal(facts.position),
-      orientation: toQuaternion(facts.orientation),
-    };
-  }
-
-  private dragHandle(position: Vector3, orientation: Quaternion, kind: 'draft' | 'full'): void {
-    const { selection } = this.store.now;
-    const pose = this.frame.toPose(position, orientation);
-    if (!selection) return;
-    if ('keyframe' in selection) {
-      this.actions.setKeyframe(selection.keyframe, pose, kind);
-      return;
-    }
-    this.sceneView.preview(selection.object, position, pose.orientation);
-    this.actions.moveObject(selection.object, pose);
-    this.stage.invalidate();
-  }
-
-  private makePointer(): Pointer {
-    const { navigation, keyframesView, look, stage } = this;
-    return new Pointer({
-      element: stage.canvas,
-      camera: navigation.camera,
-      get up() {
-        return look.up.value;
-      },
-      canDrag: () => this.canEdit,
-      isTaken: () => this.handles.isHot || this.cameraViews.mode === 'full',
-      keyframePlaces: () => keyframesView.places,
-      pick: (ray) => this.sceneView.pick(ray),
-      onSelectKeyframe: (keyframe) => this.actions.select({ keyframe }),
-      onSelectObject: (hit) => this.selectHit(hit),
-      onFocus: (point) => void navigation.controls.setOrbitPoint(point.x, point.y, point.z),
-      onDrag: (index, place, surface) => this.dragKeyframe(index, place, surface),
-      onRelease: (index) => {
-        if (this.dragged) this.actions.setKeyframe(index, this.dragged, 'full');
-        this.dragged = undefined;
-      },
-      setNavigation: (isEnabled) => (navigation.controls.enabled = isEnabled),
-    });
-  }
-
-  private selectHit(hit: Hit | undefined): void {
+  private pick(hit: Hit | undefined): void {
     this.picked = hit;
     this.actions.select(hit && { object: hit.name });
     this.dirty.content = true;
     this.stage.invalidate();
-  }
-
-  private dragKeyframe(index: number, place: Vector3, surface: Hit | undefined): void {
-    const { request } = this.store.now;
-    const keyframe = request?.keyframes[index];
-    if (!keyframe) return;
-    const margin_m = 1.5 * (request.camera?.near ?? 0) + kSurfaceMargin_m;
-    const at = surface ? place.clone().addScaledVector(surface.normal, margin_m) : place;
-    this.dragged = { position: this.frame.toPose(at, new Quaternion()).position, orientation: keyframe.orientation };
-    this.actions.setKeyframe(index, this.dragged, 'draft');
-  }
-
-  get isDragging(): boolean {
-    return this.pointer.isDragging || this.handles.isDragging;
   }
 }

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "tools/drawing/storey_panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tools/drawing/storeys.h"
+
+namespace camway::draw {
+namespace {
+
+constexpr std::size_t kMostPanels = 6;
+constexpr std::size_t kStride = 8;  // samples of a path for each one whose floor is searched
+
+/// The storey of everything in a plan, as an index.
+struct StoreySplit {
+  std::vector<double> floors_m;
+  std::vector<std::size_t> of_keyframe;
+  std::vector<std::size_t> of_before;
+  std::vector<std::size_t> of_after;
+};
+
+void add_points(const SampledPath& path, std::vector<geometry::Vec3>& points_W) {
+  for (std::size_t i = 0; i < path.size(); i += kStride) {
+    points_W.push_back(path[i].pose.position);
+  }
+}
+
+/// Takes the storeys of the samples of `path` from `of_point`, beginning at `next`.
+std::vector<std::size_t> of_samples(const SampledPath& path,
+                                    const std::vector<std::size_t>& of_point, std::size_t& next) {
+  std::vector<std::size_t> of_sample;
+  for (std::size_t i = 0; i < path.size(); ++i) of_sample.push_back(of_point[next + i / kStride]);
+  next += (path.size() + kStride - 1) / kStride;
+  return of_sample;
+}
+
+StoreySplit split_by_storey(const FloorPlan& plan) {
+  std::vector<geometry::Vec3> points_W;
+  for (const motion::Keyframe& keyframe : plan.keyframes) {
+    points_W.push_back(keyframe.pose.position);
+  }
+  add_points(plan.before, points_W);
+  add_points(plan.after, points_W);
+  VisitedStoreys visited = visited_storeys(plan.mesh, plan.up, points_W, plan.keyframes.size());
+  StoreySplit split;
+  split.floors_m = std::move(visited.floors_m);
+  std::size_t next = plan.keyframes.size();
+  split.of_keyframe.assign(visited.of_point.begin(),
+                           visited.of_point.begin() + static_cast<std::ptrdiff_t>(next));
+  split.of_before = of_samples(plan.before, visited.of_point, next);
+  split.of_after = of_samples(plan.after, visited.of_point, next);
+  return split;
+}
+
+/// Cuts a path into runs on the storey and off it, which meet.
+PanelPath pieces_of(const SampledPath& path, const std::vector<std::size_t>& storeys,
+                    std::size_t storey) {
+  PanelPath pieces;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool is_here = storeys[i] == storey;
+    std::vector<SampledPath>& runs = is_here ? pieces.here : pieces.elsewhere;
+    const bool begins = i == 0 || is_here != (storeys[i - 1] == storey);
+    if (begins) {
+      runs.emplace_back();
+      if (i > 0) (is_here ? pieces.elsewhere : pieces.here).back().push_back(path[i]);
+    }
+    runs.back().push_back(path[i]);
+  }
+  return pieces;
+}
+
+/// Adds the collisions of a path whose middles are on the storey.
+void add_collisions(const SampledPath& path, const std::vector<std::size_t>& storeys,
+                    const std::vector<collision::CollisionInterval>& intervals, bool remain,
+                    std::size_t storey, Panel& panel) {
+  if (path.empty()) return;
+  for (const collision::CollisionInterval& interval : intervals) {
+    const double middle_s = (interval.t_begin_s + interval.t_end_s) / 2;
+    const auto at = static_cast<std::size_t>(&sample_at(path, middle_s) - path.data());
+    if (storeys[at] != storey) continue;
+    panel.collisions.push_back(
+        {part_of(path, interval.t_begin_s, interval.t_end_s), middle_s, remain});
+  }
+}
+
+/// Returns the keyframes on a storey, or some poses of the path where it has none.
+std::vector<motion::Keyframe> seen_on(const FloorPlan& plan, const StoreySplit& split,
+                                      std::size_t storey) {
+  std::vector<motion::Keyframe> seen;
+  for (std::size_t i = 0; i < plan.keyframes.size(); ++i) {
+    if (split.of_keyframe[i] == storey) seen.push_back(plan.keyframes[i]);
+  }
+  const SampledPath& path = plan.after.empty() ? plan.before : plan.after;
+  const std::vector<std::size_t>& of_path = plan.after.empty() ? split.of_before : split.of_after;
+  for (std::size_t i = 0; i < path.size() && seen.empty(); ++i) {
+    if (of_path[i] == storey) seen.push_back({path[i].time_s, path[i].pose});
+  }
+  return seen;
+}
+
+FloorSection section_of_storey(const FloorPlan& plan, const StoreySplit& split,
+                               std::size_t storey) {
+  const bool is_one = split.floors_m.size() < 2;
+  const double height_m =
+      plan.cut_height_m && is_one
+          ? *plan.cut_height_m
+          : cut_height_m(plan.mesh, plan.up,
+                         is_one ? plan.keyframes : seen_on(plan, split, storey));
+  const bool is_below = !is_one && split.floors_m[storey] < height_m;
+  return cut_floor(plan.mesh, plan.up, height_m,
+                   is_below ? std::optional(split.floors_m[storey]) : std::nullopt);
+}
+
+Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t storey) {
+  Panel panel;
+  panel.section = section_of_storey(plan, split, storey);
+  const std::vector<std::string> numbers = keyframe_numbers(plan.keyframes);
+  const bool is_level = are_level(plan.keyframes, plan.up);
+  for (std::size_t i = 0; i < plan.keyframes.size(); ++i) {
+    if (split.of_keyframe[i] != storey) continue;
+    const motion::Keyframe& keyframe = plan.keyframes[i];
+    const bool is_inserted = numbers[i].empty();
+    const double height_m = height_of(keyframe.pose.position, plan.up);
+    panel.keyframes.push_back({keyframe.pose, is_inserted, numbers[i],
+                               is_level || is_inserted ? "" : fmt::format("{:.2f} m", height_m)});
+  }
+  panel.before = pieces_of(plan.before, split.of_before, storey);
+  panel.after = pieces_of(plan.after, split.of_after, storey);
+  for (const TimeRange& range : plan.corrected) {
+    for (const SampledPath& piece : panel.after.here) {
+      SampledPath part = part_of(piece, range.begin_s, range.end_s);
+      if (part.size() > 1) panel.corrected.push_back(std::move(part));
+    }
+  }
+  add_collisions(plan.before, split.of_before, plan.collisions, false, storey, panel);
+  add_collisions(plan.after, split.of_after, plan.remaining_collisions, true, storey, panel);
+  return panel;
+}
+
+}  // namespace
+
+std::vector<std::string> keyframe_numbers(const std::vector<motion::Keyframe>& keyframes) {
+  std::vector<std::string> numbers;
+  std::size_t given = 0;
+  for (const motion::Keyframe& keyframe : keyframes) {
+    const bool is_inserted = keyframe.origin == motion::KeyframeOrigin::kInserted;
+    numbers.push_back(is_inserted ? std::string() : std::to_string(given++));
+  }
+  return numbers;
+}
+
+bool are_level(const std::vector<motion::Keyframe>& keyframes, SceneUp up) {
+  constexpr double kLevel_m = 0.05;
+  Eigen::AlignedBox1d heights;
+  for (const motion::Keyframe& keyframe : keyframes) {
+    if (keyframe.origin == motion::KeyframeOrigin::kInserted) continue;
+    heights.extend(Eigen::Matrix<double, 1, 1>(height_of(keyframe.pose.position, up)));
+  }
+  return heights.isEmpty() || heights.sizes()[0] <= kLevel_m;
+}
+
+std::vector<Panel> storey_panels(const FloorPlan& plan) {
+  StoreySplit split = split_by_storey(plan);
+  const std::size_t count = std::clamp<std::size_t>(split.floors_m.size(), 1, kMostPanels);
+  std::vector<Panel> panels;
+  for (std::size_t storey = 0; storey < count; ++storey) {
+    panels.push_back(panel_of(plan, split, storey));
+  }
+  return panels;
+}
+
+const PathSample& sample_at(const SampledPath& path, double time_s) {
+  return *std::min_element(path.begin(), path.end(), [&](const PathSample& a, const PathSample& b) {
+    return std::abs(a.time_s - time_s) < std::abs(b.time_s - time_s);
+  });
+}
+
+SampledPath part_of(const SampledPath& path, double begin_s, double end_s) {
+  if (path.empty() || end_s < path.front().time_s || begin_s > path.back().time_s) return {};
+  const auto first = &sample_at(path, begin_s) - path.data();
+  const auto last = &sample_at(path, end_s) - path.data();
+  return {path.begin() + first, path.begin() + last + 1};
+}
+
+}  // namespace camway::draw

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What the view shows of request and answer: the path, keyframes, findings, the body at the cursor, and names.
+
+import { Group, Vector3 } from 'three';
+import type { IUniform, Vector4 } from 'three';
+import type { State } from '../model/store.js';
+import type { Pose } from '../model/actions.js';
+import { poseAt } from '../model/path.js';
+import { pathOf } from '../model/stops.js';
+import { TimeMap } from '../model/times.js';
+import { kDefaultCamera } from './bodies.js';
+import type { CameraViews, Eye } from './camera_views.js';
+import { CursorView } from './cursor_view.js';
+import type { Extent } from './extent.js';
+import { FindingsView } from './findings_view.js';
+import type { TriangleSource } from './findings_view.js';
+import { toQuaternion } from './frame.js';
+import type { Frame } from './frame.js';
+import { KeyframesView } from './keyframes_view.js';
+import type { Label } from './labels.js';
+import { PathView } from './path_view.js';
+import type { Theme } from './theme.js';
+import type { TubeUniforms } from './tubes.js';
+
+/** Names beyond that many are not even tried. */
+const kMostLabels = 2000;
+
+/** Where the object that was clicked was hit. */
+export interface Picked {
+  name: string;
+  point: Vector3;
+}
+
+export class Content {
+  readonly group = new Group();
+  private readonly pathView: PathView;
+  private readonly keyframesView: KeyframesView;
+  private readonly cursorView: CursorView;
+  private readonly findings: FindingsView;
+
+  constructor(tubes: TubeUniforms, section: IUniform<Vector4>, private readonly extent: Extent, onChange: () => void) {
+    this.pathView = new PathView(tubes);
+    this.keyframesView = new KeyframesView(tubes);
+    this.cursorView = new CursorView(tubes);
+    this.findings = new FindingsView(tubes, section, onChange);
+    this.group.add(this.pathView.group, this.keyframesView.group, this.cursorView.group, this.findings.group);
+  }
+
+  /** Places of the keyframes of the request. */
+  get places(): readonly Vector3[] {
+    return this.keyframesView.places;
+  }
+
+  showPath({ request, answer, before, selection }: State, frame: Frame, theme: Theme, pixelRatio: number): void {
+    const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
+    this.pathView.show(request, answer, before, frame, { unproved: theme.ink });
+    this.keyframesView.show(
+      { request, answer, selected, frame, pathSize_m: this.extent.pathSize_m },
+      { given: theme.ink, selected: theme.accent, rim: theme.rim, pixelRatio },
+    );
+    this.findings.setLook([...theme.rim], pixelRatio);
+  }
+
+  showFindings({ answer, isDraft }: State, frame: Frame, source: TriangleSource): void {
+    void this.findings.show(answer, frame, isDraft ? undefined : source);
+  }
+
+  showCursor(now: State, frame: Frame, theme: Theme, cameraViews: CameraViews): void {
+    const { answer, before, request, cursor_s } = now;
+    const pose = poseAt(pathOf(now), cursor_s);
+    const given_s = new TimeMap(request, answer).toGiven(cursor_s);
+    const poseBefore = answer?.segments.length ? poseAt(before, given_s) : undefined;
+    const nearScale = answer?.near_scale ?? 1;
+    const camera = { ...(request?.camera ?? kDefaultCamera) };
+    this.cursorView.show(request, pose, poseBefore, frame, this.extent.pathSize_m, theme.accent, nearScale);
+    const eye = (at: Pose | undefined, isColliding: boolean): Eye | undefined =>
+      at && { position: frame.toLocal(at.position), orientation: toQuaternion(at.orientation), isColliding };
+    const collides = (list: readonly { t_begin: number; t_end: number }[] | undefined, t: number): boolean =>
+      (list ?? []).some(({ t_begin, t_end }) => t >= t_begin && t <= t_end);
+    const isCorrected = (answer?.corrections ?? []).some(({ kind }) => kind !== 'none');
+    cameraViews.setEyes(
+      { ...camera, near: camera.near * nearScale },
+      eye(pose, collides(answer?.remaining_collisions, cursor_s)),
+      isCorrected ? eye(poseBefore, collides(answer?.collisions, given_s)) : undefined,
+      4 * this.extent.sceneSphere.radius,
+    );
+  }
+
+  /** Names for what is shown. The selected one comes first: numbers give way to those before them. */
+  labels({ answer, selection, scene }: State, picked: Picked | undefined): Label[] {
+    const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
+    const faults = new Set((answer?.keyframe_faults ?? []).map(({ keyframe }) => keyframe));
+    const proof = answer?.infeasibility;
+    const suffix = (i: number): string =>
+      proof?.keyframe_inside === i ? ' inside' : proof?.keyframe_outside === i ? ' outside' : faults.has(i) ? ' collides' : '';
+    const labels = this.places.slice(0, kMostLabels).map(
+      (at, i): Label => ({
+        text: `${i}${suffix(i)}`,
+        at,
+        kind: faults.has(i) ? 'invalid' : i === selected ? 'selected' : 'keyframe',
+      }),
+    );
+    if (selection && 'object' in selection) {
+      const bounds = scene?.objects.find(({ name }) => name === selection.object)?.bounds;
+      const at = picked?.point ?? (bounds && this.extent.boxOf(bounds).getCenter(new Vector3()));
+      if (at) labels.unshift({ text: selection.object, at, kind: 'object' });
+    }
+    return labels.sort((a, b) => Number(a.kind === 'keyframe') - Number(b.kind === 'keyframe'));
+  }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// What hands do in the view: keyframes and objects that are moved and turned become actions.
+
+import { Quaternion, Vector3 } from 'three';
+import type { Vec3 } from '../contract/request.js';
+import type { Actions, Pose } from '../model/actions.js';
+import type { Store } from '../model/store.js';
+import type { Extent } from './extent.js';
+import { toQuat, toQuaternion, upVector } from './frame.js';
+import type { Frame, UpAxis } from './frame.js';
+import { Handles } from './handles.js';
+import type { HandleTarget } from './handles.js';
+import type { Navigation } from './navigation.js';
+import { Pointer } from './pointer.js';
+import type { Hit, SceneView } from './scene_view.js';
+import type { Stage } from './stage.js';
+
+/** Objects that are a larger part of the scene are the building, and are not dragged by accident. */
+const kLargestMovable = 0.4;
+const kSurfaceMargin_m = 0.05;
+
+export interface EditingContext {
+  readonly store: Store;
+  readonly actions: Actions;
+  readonly stage: Stage;
+  readonly navigation: Navigation;
+  readonly sceneView: SceneView;
+  readonly extent: Extent;
+  frame(): Frame;
+  up(): UpAxis;
+  places(): readonly Vector3[];
+  /** Whether the mouse is over something that is no view of the scene to edit. */
+  isCovered(): boolean;
+  onPicked(hit: Hit | undefined): void;
+}
+
+export class Editing {
+  readonly handles: Handles;
+  private readonly pointer: Pointer;
+  private dragged: Pose | undefined;
+
+  constructor(private readonly context: EditingContext) {
+    const { stage, navigation } = context;
+    this.handles = new Handles(navigation.camera, stage.canvas, stage.scene, {
+      onDrag: (position, orientation) => this.dragHandle(position, orientation, 'draft'),
+      onRelease: (position, orientation) => this.dragHandle(position, orientation, 'full'),
+      onBusy: (isBusy) => (navigation.controls.enabled = !isBusy),
+      onChange: () => stage.invalidate(),
+    });
+    this.pointer = this.makePointer();
+  }
+
+  get isDragging(): boolean {
+    return this.pointer.isDragging;
+  }
+
+  private get canEdit(): boolean {
+    return this.context.store.now.connection !== 'review';
+  }
+
+  /** Puts the handles where the selection is. */
+  update(): void {
+    this.handles.show(this.target());
+    this.handles.visible = !this.pointer.isDragging;
+  }
+
+  private target(): HandleTarget | undefined {
+    const { store, extent, sceneView } = this.context;
+    const { selection, request, isReadOnly } = store.now;
+    const frame = this.context.frame();
+    if (!selection || !this.canEdit) return undefined;
+    if ('keyframe' in selection) {
+      const keyframe = request?.keyframes[selection.keyframe];
+      if (!keyframe) return undefined;
+      const position = frame.toLocal(keyframe.position);
+      return { key: `keyframe ${selection.keyframe}`, position, orientation: toQuaternion(keyframe.orientation) };
+    }
+    const facts = sceneView.factsOf(selection.object);
+    if (!facts || isReadOnly) return undefined;
+    const share = extent.boxOf(facts.bounds).getSize(new Vector3()).length() / (2 * extent.sceneSphere.radius);
+    if (share > kLargestMovable) return undefined;
+    const position = frame.toLocal(facts.position);
+    return { key: `object ${facts.name}`, position, orientation: toQuaternion(facts.orientation) };
+  }
+
+  private dragHandle(position: Vector3, orientation: Quaternion, kind: 'draft' | 'full'): void {
+    const { store, actions, sceneView, stage } = this.context;
+    const { selection } = store.now;
+    const pose = this.context.frame().toPose(position, orientation);
+    if (!selection) return;
+    if ('keyframe' in selection) {
+      actions.setKeyframe(selection.keyframe, pose, kind);
+      return;
+    }
+    sceneView.preview(selection.object, position, pose.orientation);
+    actions.moveObject(selection.object, pose);
+    stage.invalidate();
+  }
+
+  private makePointer(): Pointer {
+    const { stage, navigation, actions, sceneView } = this.context;
+    return new Pointer({
+      element: stage.canvas,
+      camera: navigation.camera,
+      up: () => upVector(this.context.up()),
+      canDrag: () => this.canEdit,
+      isTaken: () => this.handles.isHot || this.context.isCovered(),
+      keyframePlaces: () => this.context.places(),
+      pick: (ray) => sceneView.pick(ray),
+      onSelectKeyframe: (keyframe) => actions.select({ keyframe }),
+      onSelectObject: (hit) => this.context.onPicked(hit),
+      onFocus: (point) => void navigation.controls.setOrbitPoint(point.x, point.y, point.z),
+      onDrag: (index, place, surface) => this.dragKeyframe(index, place, surface),
+      onRelease: (index) => {
+        if (this.dragged) actions.setKeyframe(index, this.dragged, 'full');
+        this.dragged = undefined;
+      },
+      setNavigation: (isEnabled) => (navigation.controls.enabled = isEnabled),
+    });
+  }
+
+  private dragKeyframe(index: number, place: Vector3, surface: Hit | undefined): void {
+    const { store, actions } = this.context;
+    const { request } = store.now;
+    const keyframe = request?.keyframes[index];
+    if (!keyframe) return;
+    const margin_m = 1.5 * (request.camera?.near ?? 0) + kSurfaceMargin_m;
+    const at = surface ? place.clone().addScaledVector(surface.normal, margin_m) : place;
+    const position = this.context.frame().toPose(at, new Quaternion()).position;
+    this.dragged = { position, orientation: keyframe.orientation };
+    actions.setKeyframe(index, this.dragged, 'draft');
+  }
+
+  /** The pose of a keyframe after a step to the right, up and back, as the view has these directions. */
+  nudged(index: number, [right, up, back]: Vec3, step_m: number): Pose | undefined {
+    const keyframe = this.context.store.now.request?.keyframes[index];
+    if (!keyframe) return undefined;
+    const frame = this.context.frame();
+    const upward = upVector(this.context.up());
+    const ahead = this.context.navigation.camera.getWorldDirection(new Vector3());
+    ahead.addScaledVector(upward, -ahead.dot(upward)).normalize();
+    const place = frame.toLocal(keyframe.position).addScaledVector(ahead.clone().cross(upward), right * step_m);
+    place.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
+    return { position: frame.toPose(place, new Quaternion()).position, orientation: keyframe.orientation };
+  }
+
+  /** The pose of a keyframe after a turn about the upward axis, and up about its own right. */
+  turned(index: number, yaw_deg: number, pitch_deg: number): Pose | undefined {
+    const keyframe = this.context.store.now.request?.keyframes[index];
+    if (!keyframe) return undefined;
+    const yaw = new Quaternion().setFromAxisAngle(upVector(this.context.up()), (yaw_deg * Math.PI) / 180);
+    const pitch = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), (pitch_deg * Math.PI) / 180);
+    const turned = yaw.multiply(toQuaternion(keyframe.orientation)).multiply(pitch);
+    return { position: keyframe.position, orientation: toQuat(turned) };
+  }
+}

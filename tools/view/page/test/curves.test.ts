@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Answer, Segment } from '../src/contract/answer.js';
+import type { Quat } from '../src/contract/request.js';
+import { Curves, sampledAlong, valueAt } from '../src/model/curves.js';
+import type { Curve } from '../src/model/curves.js';
+import { beginOf, endOf, lengthOf, motionAt, motionIn } from '../src/model/path.js';
+import { bodyRadius } from '../src/model/shift.js';
+import { Random } from './random.js';
+
+const kEmpty = { status: 'ok' as const, message: '', keyframes: [], collisions: [], remaining_collisions: [] };
+const kDense = 400;
+
+function curveOf(curves: Curves, name: Parameters<Curves['curve']>[0]): Curve {
+  const curve = curves.curve(name);
+  assert.ok(curve, `no curve ${name}`);
+  return curve;
+}
+
+test('curves are within two per cent of the path at every time, and ascend', () => {
+  const random = new Random('dense');
+  for (let round = 0; round < 40; ++round) {
+    const path = random.path(1 + random.below(5));
+    const curves = new Curves(path, [], undefined, undefined);
+    const of = {
+      speed: (t: number) => lengthOf(motionAt(path, t)?.velocity_m_per_s ?? []),
+      acceleration: (t: number) => lengthOf(motionAt(path, t)?.acceleration_m_per_s2 ?? []),
+      turn: (t: number) => (lengthOf(motionAt(path, t)?.turnRate_rad_per_s ?? []) * 180) / Math.PI,
+    };
+    for (const name of ['speed', 'acceleration', 'turn'] as const) {
+      const curve = curveOf(curves, name);
+      curve.times.reduce((a, b) => (assert.ok(a <= b), b));
+      let most = 0;
+      for (let k = 1; k < kDense; ++k) {
+        const time_s = beginOf(path) + ((endOf(path) - beginOf(path)) * k) / kDense;
+        const exact = of[name](time_s);
+        most = Math.max(most, exact);
+        const off = Math.abs((valueAt(curve, time_s) ?? NaN) - exact) / curve.largest;
+        assert.ok(off <= 0.02, `${name} at ${time_s} is off by ${off}`);
+      }
+      assert.ok(curve.largest >= 0.98 * most);
+    }
+  }
+});
+
+test('a jump between segments is kept', () => {
+  const path = new Random('jump').path(2);
+  const [a, b] = path as [Segment, Segment];
+  const sampled = sampledAlong(path, (segment) => (segment === a ? 1 : 3));
+  const curve: Curve = { name: 'speed', ...sampled, largest: 3 };
+  assert.equal(valueAt(curve, a.t1 - 1e-9), 1);
+  assert.equal(valueAt(curve, b.t0), 3);
+});
+
+test('a path of very many segments has a bounded number of samples', () => {
+  const [one] = new Random('many').path(1, 0) as [Segment];
+  const path = Array.from({ length: 100_000 }, (_, i): Segment => ({ ...one, t0: i, t1: i + 1 }));
+  assert.ok(sampledAlong(path, () => 1).times.length <= 20_000);
+});
+
+test('the clearance is a step for each stretch of the profile, with its limit', () => {
+  const profile = [
+    { t_begin: 0, t_end: 1, clearance_m: 0.3 },
+    { t_begin: 1, t_end: 1.5, clearance_m: 0.01 },
+    { t_begin: 1.5, t_end: 2, clearance_m: 0.2 },
+  ];
+  const path = new Random('profile').path(1, 0);
+  const answer: Answer = { ...kEmpty, segments: path, clearance_profile: profile };
+  const curve = curveOf(new Curves(path, [], { keyframes: [], options: { clearance_m: 0.005 } }, answer), 'clearance');
+  for (const { t_begin, t_end, clearance_m } of profile) {
+    assert.equal(valueAt(curve, (t_begin + t_end) / 2), clearance_m);
+  }
+  assert.equal(curve.largest, 0.3);
+  assert.equal(curve.limit, 0.005);
+  assert.equal(new Curves(path, [], undefined, { ...answer, clearance_profile: [] }).curve('clearance'), undefined);
+});
+
+/** Turns by matrices, so that the oracle shares nothing with the page. */
+function matrixOf([w, x, y, z]: Quat): number[][] {
+  const n = w * w + x * x + y * y + z * z;
+  return [
+    [1 - (2 * (y * y + z * z)) / n, (2 * (x * y - w * z)) / n, (2 * (x * z + w * y)) / n],
+    [(2 * (x * y + w * z)) / n, 1 - (2 * (x * x + z * z)) / n, (2 * (y * z - w * x)) / n],
+    [(2 * (x * z - w * y)) / n, (2 * (y * z + w * x)) / n, 1 - (2 * (x * x + y * y)) / n],
+  ];
+}
+
+function shiftByMatrices(before: Segment, after: Segment, u: number, distance_m: number, lever_m: number): number {
+  const [a, b] = [motionIn(before, u), motionIn(after, u)];
+  const [m, n] = [matrixOf(a.orientation), matrixOf(b.orientation)];
+  let trace = 0;
+  for (let i = 0; i < 3; ++i) for (let k = 0; k < 3; ++k) trace += ((m[k] as number[])[i] as number) * ((n[k] as number[])[i] as number);
+  const turn_rad = Math.acos(Math.min(1, Math.max(-1, (trace - 1) / 2)));
+  const move_m = Math.sqrt(a.position.reduce((sum, x, k) => sum + (x - (b.position[k] as number)) ** 2, 0));
+  return ((turn_rad * lever_m + move_m) / distance_m) * (180 / Math.PI);
+}
+
+/** A path and the same one, changed a little. */
+function changedPair(random: Random): [before: Segment[], after: Segment[]] {
+  const before = random.path(1);
+  const moved = (points: number[][], size: number): number[][] => points.map((point) => point.map((x) => x + random.number(-size, size)));
+  const after = before.map((segment) => ({
+    ...segment,
+    position: moved(segment.position, 0.3) as Segment['position'],
+    orientation: moved(segment.orientation, 0.05) as Segment['orientation'],
+  }));
+  return [before, after];
+}
+
+test('the shift is turn plus move over the viewing distance', () => {
+  const random = new Random('shift');
+  for (let round = 0; round < 60; ++round) {
+    const [before, after] = changedPair(random);
+    const distance_m = random.number(0.5, 20);
+    const radius_m = random.number(0.1, 1);
+    const bodies = [undefined, { type: 'sphere', radius_m }];
+    for (const body of bodies) {
+      const request = { keyframes: [], options: { viewing_distance_m: distance_m }, ...(body ? { body } : {}) };
+      const curves = new Curves(after, before, request, { ...kEmpty, segments: after });
+      assert.equal(curves.scale.source, 'request');
+      const curve = curveOf(curves, 'shift');
+      curve.times.forEach((time_s, i) => {
+        const [a, b] = [before[0] as Segment, after[0] as Segment];
+        const expected = shiftByMatrices(a, b, (time_s - b.t0) / (b.t1 - b.t0), distance_m, body ? radius_m : distance_m);
+        assert.ok(Math.abs((curve.values[i] as number) - expected) < 1e-5 * (1 + expected), `${curve.values[i]} and ${expected}`);
+      });
+    }
+  }
+});
+
+test('without the option, the viewing distance is the one that gives the mean shift of the answer', () => {
+  const random = new Random('fit');
+  for (let round = 0; round < 40; ++round) {
+    const [before, after] = changedPair(random);
+    const distance_m = random.number(1, 10);
+    const known = new Curves(after, before, { keyframes: [], options: { viewing_distance_m: distance_m } }, { ...kEmpty, segments: after });
+    const shift = curveOf(known, 'shift');
+    const steps = 20_000;
+    const at = (k: number): number => beginOf(after) + ((endOf(after) - beginOf(after)) * (k + 0.5)) / steps;
+    const mean = Array.from({ length: steps }, (_, k) => valueAt(shift, at(k)) as number).reduce((sum, x) => sum + x, 0) / steps;
+    const answer: Answer = { ...kEmpty, segments: after, measures: { before: {}, after: { mean_shift_deg: mean } } };
+    const fitted = new Curves(after, before, { keyframes: [] }, answer);
+    assert.equal(fitted.scale.source, 'answer');
+    assert.ok(Math.abs(fitted.scale.viewingDistance_m / distance_m - 1) < 0.05, `${fitted.scale.viewingDistance_m} for ${distance_m}`);
+    assert.ok(Math.abs(curveOf(fitted, 'shift').largest / shift.largest - 1) < 0.05);
+  }
+});
+
+test('no shift is drawn for a slowed path, or without the path before', () => {
+  const [before, after] = changedPair(new Random('slow'));
+  const slowed = [{ t_begin: 0, t_end: 2, given: [0, 1] as [number, number] }];
+  assert.equal(new Curves(after, before, undefined, { ...kEmpty, segments: after, slowed }).curve('shift'), undefined);
+  assert.equal(new Curves(after, [], undefined, { ...kEmpty, segments: after }).curve('shift'), undefined);
+});
+
+test('the radius of a body is that of the ball about the eye', () => {
+  assert.equal(bodyRadius(undefined), undefined);
+  assert.equal(bodyRadius({ type: 'sphere', radius_m: 0.2, center: [0, 3, 4] }), 5.2);
+  assert.equal(bodyRadius({ type: 'box', size: [2, 4, 4], center: [0, 0, 0] }), 3);
+  assert.equal(bodyRadius({ type: 'convex', points: [[3, 4, 0], [1, 0, 0]] }), 5);
+  assert.equal(bodyRadius({ type: 'mesh', vertices: [[0, 0, 2]] }), 2);
+  assert.equal(bodyRadius({ type: 'mesh', file: 'a.obj' }), undefined);
+});

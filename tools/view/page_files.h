@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace camway::view {
+
+/// A file of the page, as it is and compressed by gzip. Both are empty if there is none.
+struct PageFile {
+  std::string_view text;
+  std::string_view gzip;
+};
+
+/// The page that a browser shows. It is data of the program, so that it outlives all who use it.
+struct PageFiles {
+  PageFile html;
+  PageFile script;
+  PageFile style;
+  /// Policy of a file that holds script and style (`review_html`): no network, and nothing else to
+  /// run.
+  std::string_view inline_policy;
+};
+
+}  // namespace camway::view
