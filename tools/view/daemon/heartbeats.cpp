@@ -95,6 +95,17 @@ void Heartbeats::silent() {
   is_known_ = true;
   changed_.notify_all();
   if (is_new) tell(kSilent);
+  if (is_new && on_silence_) on_silence_();
+}
+
+bool Heartbeats::is_silent() {
+  const std::lock_guard lock(mutex_);
+  return is_known_ && !last_;
+}
+
+void Heartbeats::on_silence(std::function<void()> told) {
+  const std::lock_guard lock(mutex_);
+  on_silence_ = std::move(told);
 }
 
 std::optional<DaemonStatus> Heartbeats::wait() {

@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -29,6 +30,13 @@ class Heartbeats {
   /// Returns the last heartbeat; nothing if the daemon is silent. Waits for the first one as long
   /// as a daemon may need to be heard.
   std::optional<DaemonStatus> wait();
+
+  /// Returns whether the daemon is silent: whether none was heard for as long as one may be.
+  [[nodiscard]] bool is_silent();
+
+  /// Calls `told` each time that the daemon falls silent, on a thread of its own, until this ends.
+  /// It must neither throw nor wait nor call this object. Call this before anything else.
+  void on_silence(std::function<void()> told);
 
   /// Tells of scenes and silence from now on, first of what is known.
   std::unique_ptr<Watch> watch(Tell event);
@@ -59,6 +67,7 @@ class Heartbeats {
   std::chrono::steady_clock::time_point heard_at_ = std::chrono::steady_clock::now();
   std::map<Key, Tell> watchers_;
   Key last_key_ = 0;
+  std::function<void()> on_silence_;
   std::jthread thread_;
 };
 

@@ -6,15 +6,18 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "tools/answers/check_input.h"
 #include "tools/answers/plan_answer.h"
 #include "tools/support/client_request.h"
 #include "tools/support/client_response.h"
 #include "tools/support/watch_event_name.h"
+#include "tools/view/daemon/daemon_meshes.h"
 #include "tools/view/daemon/daemon_scenes.h"
 #include "tools/view/daemon/heartbeats.h"
 #include "tools/view/daemon/status_json.h"
@@ -26,10 +29,6 @@ namespace {
 
 /// Calls about scenes wait for the daemon; so many of them wait at a time.
 constexpr int kCallers = 4;
-
-constexpr char kNoTriangles[] =
-    "triangles are not shown here, since a daemon does not send them; camway view --scene FILE "
-    "does";
 
 std::string_view name_of(PlanProgress::Stage stage) {
   switch (stage) {
@@ -63,6 +62,8 @@ tools::PlanAnswer to_plan_answer(const PlanResponse& response, const PlanOrder& 
   answer.result = tools::to_plan_result(response);
   return answer;
 }
+
+Answer no_daemon() { return failure(code::kNoDaemon, "no daemon is heard"); }
 
 class DaemonJob final : public Job {
  public:
@@ -109,7 +110,10 @@ class PlannerDaemon final : public Backend {
  public:
   PlannerDaemon(std::string scene, const ClientOptions& options)
       : scene_(std::move(scene)), client_(std::in_place, options) {
-    if (client_->good()) heartbeats_.emplace(*client_);
+    if (!client_->good()) return;
+    meshes_.emplace(*client_);
+    heartbeats_.emplace(*client_);
+    heartbeats_->on_silence([this] { fail_plans(); });
   }
   ~PlannerDaemon() override {
     stop_calls();
@@ -126,34 +130,27 @@ class PlannerDaemon final : public Backend {
 
   [[nodiscard]] std::string scene() const override { return scene_; }
   std::shared_ptr<Job> plan(PlanOrder order, Tell progress, Done done) override;
-  std::shared_ptr<Job> check(CheckOrder, Done done) override {
-    done(failure(code::kNotOffered,
-                 "paths are not checked here, since a daemon does not send its triangles; "
-                 "camway check and camway view --scene FILE do"));
-    return nullptr;
-  }
+  std::shared_ptr<Job> check(CheckOrder order, Done done) override;
   void ask_scene(SceneOrder order, Done done) override;
   void status(Done done) override;
-  void mesh(std::string, std::string, MeshDone done) override {
-    done({nullptr, 0, code::kNotOffered, kNoTriangles});
-  }
-  void triangles(std::string, std::vector<std::int64_t>, Done done) override {
-    done(failure(code::kNotOffered, kNoTriangles));
-  }
+  void mesh(std::string scene, std::string digest, MeshDone done) override;
+  void triangles(std::string scene, std::vector<std::int64_t> indices, Done done) override;
   std::unique_ptr<Watch> watch_scenes(Tell event) override {
     return heartbeats_->watch(std::move(event));
   }
   std::unique_ptr<Watch> watch_path(PlanOrder order, Tell event) override;
-  [[nodiscard]] std::shared_ptr<const LastPlan> last() const override {
-    const std::lock_guard lock(mutex_);
-    return last_;
-  }
+  [[nodiscard]] std::shared_ptr<const LastPlan> last() const override;
 
  private:
   /// Runs a call that waits for the daemon on a thread of its own.
   void call(Done done, std::function<Answer()> ask);
   void stop_calls();
+  /// Returns who is to be told of a plan; null if that was done.
+  std::shared_ptr<Reporter> take_plan(std::uint64_t key);
+  /// Answers plans that are under way: the daemon is silent.
+  void fail_plans();
   [[nodiscard]] Answer planned(const PlanResponse& response, const PlanOrder& order);
+  [[nodiscard]] Answer checked(const CheckOrder& order);
   [[nodiscard]] Answer status_answer();
 
   const std::string scene_;
@@ -162,8 +159,11 @@ class PlannerDaemon final : public Backend {
   int calls_ = 0;  ///< calls that run
   bool has_stopped_ = false;
   std::shared_ptr<const LastPlan> last_;
+  std::map<std::uint64_t, std::shared_ptr<Reporter>> plans_;  ///< those without an answer
+  std::uint64_t last_plan_ = 0;                               ///< last key of `plans_`
   WorkPool writer_{1};  ///< writes answers, which would take the time of the client's thread
   std::optional<Client> client_;
+  std::optional<DaemonMeshes> meshes_;    ///< set unless the client has an error
   std::optional<Heartbeats> heartbeats_;  ///< set unless the client has an error
   WorkPool callers_{kCallers};
 };
@@ -179,13 +179,41 @@ std::shared_ptr<Job> PlannerDaemon::plan(PlanOrder order, Tell progress, Done do
     };
   }
   auto reporter = std::make_shared<Reporter>(std::move(done));
+  // The client would repeat the request for seconds.
+  if (heartbeats_->is_silent()) {
+    reporter->report(no_daemon());
+    return nullptr;
+  }
+  std::uint64_t key = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    key = ++last_plan_;
+    plans_.emplace(key, std::move(reporter));
+  }
   auto asked = std::make_shared<const PlanOrder>(std::move(order));
-  handlers.on_answer = [this, asked, reporter](const PlanResponse& response) {
-    writer_.post(
-        [this, asked, reporter, response] { reporter->report(planned(response, *asked)); });
+  handlers.on_answer = [this, asked, key](const PlanResponse& response) {
+    writer_.post([this, asked, key, response] {
+      if (const auto told = take_plan(key)) told->report(planned(response, *asked));
+    });
   };
   const PendingPlan pending = client_->plan_async(request, std::move(handlers));
   return std::make_shared<DaemonJob>(*client_, pending.request_id);
+}
+
+std::shared_ptr<Reporter> PlannerDaemon::take_plan(std::uint64_t key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = plans_.find(key);
+  if (found == plans_.end()) return nullptr;
+  std::shared_ptr<Reporter> reporter = std::move(found->second);
+  plans_.erase(found);
+  return reporter;
+}
+
+void PlannerDaemon::fail_plans() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [key, reporter] : plans_)
+    writer_.post([reporter = std::move(reporter)] { reporter->report(no_daemon()); });
+  plans_.clear();
 }
 
 Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& order) {
@@ -253,13 +281,72 @@ void PlannerDaemon::status(Done done) {
 
 Answer PlannerDaemon::status_answer() {
   const std::optional<DaemonStatus> status = heartbeats_->wait();
-  if (!status) return failure(code::kNoDaemon, "no daemon is heard");
+  if (!status) return no_daemon();
   return {
       code::kOk,
       fmt::format("{{\"planner\": \"daemon\", \"scene\": {}, \"daemon\": {}}}", json_string(scene_),
                   status_json(*status).dump(-1, ' ', false,
                                             nlohmann::ordered_json::error_handler_t::replace)),
       {}};
+}
+
+std::shared_ptr<Job> PlannerDaemon::check(CheckOrder order, Done done) {
+  call(std::move(done), [this, order = std::move(order)] { return checked(order); });
+  return nullptr;
+}
+
+Answer PlannerDaemon::checked(const CheckOrder& order) {
+  base::Result<tools::CheckInput> input =
+      tools::check_input(order.request, order.path, {"request", "path"});
+  if (!input) return failure(code::kInvalid, input.error);
+  const RebuiltScene scene = meshes_->rebuilt(order.scene);
+  if (!scene.snapshot) return failure(scene.code, scene.error);
+  if (scene.lacks_inside) {
+    return failure(code::kNotOffered,
+                   "the scene has an occupancy map, whose inside a daemon does not send; "
+                   "camway check and camway view --scene FILE prove paths in it");
+  }
+  input->snapshot = scene.snapshot;
+  const tools::PathSearch found = tools::search_path(
+      *input, base::Deadline::after_s(order.request.options.deadline_s));
+  nlohmann::ordered_json json = tools::check_json(*input, found);
+  json["warnings"] = tools::check_warnings(*input, found);
+  return {
+      code::kOk, json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), {}};
+}
+
+void PlannerDaemon::mesh(std::string scene, std::string digest, MeshDone done) {
+  auto found = std::make_shared<MeshAnswer>();
+  const auto report = [found, done = std::move(done)](Answer answer) {
+    found->code = answer.code;
+    found->error = std::move(answer.error);
+    if (answer.code != code::kOk) found->mesh = nullptr;
+    done(std::move(*found));
+  };
+  call(report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
+    *found = meshes_->mesh(scene, digest);
+    return Answer{found->code, {}, found->error};
+  });
+}
+
+void PlannerDaemon::triangles(std::string scene, std::vector<std::int64_t> indices, Done done) {
+  call(std::move(done), [this, scene = std::move(scene), indices = std::move(indices)] {
+    const RebuiltScene found = meshes_->rebuilt(scene);
+    if (!found.snapshot) return failure(found.code, found.error);
+    return scene_triangles(*found.snapshot, indices);
+  });
+}
+
+std::shared_ptr<const LastPlan> PlannerDaemon::last() const {
+  std::shared_ptr<const LastPlan> last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = last_;
+  }
+  if (!last || last->mesh) return last;
+  auto with_walls = std::make_shared<LastPlan>(*last);
+  with_walls->mesh = meshes_->known(last->scene_digest);
+  return with_walls;
 }
 
 std::unique_ptr<Watch> PlannerDaemon::watch_path(PlanOrder order, Tell event) {
