@@ -21,6 +21,7 @@
 #include "tools/view/daemon/daemon_scenes.h"
 #include "tools/view/daemon/heartbeats.h"
 #include "tools/view/daemon/status_json.h"
+#include "tools/view/here/scene_parts.h"
 #include "tools/view/reporter.h"
 #include "tools/view/work_pool.h"
 
@@ -150,6 +151,8 @@ class PlannerDaemon final : public Backend {
   /// Answers plans that are under way: the daemon is silent.
   void fail_plans();
   [[nodiscard]] Answer planned(const PlanResponse& response, const PlanOrder& order);
+  /// Fetches the triangles of a scene for pictures of paths, unless they are here or on their way.
+  void fetch_walls(const std::string& scene, const std::string& digest);
   [[nodiscard]] Answer checked(const CheckOrder& order);
   [[nodiscard]] Answer status_answer();
 
@@ -159,6 +162,7 @@ class PlannerDaemon final : public Backend {
   int calls_ = 0;  ///< calls that run
   bool has_stopped_ = false;
   std::shared_ptr<const LastPlan> last_;
+  std::string walls_asked_;  ///< digest of the scene whose triangles were asked for last
   std::map<std::uint64_t, std::shared_ptr<Reporter>> plans_;  ///< those without an answer
   std::uint64_t last_plan_ = 0;                               ///< last key of `plans_`
   WorkPool writer_{1};  ///< writes answers, which would take the time of the client's thread
@@ -225,7 +229,8 @@ Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& ord
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
   auto last = std::make_shared<const LastPlan>(
       LastPlan{order.request, std::move(answer.result), nullptr, order.text,
-               std::make_shared<const std::string>(*text)});
+               std::make_shared<const std::string>(*text), answer.scene_digest});
+  fetch_walls(order.scene, answer.scene_digest);
   const std::lock_guard lock(mutex_);
   last_.swap(last);
   return {code::kOk, *text, {}};
@@ -335,6 +340,19 @@ void PlannerDaemon::triangles(std::string scene, std::vector<std::int64_t> indic
     if (!found.snapshot) return failure(found.code, found.error);
     return scene_triangles(*found.snapshot, indices);
   });
+}
+
+void PlannerDaemon::fetch_walls(const std::string& scene, const std::string& digest) {
+  if (digest.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(walls_asked_, digest) == digest) return;
+  }
+  call([](const Answer&) {},
+       [this, scene] {
+         meshes_->rebuilt(scene);
+         return Answer{code::kOk, {}, {}};
+       });
 }
 
 std::shared_ptr<const LastPlan> PlannerDaemon::last() const {
