@@ -197,8 +197,8 @@ TEST_F(ClientTest, SurvivesAHostilePeer) {
     const Bytes good = encode_all(answer_pages(request, 3, 3))[0];
     Bytes huge = good;
     // The count of segments, which is directly before the first one: 2^31 - 1. Behind the segments
-    // are the counts of the seven other lists, which are empty.
-    const std::size_t count_at = good.size() - 3 * 42 * 8 - 7 * 4 - 4;
+    // are the counts of the eight other lists, which are empty.
+    const std::size_t count_at = good.size() - 3 * 42 * 8 - 8 * 4 - 4;
     huge[count_at] = 0x7f;
     huge[count_at + 1] = huge[count_at + 2] = huge[count_at + 3] = 0xff;
     const Bytes cut(good.begin(), good.begin() + 70);
