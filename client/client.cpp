@@ -244,6 +244,13 @@ SceneMap Client::export_map(const std::string& scene) {
   return ask_scene_map(impl_->asker(), request_for(scene_request_t::EXPORT, scene));
 }
 
+SceneTriangles Client::object_triangles(const std::string& scene, const std::string& digest) {
+  if (const auto why = impl_->failure_to_wait()) return failed<SceneTriangles>(*why);
+  scene_request_t request = request_for(scene_request_t::TRIANGLES, scene);
+  request.digest = digest;
+  return ask_triangles(impl_->asker(), request);
+}
+
 SceneAnswer Client::export_map_to(const std::string& scene, const std::string& file) {
   scene_request_t request = request_for(scene_request_t::EXPORT, scene);
   request.file = file;

@@ -17,6 +17,7 @@
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
+#include "lcmtypes/wire/object_mesh.h"
 #include "lcmtypes/wire/utime.h"
 
 namespace camway {
@@ -232,6 +233,7 @@ std::optional<std::string> fault_in_form(const scene_request_t& request) {
   for (const auto& fault :
        {fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes),
         fault_in_text("object", request.object, wire::kMaxObjectNameBytes),
+        fault_in_text("digest", request.digest, wire::kMaxDigestBytes),
         fault_in_text("restore_as", request.restore_as, wire::kMaxSceneNameBytes),
         fault_in_text("file", request.file, wire::kMaxFileNameBytes),
         fault_in_text("format", request.upload_format, wire::kMaxFormatBytes)}) {
@@ -342,10 +344,16 @@ class MapPages final : public Call {
   std::promise<Came> promise_;
 };
 
-/// Fetches all bytes of the map that `exported` describes.
-SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
-  SceneMap map;
-  convert(exported.scene, map.scene);
+/// What was fetched, or the reason why it was not.
+struct Exported {
+  Failure failure{Status::kOk, {}};
+  SceneAnswer answer;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Fetches all pages of what `exported` describes.
+Exported fetch(const Asker& asker, const scene_response_t& exported) {
+  Exported fetched;
   const auto size = static_cast<std::size_t>(std::max<std::int64_t>(0, exported.map_bytes));
   const auto num_pages = static_cast<std::int32_t>(
       std::max<std::size_t>(1, (size + wire::kMapPageBytes - 1) / wire::kMapPageBytes));
@@ -360,37 +368,65 @@ SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
     std::future<MapPages::Came> answer = call->answer();
     asker.start(call);
     MapPages::Came came = answer.get();
-    if (came.failure.status != Status::kOk) return failed<SceneMap>(came.failure);
+    if (came.failure.status != Status::kOk) return {std::move(came.failure), {}, {}};
     std::ranges::sort(came.pages, {}, &map_page_t::page);
     for (const map_page_t& page : came.pages) {
-      map.bytes.insert(map.bytes.end(), page.bytes.begin(), page.bytes.end());
+      fetched.bytes.insert(fetched.bytes.end(), page.bytes.begin(), page.bytes.end());
     }
   }
-  if (map.bytes.size() != size ||
-      wire::crc64(map.bytes.data(), map.bytes.size()) != exported.map_checksum) {
-    return failed<SceneMap>({Status::kBadAnswer, "the map's checksum is not that of its pages"});
+  if (fetched.bytes.size() != size ||
+      wire::crc64(fetched.bytes.data(), fetched.bytes.size()) != exported.map_checksum) {
+    fetched.failure = {Status::kBadAnswer, "the checksum is not that of the pages"};
   }
-  map.status = Status::kOk;
-  return map;
+  return fetched;
+}
+
+Exported ask_export(const SceneAsker& with, const scene_request_t& request) {
+  if (const auto fault = fault_in_form(request)) return {{Status::kInvalid, *fault}, {}, {}};
+  const Asker asker(with);
+  Exported fetched;
+  // The daemon may have dropped the export in favour of others, or restarted.
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    const Asked<scene_response_t> asked = ask_once(asker, request);
+    SceneAnswer answer = answer_of(asked);
+    if (!answer.ok()) return {{answer.status, answer.error}, {}, {}};
+    fetched = fetch(asker, *asked.response);
+    fetched.answer = std::move(answer);
+    if (fetched.failure.status != Status::kInvalid) return fetched;
+  }
+  return fetched;
 }
 
 }  // namespace
 
-SceneMap ask_scene_map(const SceneAsker& with, const scene_request_t& request) {
-  if (const auto fault = fault_in_form(request)) {
-    return failed<SceneMap>({Status::kInvalid, *fault});
-  }
-  const Asker asker(with);
+SceneMap ask_scene_map(const SceneAsker& asker, const scene_request_t& request) {
+  Exported fetched = ask_export(asker, request);
+  if (fetched.failure.status != Status::kOk) return failed<SceneMap>(std::move(fetched.failure));
   SceneMap map;
-  // The daemon may have dropped the export in favour of others, or restarted.
-  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
-    const Asked<scene_response_t> asked = ask_once(asker, request);
-    const SceneAnswer exported = answer_of(asked);
-    if (!exported.ok()) return failed<SceneMap>({exported.status, exported.error});
-    map = fetch_map(asker, *asked.response);
-    if (map.status != Status::kInvalid) return map;
-  }
+  map.status = Status::kOk;
+  map.scene = std::move(fetched.answer.scene);
+  map.bytes = std::move(fetched.bytes);
   return map;
+}
+
+SceneTriangles ask_triangles(const SceneAsker& asker, const scene_request_t& request) {
+  Exported fetched = ask_export(asker, request);
+  if (fetched.failure.status != Status::kOk)
+    return failed<SceneTriangles>(std::move(fetched.failure));
+  std::optional<wire::ObjectMesh> mesh = wire::decode_mesh(fetched.bytes);
+  if (!mesh || fetched.answer.objects.size() != 1)
+    return failed<SceneTriangles>({Status::kBadAnswer, "the triangles cannot be read"});
+  SceneTriangles sent;
+  sent.status = Status::kOk;
+  sent.scene = std::move(fetched.answer.scene);
+  sent.object = std::move(fetched.answer.objects.front());
+  sent.vertices_m = std::move(mesh->vertices_m);
+  sent.triangles = std::move(mesh->triangles);
+  for (wire::ObjectMesh::Part& part : mesh->parts)
+    sent.parts.push_back({std::move(part.name), part.triangles});
+  sent.surface_error_m = mesh->surface_error_m;
+  sent.has_inside = mesh->has_inside;
+  return sent;
 }
 
 SceneAnswer ask_scene_list(const SceneAsker& with, scene_request_t request) {

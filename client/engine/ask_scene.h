@@ -43,6 +43,10 @@ SceneAnswer ask_scene(const SceneAsker& asker, scene_request_t request,
 /// Exports a map and fetches all its pages. Not for the engine's own thread.
 SceneMap ask_scene_map(const SceneAsker& asker, const scene_request_t& request);
 
+/// Requests the triangles of an object and fetches all their pages. Not for the engine's own
+/// thread.
+SceneTriangles ask_triangles(const SceneAsker& asker, const scene_request_t& request);
+
 /// Requests a list until all of it has come. Not for the engine's own thread.
 SceneAnswer ask_scene_list(const SceneAsker& asker, scene_request_t request);
 

@@ -44,6 +44,7 @@ class FakeDaemon {
   CancelScript on_cancel_occupancy;
   SceneScript on_scene;
   CancelScript on_cancel_scene;
+  MissingScript on_missing_map;  ///< answers on the channel for pages of exports
   /// Period of heartbeats; 0: none.
   std::chrono::milliseconds heartbeat_every{0};
   double uptime_s = 1000.0;
@@ -61,6 +62,7 @@ class FakeDaemon {
     lcm_.subscribeFunction(channels_.cancel_occupancy(), &FakeDaemon::take_cancel_occupancy, this);
     lcm_.subscribeFunction(channels_.scene_request(), &FakeDaemon::take_scene, this);
     lcm_.subscribeFunction(channels_.cancel_scene(), &FakeDaemon::take_cancel_scene, this);
+    lcm_.subscribeFunction(channels_.missing_map_pages(), &FakeDaemon::take_missing_map, this);
     running_ = true;
     thread_ = std::thread([this] { run(); });
   }
@@ -122,6 +124,16 @@ class FakeDaemon {
   static void take_cancel_scene(const lcm::ReceiveBuffer* buffer, const std::string&,
                                 FakeDaemon* self) {
     self->answer_scene<cancel_t>(buffer, self->on_cancel_scene);
+  }
+
+  static void take_missing_map(const lcm::ReceiveBuffer* buffer, const std::string&,
+                               FakeDaemon* self) {
+    const auto decoded = wire::decode<missing_pages_t>(
+        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message || !self->on_missing_map) return;
+    for (const Bytes& bytes : self->on_missing_map(*decoded.message)) {
+      self->publish(self->channels_.map_page(decoded.message->client_id), bytes);
+    }
   }
 
   static void take_scene(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {

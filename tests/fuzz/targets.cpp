@@ -13,7 +13,7 @@ std::span<const FuzzTarget> fuzz_targets() {
       kMapFileTarget,      kCacheFileTarget,    kChangeRecordTarget, kLogMessageTarget,
       kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
       kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kPointsTarget,
-      kBezierTarget,       kCameraFileTarget,   kDoorMessageTarget,
+      kBezierTarget,       kCameraFileTarget,   kDoorMessageTarget,  kSentMeshTarget,
 #ifdef CAMWAY_WITH_INVENTOR
       kInventorFileTarget,
 #endif

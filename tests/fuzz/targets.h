@@ -52,6 +52,7 @@ inline std::string_view as_text(std::span<const std::uint8_t> bytes) {
 
 // The targets, in the order of their source files.
 extern const FuzzTarget kWireTarget;
+extern const FuzzTarget kSentMeshTarget;
 extern const FuzzTarget kEnvelopeTarget;
 extern const FuzzTarget kFleetTarget;
 extern const FuzzTarget kFleetPartsTarget;

@@ -15,6 +15,7 @@
 #include "tests/tools/view/door_client.h"
 #include "tools/view/daemon/planner_daemon.h"
 #include "tools/view/door.h"
+#include "tools/view/here/planner_here.h"
 
 namespace camway::integration {
 namespace {
@@ -78,8 +79,106 @@ TEST_F(ViewDaemonTest, EveryPlaceIsAnsweredByTheDaemon) {
   const Reached checked =
       client.post("/v1/check", "{\"request\": " + request_text("office-graze-door") +
                                    ", \"path\": " + plan + "}");
-  EXPECT_EQ(checked.code, 501);
-  EXPECT_THAT(checked.json().at("error").get<std::string>(), HasSubstr("camway check"));
+  EXPECT_EQ(checked.code, 200) << checked.body;
+  EXPECT_EQ(checked.json().at("certified"), true) << checked.body;
+}
+
+/// A door that plans here, for comparison.
+class DoorHere {
+ public:
+  explicit DoorHere(const std::string& scene) {
+    const scene::SnapshotResult loaded = scene::load_snapshot(scene, scene_file(scene));
+    if (!loaded.snapshot) throw std::runtime_error(loaded.error);
+    backend_ = view::plan_here(loaded.snapshot, {.scene_reading = scene::ImportOptions{}});
+    auto door = view::Door::open({.token = kSecret}, *backend_);
+    if (!door) throw std::runtime_error(door.error);
+    door_ = *std::move(door);
+  }
+  HttpClient http() { return {door_->port(), kSecret}; }
+
+ private:
+  std::unique_ptr<view::Backend> backend_;
+  std::unique_ptr<view::Door> door_;
+};
+
+constexpr char kTurnedCrate[] =
+    R"({"name": "crate", "position": [5, 6, 7], "orientation": [0.8, 0, 0, 0.6],
+        "form": {"type": "sphere", "radius_m": 0.5}})";
+
+TEST_F(ViewDaemonTest, TrianglesAreThoseOfTheSceneHere) {
+  start_daemon();
+  open_door();
+  DoorHere here("office");
+  HttpClient daemon_door = http();
+  HttpClient door_here = here.http();
+  for (HttpClient* client : {&daemon_door, &door_here})
+    ASSERT_EQ(client->post("/v1/scenes/office/objects", kTurnedCrate).code, 200);
+  const json office = daemon_door.get("/v1/scenes/office").json();
+  ASSERT_EQ(office.at("objects").size(), 2U);
+  for (const json& object : office.at("objects")) {
+    const std::string place = "/v1/scenes/office/meshes/" + object.at("digest").get<std::string>();
+    const Reached sent = daemon_door.get(place);
+    const Reached known = door_here.get(place);
+    ASSERT_EQ(sent.code, 200) << sent.body;
+    ASSERT_EQ(known.code, 200) << known.body;
+    EXPECT_TRUE(sent.body == known.body) << object.dump();
+  }
+  EXPECT_EQ(daemon_door.get("/v1/scenes/office/meshes/" + std::string(32, '0')).code, 404);
+  const std::string indices = R"({"indices": [0, 1, 17, 1000, 123456789]})";
+  const std::string triangles = "/v1/scenes/office/triangles";
+  EXPECT_EQ(daemon_door.post(triangles, indices).json().at("triangles"),
+            door_here.post(triangles, indices).json().at("triangles"));
+}
+
+TEST_F(ViewDaemonTest, PathsAreProvedAsHere) {
+  start_daemon();
+  open_door();
+  DoorHere here("office");
+  HttpClient daemon_door = http();
+  HttpClient door_here = here.http();
+  const std::string request = request_text("office-graze-door");
+  const std::string plan = daemon_door.post("/v1/plan", request).body;
+  const std::string check = "{\"request\": " + request + ", \"path\": " + plan + "}";
+  const auto proof = [&](HttpClient& client) {
+    json proof = client.post("/v1/check", check).json();
+    proof.erase("scene");
+    proof.erase("timing_ms");
+    return proof;
+  };
+  json there = proof(daemon_door);
+  json at_home = proof(door_here);
+  // Bounds are as sharp as the distances that each of them has at hand.
+  for (json* one : {&there, &at_home}) {
+    EXPECT_EQ(one->at("certified"), true) << *one;
+    EXPECT_GT(one->at("clearance_lower_bound"), 0.003);
+    one->erase("clearance_lower_bound");
+  }
+  EXPECT_EQ(there, at_home);
+  // What is in the way is seen by the next proof.
+  const json begin = json::parse(request).at("keyframes").at(0).at("position");
+  const Reached added = daemon_door.post(
+      "/v1/scenes/office/objects", R"({"name": "crate", "form": {"type": "sphere", "radius_m": 0.3},
+                                       "position": )" +
+                                       begin.dump() + "}");
+  ASSERT_EQ(added.code, 200) << added.body;
+  const json blocked = proof(daemon_door);
+  EXPECT_EQ(blocked.at("certified"), false) << blocked;
+  EXPECT_GE(blocked.at("collisions").size(), 1U) << blocked;
+}
+
+TEST_F(ViewDaemonTest, PathsInAnOccupancyMapAreNotProvedAgainstItsFacesAlone) {
+  start_daemon();
+  open_door();
+  Client client(patient());
+  SceneVoxels map;
+  map.resolution_m = 0.5;
+  ASSERT_TRUE(client.put_object("office", "map", map).ok());
+  const std::string request = request_text("office-graze-door");
+  const std::string plan = http().post("/v1/plan", request).body;
+  const Reached checked =
+      http().post("/v1/check", "{\"request\": " + request + ", \"path\": " + plan + "}");
+  EXPECT_EQ(checked.code, 501) << checked.body;
+  EXPECT_THAT(checked.json().at("error").get<std::string>(), HasSubstr("occupancy map"));
 }
 
 TEST_F(ViewDaemonTest, AnswersAreThoseOfCamwayPlanByTheDaemon) {

@@ -9,7 +9,7 @@
 #   --seconds   how long for each target (600)
 #   --jobs      compilers at a time (one for each core)
 #   TARGET      of these; all if none is named:
-#               wire envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
+#               wire sent_mesh envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
 #               import_record map_file inventor_file cache_file change_record log_message
 #               stream_answer source_record request_json response_json path_json session config door_message
 #
@@ -24,7 +24,7 @@ build=$root/build/fuzz
 seconds=600
 jobs=$(nproc)
 targets=()
-readonly kTargets=(wire envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
+readonly kTargets=(wire sent_mesh envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
   import_record map_file inventor_file cache_file change_record log_message stream_answer source_record
   request_json response_json path_json session config door_message)
 

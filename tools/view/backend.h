@@ -39,6 +39,7 @@ struct LastPlan {
   std::shared_ptr<const scene::Mesh> mesh;  ///< null if its triangles are not known here
   std::shared_ptr<const std::string> request_text = {};  ///< as JSON; null only in tests
   std::shared_ptr<const std::string> answer_text = {};   ///< as JSON; null only in tests
+  std::string scene_digest = {};                         ///< of the scene of the path
 };
 
 /// An object's triangles in the frame of the object, or why there are none.

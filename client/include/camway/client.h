@@ -175,6 +175,10 @@ class Client {
 
   /// Returns the occupancy map of a scene.
   SceneMap export_map(const std::string& scene);
+  /// Returns the triangles of the object of a scene that has this digest (`describe_scene`). Equal
+  /// digests have equal triangles in the world, so they can be kept by digest. `kInvalid` if the
+  /// scene has no such object now.
+  SceneTriangles object_triangles(const std::string& scene, const std::string& digest);
   /// Has the daemon write the occupancy map of a scene to a file below one of its scene roots. The
   /// name must end with ".bt"; an existing file is replaced.
   SceneAnswer export_map_to(const std::string& scene, const std::string& file);

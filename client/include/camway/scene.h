@@ -129,4 +129,30 @@ struct SceneMap {
   std::vector<std::uint8_t> bytes;  ///< content of a file in OctoMap's binary format (.bt)
 };
 
+/// The triangles of an object.
+struct SceneTriangles {
+  Status status = Status::kNoAnswer;
+  std::string error;  ///< the failure and its remedy; empty when `ok()`
+
+  bool ok() const { return status == Status::kOk; }
+
+  SceneInfo scene;     ///< revision of the scene in which the object was found
+  SceneObject object;  ///< the object, with its pose in that revision
+  /// Vertices in the frame of the object, as the daemon has them: `object.pose` takes them to the
+  /// world.
+  std::vector<std::array<double, 3>> vertices_m;
+  /// Indices of vertices; in the order in which answers number the triangles of the scene.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// A named range of triangles, as the file of the object has them.
+  struct Part {
+    std::string name;
+    std::uint32_t num_triangles = 0;
+  };
+  std::vector<Part> parts;       ///< in order; together they have all triangles
+  double surface_error_m = 0.0;  ///< paths keep this distance from triangles of smooth surfaces
+  /// Whether the object is an occupancy map: its triangles are the faces of its voxels, and what is
+  /// inside of them collides, too.
+  bool has_inside = false;
+};
+
 }  // namespace camway

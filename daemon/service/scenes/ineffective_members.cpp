@@ -64,6 +64,7 @@ std::vector<const void*> used_members(const Request& r) {
   add(is_posed || is_scan, {&r.position_m});
   add(is_posed || !is_turned(r.orientation_wxyz), {&r.orientation_wxyz});
   add(counts.in({Request::LIST, Request::DESCRIBE, Request::HISTORY}), {&r.first});
+  add(counts.in({Request::TRIANGLES}), {&r.digest});
   add(counts.in({Request::RESTORE}), {&r.revision, &r.restore_as});
   return used;
 }
@@ -72,7 +73,7 @@ std::vector<const void*> used_members(const Request& r) {
 
 std::string ineffective_member(const scene_request_t& request) {
   const bool is_known = request.operation >= Request::LOAD &&
-                        request.operation <= Request::RESTORE && request.kind >= Request::MESH &&
+                        request.operation <= Request::TRIANGLES && request.kind >= Request::MESH &&
                         request.kind <= Request::MAP;
   if (!is_known) return {};
   std::string idle;

@@ -37,7 +37,7 @@ map_page_t no_such_map(const RequestKey& key) {
   page.client_id = key.client_id;
   page.request_id = key.request_id;
   page.status = map_page_t::STATUS_INVALID;
-  page.message = "the exported map is not there any more; export it again";
+  page.message = "what was exported is not there any more; ask for it again";
   return page;
 }
 

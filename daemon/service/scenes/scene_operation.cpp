@@ -18,6 +18,7 @@
 #include "daemon/service/scenes/request_digest.h"
 #include "daemon/service/scenes/scene_answers.h"
 #include "daemon/service/scenes/scene_content.h"
+#include "daemon/service/scenes/sent_mesh.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
@@ -105,6 +106,8 @@ class SceneOperation {
         return scene_history(request_, scenes_);
       case Request::RESTORE:
         return restore();
+      case Request::TRIANGLES:
+        return triangles();
       default:
         return invalid(fmt::format("operation: {} is unknown", request_.operation));
     }
@@ -283,6 +286,25 @@ class SceneOperation {
     return fault.empty() ? answer : invalid(fault);
   }
 
+  Answer triangles() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown_scene_answer(request_, scenes_);
+    const auto object = std::ranges::find_if(
+        snapshot->objects, [&](const auto& each) { return each->digest == request_.digest; });
+    if (object == snapshot->objects.end()) {
+      return invalid(fmt::format("digest: is of no object of scene '{}' now", request_.scene));
+    }
+    map_ = sent_mesh(**object);
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = messages::scene_info_of(*snapshot);
+    answer.total = static_cast<std::int32_t>(snapshot->objects.size());
+    answer.objects = {messages::object_on_wire(**object)};
+    answer.num_objects = 1;
+    answer.map_bytes = static_cast<std::int64_t>(map_.size());
+    answer.map_checksum = wire::crc64(map_.data(), map_.size());
+    return answer;
+  }
+
   Answer change(SceneChange change, std::string_view message) {
     const std::string object = change.object;
     return answer_to(
@@ -335,6 +357,8 @@ const char* operation_name(const scene_request_t& request) {
       return "history";
     case scene_request_t::RESTORE:
       return "restore";
+    case scene_request_t::TRIANGLES:
+      return "triangles";
     default:
       return "unknown";
   }

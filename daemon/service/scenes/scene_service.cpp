@@ -131,7 +131,9 @@ void SceneService::begin(const Request& request) {
   Job work;
   work.client = request->client_id;
   work.id = request->request_id;
+  // Triangles need not wait for changes of their scene.
   work.strand = target_of(*request);
+  if (request->operation == scene_request_t::TRIANGLES) work.strand += " triangles";
   work.run = [this, request, upload, ticket = pending.ticket, deadline = pending.deadline] {
     // A small change would be committed before the loop looks at deadlines.
     const bool is_late = Clock::now() >= deadline;
@@ -153,11 +155,11 @@ void SceneService::take_done(const Request& request, SceneReply done, const Page
   const auto pending = unanswered_.find(key);
   if (pending == unanswered_.end() || pending->second.request != request) return;  // cancelled
   if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
-    done.answer = plain_scene_answer(
-        *request, scene_response_t::STATUS_LIMIT,
-        fmt::format("the map is larger than all exports may be together, {} bytes "
-                    "(scenes.all_exports_bytes)",
-                    config_.exports.bytes));
+    done.answer =
+        plain_scene_answer(*request, scene_response_t::STATUS_LIMIT,
+                           fmt::format("it is larger than all exports may be together, {} bytes "
+                                       "(scenes.all_exports_bytes)",
+                                       config_.exports.bytes));
   }
   finish(*request, std::move(done.answer));
 }
@@ -212,7 +214,8 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
                                   {"message", answer.message}});
   // The client is told to send it again, to know whether it was made.
   const bool is_unclear = answer.status == scene_response_t::STATUS_INTERNAL_ERROR;
-  const bool changed = !is_query(request) && answer.status == scene_response_t::STATUS_OK;
+  const bool changed = !is_query(request) && request.operation != scene_request_t::TRIANGLES &&
+                       answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
   if (is_query(request)) return;

@@ -48,6 +48,9 @@ TEST(SceneIdle, WhatTheOperationNamesCounts) {
   restore.revision = 4;
   restore.restore_as = "before";
   EXPECT_EQ(ineffective_member(restore), "");
+  Request triangles = request(Request::TRIANGLES);
+  triangles.digest = "0123";
+  EXPECT_EQ(ineffective_member(triangles), "");
 }
 
 TEST(SceneIdle, WhatWouldNotCountIsNamed) {

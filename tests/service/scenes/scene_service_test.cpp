@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -12,7 +14,9 @@
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
+#include "daemon/service/scenes/sent_mesh.h"
 #include "lcmtypes/wire/checksum.h"
+#include "lcmtypes/wire/object_mesh.h"
 #include "tests/service/running_service.h"
 #include "tests/service/scenes/scene_sender.h"
 #include "tests/support/temporary_folder.h"
@@ -266,6 +270,79 @@ TEST_F(SceneServiceTest, SendsAnExportedMapPageByPage) {
   scene_request_t to_file = request_for(8, scene_request_t::EXPORT, "yard");
   to_file.file = "yard.bt";
   EXPECT_THAT(ask(to_file).message, HasSubstr("scenes.write_maps is false"));
+}
+
+TEST_F(SceneServiceTest, SendsTheTrianglesOfAnObjectInItsFrame) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "yard")));
+  scene_request_t put = put_box(2, "yard", "crate", 2.0);
+  put.position_m[0] = 5.0;
+  static_cast<void>(ask(put_box(3, "yard", "other", 1.0)));
+  const scene_response_t crate = ask(put);
+  ASSERT_EQ(crate.status, scene_response_t::STATUS_OK) << crate.message;
+  scene_request_t wanted = request_for(4, scene_request_t::TRIANGLES, "yard");
+  wanted.digest = crate.objects.at(0).digest;
+  const scene_response_t answer = ask(wanted);
+  ASSERT_EQ(answer.status, scene_response_t::STATUS_OK) << answer.message;
+  EXPECT_EQ(answer.scene.revision, crate.scene.revision) << "nothing was changed";
+  ASSERT_EQ(answer.objects.size(), 1U);
+  EXPECT_EQ(answer.objects[0].name, "crate");
+  EXPECT_EQ(answer.objects[0].position_m[0], 5.0);
+
+  missing_pages_t asked{};
+  asked.client_id = wanted.client_id;
+  asked.request_id = wanted.request_id;
+  asked.missing = {0};
+  asked.num_missing = 1;
+  const map_page_t page =
+      ask_on<map_page_t>(running_.channels.missing_map_pages(), wire::encode(asked),
+                         running_.channels.map_page(wanted.client_id));
+  EXPECT_EQ(page.num_pages, 1);
+  EXPECT_EQ(static_cast<std::int64_t>(page.bytes.size()), answer.map_bytes);
+  EXPECT_EQ(wire::crc64(page.bytes.data(), page.bytes.size()), answer.map_checksum);
+  const auto mesh = wire::decode_mesh(page.bytes);
+  ASSERT_TRUE(mesh);
+  const auto yard = running_.scenes.find("yard");
+  EXPECT_EQ(mesh->triangles, yard->objects.front()->source->parts_O.front().mesh->triangles);
+  EXPECT_EQ(mesh->vertices_m.size(), 8U);
+  for (const auto& vertex : mesh->vertices_m) {
+    for (const double coordinate : vertex) EXPECT_EQ(std::abs(coordinate), 1.0);
+  }
+  EXPECT_FALSE(mesh->has_inside);
+
+  wanted.request_id = 5;
+  wanted.digest = "none";
+  EXPECT_THAT(ask(wanted).message, HasSubstr("digest: is of no object of scene 'yard'"));
+  wanted.request_id = 6;
+  wanted.scene = "attic";
+  EXPECT_EQ(ask(wanted).status, scene_response_t::STATUS_UNKNOWN_SCENE);
+  wanted.request_id = 7;
+  wanted.object = "crate";
+  EXPECT_THAT(ask(wanted).message, HasSubstr("object: does not count"));
+}
+
+TEST_F(SceneServiceTest, SendsAMapAsFacesThatHaveAnInside) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "yard")));
+  scene_request_t put = request_for(2, scene_request_t::PUT, "yard", "map");
+  put.kind = scene_request_t::MAP;
+  put.cell_m = 0.5;
+  ASSERT_EQ(ask(put).status, scene_response_t::STATUS_OK);
+  scene_request_t scan = request_for(3, scene_request_t::SCAN, "yard", "map");
+  const std::array<double, 3> seen{3.2, 0.2, 0.2};
+  Bytes bytes(sizeof seen);
+  std::memcpy(bytes.data(), seen.data(), sizeof seen);
+  upload(bytes, scan);
+  const scene_response_t scanned = ask(scan);
+  ASSERT_EQ(scanned.status, scene_response_t::STATUS_OK) << scanned.message;
+  const auto yard = running_.scenes.find("yard");
+  const auto mesh = wire::decode_mesh(sent_mesh(*yard->objects.front()));
+  ASSERT_TRUE(mesh);
+  EXPECT_TRUE(mesh->has_inside);
+  EXPECT_EQ(static_cast<std::int64_t>(mesh->triangles.size()), scanned.scene.num_triangles);
+  for (const auto& [x, y, z] : mesh->vertices_m) {
+    EXPECT_TRUE(x == 3.0 || x == 3.5) << x;
+    EXPECT_TRUE(y == 0.0 || y == 0.5) << y;
+    EXPECT_TRUE(z == 0.0 || z == 0.5) << z;
+  }
 }
 
 TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string_view>
 #include <utility>
 
@@ -17,9 +18,12 @@
 #include "tools/support/client_request.h"
 #include "tools/support/client_response.h"
 #include "tools/support/watch_event_name.h"
+#include "tools/view/daemon/daemon_meshes.h"
 #include "tools/view/daemon/daemon_scenes.h"
 #include "tools/view/daemon/heartbeats.h"
 #include "tools/view/daemon/status_json.h"
+#include "tools/view/here/path_proof.h"
+#include "tools/view/here/scene_parts.h"
 #include "tools/view/reporter.h"
 #include "tools/view/work_pool.h"
 
@@ -29,9 +33,8 @@ namespace {
 /// Calls about scenes wait for the daemon; so many of them wait at a time.
 constexpr int kCallers = 4;
 
-constexpr char kNoTriangles[] =
-    "triangles are not shown here, since a daemon does not send them; camway view --scene FILE "
-    "does";
+/// Proofs take a core each, and others of them wait.
+constexpr int kProvers = 2;
 
 std::string_view name_of(PlanProgress::Stage stage) {
   switch (stage) {
@@ -115,6 +118,7 @@ class PlannerDaemon final : public Backend {
   PlannerDaemon(std::string scene, const ClientOptions& options)
       : scene_(std::move(scene)), client_(std::in_place, options) {
     if (!client_->good()) return;
+    meshes_.emplace(*client_);
     heartbeats_.emplace(*client_);
     heartbeats_->on_silence([this] { fail_plans(); });
   }
@@ -133,38 +137,29 @@ class PlannerDaemon final : public Backend {
 
   [[nodiscard]] std::string scene() const override { return scene_; }
   std::shared_ptr<Job> plan(PlanOrder order, Tell progress, Done done) override;
-  std::shared_ptr<Job> check(CheckOrder, Done done) override {
-    done(failure(code::kNotOffered,
-                 "paths are not checked here, since a daemon does not send its triangles; "
-                 "camway check and camway view --scene FILE do"));
-    return nullptr;
-  }
+  std::shared_ptr<Job> check(CheckOrder order, Done done) override;
   void ask_scene(SceneOrder order, Done done) override;
   void status(Done done) override;
-  void mesh(std::string, std::string, MeshDone done) override {
-    done({nullptr, 0, code::kNotOffered, kNoTriangles});
-  }
-  void triangles(std::string, std::vector<std::int64_t>, Done done) override {
-    done(failure(code::kNotOffered, kNoTriangles));
-  }
+  void mesh(std::string scene, std::string digest, MeshDone done) override;
+  void triangles(std::string scene, std::vector<std::int64_t> indices, Done done) override;
   std::unique_ptr<Watch> watch_scenes(Tell event) override {
     return heartbeats_->watch(std::move(event));
   }
   std::unique_ptr<Watch> watch_path(PlanOrder order, Tell event) override;
-  [[nodiscard]] std::shared_ptr<const LastPlan> last() const override {
-    const std::lock_guard lock(mutex_);
-    return last_;
-  }
+  [[nodiscard]] std::shared_ptr<const LastPlan> last() const override;
 
  private:
-  /// Runs a call that waits for the daemon on a thread of its own.
-  void call(Done done, std::function<Answer()> ask);
+  /// Runs a call that waits for the daemon on one of these threads.
+  void call(WorkPool& threads, Done done, std::function<Answer()> ask);
   void stop_calls();
   /// Returns who is to be told of a plan; null if that was done.
   std::shared_ptr<Reporter> take_plan(std::uint64_t key);
   /// Answers plans that are under way: the daemon is silent.
   void fail_plans();
   [[nodiscard]] Answer planned(const PlanResponse& response, const PlanOrder& order);
+  /// Fetches the triangles of a scene for pictures of paths, unless they are here or on their way.
+  void fetch_walls(const std::string& scene, const std::string& digest);
+  [[nodiscard]] Answer checked(const CheckOrder& order, const StoppableJob& job);
   [[nodiscard]] Answer status_answer();
 
   const std::string scene_;
@@ -173,12 +168,16 @@ class PlannerDaemon final : public Backend {
   int calls_ = 0;  ///< calls that run
   bool has_stopped_ = false;
   std::shared_ptr<const LastPlan> last_;
+  std::string walls_asked_;  ///< digest of the scene whose triangles were asked for last
   std::map<std::uint64_t, std::shared_ptr<Reporter>> plans_;  ///< those without an answer
   std::uint64_t last_plan_ = 0;                               ///< last key of `plans_`
   WorkPool writer_{1};  ///< writes answers, which would take the time of the client's thread
   std::optional<Client> client_;
+  std::optional<DaemonMeshes> meshes_;    ///< set unless the client has an error
   std::optional<Heartbeats> heartbeats_;  ///< set unless the client has an error
+  std::stop_source proofs_;
   WorkPool callers_{kCallers};
+  WorkPool provers_{kProvers};
 };
 
 std::shared_ptr<Job> PlannerDaemon::plan(PlanOrder order, Tell progress, Done done) {
@@ -238,15 +237,16 @@ Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& ord
   if (!text) return failure(code::kOurFault, "the answer cannot be written: " + text.error);
   auto last = std::make_shared<const LastPlan>(
       LastPlan{order.request, std::move(answer.result), nullptr, order.text,
-               std::make_shared<const std::string>(*text)});
+               std::make_shared<const std::string>(*text), answer.scene_digest});
+  fetch_walls(order.scene, answer.scene_digest);
   const std::lock_guard lock(mutex_);
   last_.swap(last);
   return {code::kOk, *text, {}};
 }
 
-void PlannerDaemon::call(Done done, std::function<Answer()> ask) {
+void PlannerDaemon::call(WorkPool& threads, Done done, std::function<Answer()> ask) {
   auto reporter = std::make_shared<Reporter>(std::move(done));
-  callers_.post([this, reporter, ask = std::move(ask)] {
+  threads.post([this, reporter, ask = std::move(ask)] {
     {
       const std::lock_guard lock(mutex_);
       if (has_stopped_) return;
@@ -262,6 +262,7 @@ void PlannerDaemon::call(Done done, std::function<Answer()> ask) {
 void PlannerDaemon::stop_calls() {
   constexpr std::chrono::milliseconds kAgain{20};
   if (heartbeats_) heartbeats_->stop();
+  proofs_.request_stop();
   {
     std::unique_lock lock(mutex_);
     has_stopped_ = true;
@@ -274,10 +275,11 @@ void PlannerDaemon::stop_calls() {
     }
   }
   callers_.stop();
+  provers_.stop();
 }
 
 void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
-  call(std::move(done), [this, order = std::move(order)] {
+  call(callers_, std::move(done), [this, order = std::move(order)] {
     Answer answer = ask_daemon_scene(*client_, order);
     if (order.is_change() && answer.code == code::kOk) {
       // Heartbeats tell of it as well, up to a second later.
@@ -289,7 +291,7 @@ void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
 }
 
 void PlannerDaemon::status(Done done) {
-  call(std::move(done), [this] { return status_answer(); });
+  call(callers_, std::move(done), [this] { return status_answer(); });
 }
 
 Answer PlannerDaemon::status_answer() {
@@ -301,6 +303,72 @@ Answer PlannerDaemon::status_answer() {
                   status_json(*status).dump(-1, ' ', false,
                                             nlohmann::ordered_json::error_handler_t::replace)),
       {}};
+}
+
+std::shared_ptr<Job> PlannerDaemon::check(CheckOrder order, Done done) {
+  auto job = std::make_shared<StoppableJob>();
+  call(provers_, std::move(done),
+       [this, job, order = std::move(order)] { return checked(order, *job); });
+  return job;
+}
+
+Answer PlannerDaemon::checked(const CheckOrder& order, const StoppableJob& job) {
+  const RebuiltScene scene = meshes_->rebuilt(order.scene);
+  if (!scene.snapshot) return failure(scene.code, scene.error);
+  if (scene.lacks_inside) {
+    return failure(code::kNotOffered,
+                   "the scene has an occupancy map, whose inside a daemon does not send; "
+                   "camway check and camway view --scene FILE prove paths in it");
+  }
+  return proof_of(order, scene.snapshot, job.token(), proofs_.get_token());
+}
+
+void PlannerDaemon::mesh(std::string scene, std::string digest, MeshDone done) {
+  auto found = std::make_shared<MeshAnswer>();
+  const auto report = [found, done = std::move(done)](Answer answer) {
+    found->code = answer.code;
+    found->error = std::move(answer.error);
+    if (answer.code != code::kOk) found->mesh = nullptr;
+    done(std::move(*found));
+  };
+  call(callers_, report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
+    *found = meshes_->mesh(scene, digest);
+    return Answer{found->code, {}, found->error};
+  });
+}
+
+void PlannerDaemon::triangles(std::string scene, std::vector<std::int64_t> indices, Done done) {
+  call(callers_, std::move(done), [this, scene = std::move(scene), indices = std::move(indices)] {
+    const RebuiltScene found = meshes_->rebuilt(scene);
+    if (!found.snapshot) return failure(found.code, found.error);
+    return scene_triangles(*found.snapshot, indices);
+  });
+}
+
+void PlannerDaemon::fetch_walls(const std::string& scene, const std::string& digest) {
+  if (digest.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(walls_asked_, digest) == digest) return;
+  }
+  call(
+      callers_, [](const Answer&) {},
+      [this, scene] {
+        meshes_->rebuilt(scene);
+        return Answer{code::kOk, {}, {}};
+      });
+}
+
+std::shared_ptr<const LastPlan> PlannerDaemon::last() const {
+  std::shared_ptr<const LastPlan> last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = last_;
+  }
+  if (!last || last->mesh) return last;
+  auto with_walls = std::make_shared<LastPlan>(*last);
+  with_walls->mesh = meshes_->known(last->scene_digest);
+  return with_walls;
 }
 
 std::unique_ptr<Watch> PlannerDaemon::watch_path(PlanOrder order, Tell event) {

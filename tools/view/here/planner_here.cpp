@@ -18,10 +18,10 @@
 #include "daemon/base/progress.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/snapshot/scene_store.h"
-#include "tools/answers/check_input.h"
 #include "tools/answers/plan_answer.h"
 #include "tools/view/facts.h"
 #include "tools/view/here/object_source.h"
+#include "tools/view/here/path_proof.h"
 #include "tools/view/here/progress_ticker.h"
 #include "tools/view/here/scene_parts.h"
 #include "tools/view/reporter.h"
@@ -82,15 +82,6 @@ int code_of(scene::StoreFault fault) {
       return code::kOurFault;
   }
 }
-
-class HereJob final : public Job {
- public:
-  void cancel() override { stop_.request_stop(); }
-  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
-
- private:
-  std::stop_source stop_;
-};
 
 /// Those who wait for changes of scenes. Kept by them and by the backend. Thread-safe.
 class SceneWatchers {
@@ -169,8 +160,9 @@ class PlannerHere final : public Backend {
   /// Runs `work` on the pool. If the backend ends before that, `done` is told so.
   template <class Work>
   void post(Done done, Work work);
-  [[nodiscard]] Answer planned(const PlanOrder& order, const Tell& progress, const HereJob& job);
-  [[nodiscard]] Answer checked(const CheckOrder& order, const HereJob& job) const;
+  [[nodiscard]] Answer planned(const PlanOrder& order, const Tell& progress,
+                               const StoppableJob& job);
+  [[nodiscard]] Answer checked(const CheckOrder& order, const StoppableJob& job) const;
   [[nodiscard]] Answer asked(const SceneOrder& order);
   [[nodiscard]] Answer changed(const SceneOrder& order);
   [[nodiscard]] base::Result<scene::SceneChange> change_of(const SceneOrder& order,
@@ -206,14 +198,14 @@ void PlannerHere::post(Done done, Work work) {
 }
 
 std::shared_ptr<Job> PlannerHere::plan(PlanOrder order, Tell progress, Done done) {
-  auto job = std::make_shared<HereJob>();
+  auto job = std::make_shared<StoppableJob>();
   post(std::move(done), [this, job, order = std::move(order), progress = std::move(progress)] {
     return planned(order, progress, *job);
   });
   return job;
 }
 
-Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const HereJob& job) {
+Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const StoppableJob& job) {
   const std::shared_ptr<const scene::Snapshot> snapshot = store_.find(order.scene);
   if (!snapshot) return unknown_scene(order.scene);
   std::stop_source stop;
@@ -244,29 +236,15 @@ Answer PlannerHere::planned(const PlanOrder& order, const Tell& progress, const 
 }
 
 std::shared_ptr<Job> PlannerHere::check(CheckOrder order, Done done) {
-  auto job = std::make_shared<HereJob>();
+  auto job = std::make_shared<StoppableJob>();
   post(std::move(done), [this, job, order = std::move(order)] { return checked(order, *job); });
   return job;
 }
 
-Answer PlannerHere::checked(const CheckOrder& order, const HereJob& job) const {
-  base::Result<tools::CheckInput> input =
-      tools::check_input(order.request, order.path, {"request", "path"});
-  if (!input) return failure(code::kInvalid, input.error);
-  input->snapshot = store_.find(order.scene);
-  if (!input->snapshot) return unknown_scene(order.scene);
-  std::stop_source stop;
-  const std::stop_callback by_client(job.token(), [&] { stop.request_stop(); });
-  const std::stop_callback by_end(all_.get_token(), [&] { stop.request_stop(); });
-  const base::Deadline deadline =
-      base::Deadline::after_s(order.request.options.deadline_s)
-          .watched(stop.get_token(), std::make_shared<base::Progress>());
-  const tools::PathSearch found = tools::search_path(*input, deadline);
-  if (stop.stop_requested()) return failure(code::kCancelled, "the check was cancelled");
-  nlohmann::ordered_json json = tools::check_json(*input, found);
-  json["warnings"] = tools::check_warnings(*input, found);
-  return {
-      code::kOk, json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), {}};
+Answer PlannerHere::checked(const CheckOrder& order, const StoppableJob& job) const {
+  std::shared_ptr<const scene::Snapshot> snapshot = store_.find(order.scene);
+  if (!snapshot) return unknown_scene(order.scene);
+  return proof_of(order, std::move(snapshot), job.token(), all_.get_token());
 }
 
 void PlannerHere::ask_scene(SceneOrder order, Done done) {
