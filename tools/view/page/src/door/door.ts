@@ -50,11 +50,11 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (request && (isBack || isProfileMissing || !answer)) planner.plan(request, 'full');
     isProfileMissing = false;
   });
-  const planner = new Planner(socket, store, () => undefined);
-  const scenes = new SceneWatch(socket, store, nameNow, () => {
+  const planner = new Planner(socket, store);
+  const scenes = new SceneWatch(socket, store, nameNow, (isChanged) => {
     // A changed scene makes the answer one of another scene: plan anew, unless a daemon does so for the watched path.
-    const { request, watched } = store.now;
-    if (request && watched === 'off') planner.plan(request, 'full');
+    const { request, watched, unplanned } = store.now;
+    if (request && (isChanged ? watched === 'off' : unplanned !== '')) planner.plan(request, 'full');
   });
   const watch = new PathWatch(socket, store);
 
@@ -69,8 +69,8 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
     page.load(request, last.answer && completed(last.answer));
-    if (last.answer) {
-      planner.interpolate(request);
+    if (last.answer && store.now.answer) {
+      planner.interpolate(request, store.now.answer);
       // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
       isProfileMissing = planner.hasProfile && last.answer.clearance_profile === undefined;
     }
