@@ -6,7 +6,7 @@ import type { Actions, Direction, ExportFormat, NewObject, PlanKind, Pose, Stop 
 import { RequestDocument } from '../model/document.js';
 import {
   insertedAfter,
-  insertedAt,
+  insertedAtCursor,
   isRefusal,
   withAnswer,
   withCamera,
@@ -23,7 +23,6 @@ import { answerText, readRequest, requestText } from '../model/request_file.js';
 import { nextStop, pathOf } from '../model/stops.js';
 import { isAnswered } from '../model/store.js';
 import type { State, Store } from '../model/store.js';
-import { TimeMap } from '../model/times.js';
 import { pickFile, saveFile } from './files.js';
 import type { SceneEditor } from './scene_editor.js';
 
@@ -124,11 +123,10 @@ export class PageActions implements Actions {
   insertKeyframe(time_s?: number, pose?: Pose): void {
     if (!this.canEdit) return;
     const request = this.document.current;
-    const { answer, before } = this.store.now;
     const inserted: Insertion | Refusal =
       time_s === undefined
         ? insertedAfter(request, request.keyframes.length - 1, pose ?? this.around.viewPose())
-        : insertedAt(request, before.length > 0 ? before : pathOf(this.store.now), new TimeMap(request, answer).toGiven(time_s), pose);
+        : insertedAtCursor(request, this.store.now, time_s, pose);
     if ('refused' in inserted) {
       this.say(inserted.refused);
       return;
