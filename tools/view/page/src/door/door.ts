@@ -19,11 +19,21 @@ import {
 } from './places.js';
 import { completed, kProfileOption, Planner } from './planner.js';
 import { SceneEditor } from './scene_editor.js';
-import { DoorSocket } from './socket.js';
+import { DoorError, DoorSocket } from './socket.js';
 
 /** The name of the scene that a request means: a path is cut to its file's stem, as the door does. */
 function sceneStem(scene: string | undefined): string | undefined {
   return scene?.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '');
+}
+
+const kForbidden = 403;
+const kLost = 'The connection to camway is lost. The page goes on when it is back.';
+const kRestarted =
+  'Camway was started again, and refuses this page. Save your request first, then open the newly printed address.';
+
+/** What to say of a door that is lost, by the error with which it answers now. */
+export function lostMessage(error: unknown): string {
+  return error instanceof DoorError && error.code === kForbidden ? kRestarted : kLost;
 }
 
 export function openDoor(store: Store, page: PageParts): Backing {
@@ -32,15 +42,29 @@ export function openDoor(store: Store, page: PageParts): Backing {
   const onError = (message: string): void => store.set({ message });
   let stateBefore: boolean | undefined;
   let isProfileMissing = false;
+  let lostWords: string = kLost;
+  /** A process that was started again has another token; the socket alone does not tell that from no process. */
+  const learnWhyLost = async (): Promise<void> => {
+    try {
+      await fetchStatus();
+    } catch (error) {
+      lostWords = lostMessage(error);
+      if (store.now.connection === 'lost') store.set({ message: lostWords });
+    }
+  };
   const socket = new DoorSocket(`ws://${location.host}/v1/socket`, (isOpen) => {
     const isBack = isOpen && stateBefore === false;
     stateBefore = isOpen;
     store.set({
       connection: isOpen ? 'open' : 'lost',
       isPending: false,
-      ...(isOpen ? {} : { watched: 'off', message: 'The connection to camway is lost. The page goes on when it is back.' }),
+      ...(isOpen ? {} : { watched: 'off', message: lostWords }),
     });
-    if (!isOpen) return;
+    if (!isOpen) {
+      void learnWhyLost();
+      return;
+    }
+    lostWords = kLost;
     scenes.start();
     if (isBack) {
       store.set({ message: 'Connected again.' });
