@@ -113,6 +113,9 @@ export class Page {
       if (now.answer !== before.answer || now.before !== before.before) this.keepCursorOnPath();
       this.tellDocument();
     });
+    window.addEventListener('beforeunload', (event) => {
+      if (store.now.connection !== 'review' && this.actions.document.isDirty) event.preventDefault();
+    });
     backing.start();
   }
 

@@ -2,6 +2,7 @@
 // The bar at the top: the scene, one sentence on what goes on, and files.
 
 import type { Actions } from './model/actions.js';
+import { isAnswered } from './model/store.js';
 import type { State, Store } from './model/store.js';
 
 export function makeIconlessButton(text: string, title: string, run: () => void): HTMLButtonElement {
@@ -14,9 +15,10 @@ export function makeIconlessButton(text: string, title: string, run: () => void)
   return button;
 }
 
-function sentence({ connection, message, isPending, answer }: State): { text: string; kind: string } {
+function sentence({ connection, message, isPending, answer, unplanned }: State): { text: string; kind: string } {
   if (connection === 'lost') return { text: message || 'Connecting to camway …', kind: 'lost' };
-  if (message) return { text: message, kind: isPending ? 'busy' : 'note' };
+  if (message) return { text: message, kind: isPending ? 'busy' : unplanned ? 'invalid' : 'note' };
+  if (unplanned) return { text: unplanned, kind: 'invalid' };
   if (!answer) return { text: isPending ? 'Planning …' : 'Walk to a place and press K for each keyframe, or open a request.', kind: 'note' };
   return { text: answer.message, kind: answer.status };
 }
@@ -44,7 +46,7 @@ export function makeTopBar(
     document.documentElement.dataset['connection'] = connection;
     open.hidden = connection === 'review';
     review.hidden = connection === 'review';
-    review.disabled = !store.now.answer?.segments.length;
+    review.disabled = !isAnswered(store.now) || !store.now.answer?.segments.length;
   };
   store.listen(update);
   update();

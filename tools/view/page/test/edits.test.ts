@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import type { Answer } from '../src/contract/answer.js';
 import type { PlanRequest } from '../src/contract/request.js';
 import * as edits from '../src/model/edits.js';
 import { beginOf, endOf, poseAt } from '../src/model/path.js';
@@ -141,4 +142,36 @@ test('an answer is edited with its frame and the camera that was proved', () => 
   assert.deepEqual(edited.frame, answer.frame);
   assert.equal(edited.camera?.near, 0.075);
   check(edited);
+});
+
+test('a keyframe at the cursor is on the path that is shown, at the time before slowing', () => {
+  const random = new Random('cursor');
+  for (let round = 0; round < 100; ++round) {
+    const request = edits.withTimes(random.request(3));
+    const times = timesOf(request);
+    const [begin, end] = [times[0] as number, times[2] as number];
+    const factor = random.number(1, 3);
+    const shown = random.path(4, begin);
+    const scaled = (t: number): number => begin + ((t - begin) * factor * (end - begin)) / (endOf(shown) - begin);
+    const segments = shown.map((segment) => ({ ...segment, t0: scaled(segment.t0), t1: scaled(segment.t1) }));
+    const slowed = [{ t_begin: begin, t_end: endOf(segments), given: [begin, end] }];
+    const keyframes = request.keyframes.map((given) => ({ ...given, time: begin + factor * ((given.time as number) - begin), origin: 'given' }));
+    const answer = { segments, slowed, keyframes } as unknown as Answer;
+    const given_s = random.number(begin, end);
+    const cursor_s = begin + factor * (given_s - begin);
+    const before = random.path(3, begin);
+    const inserted = edits.insertedAtCursor(request, { answer, before }, cursor_s);
+    if ('refused' in inserted) continue;
+    const keyframe = inserted.request.keyframes[inserted.index];
+    assert.deepEqual(keyframe?.position, poseAt(segments, cursor_s)?.position);
+    assert.deepEqual(keyframe?.orientation, poseAt(segments, cursor_s)?.orientation);
+    assert.ok(Math.abs((keyframe?.time ?? NaN) - given_s) < 1e-9 * (1 + Math.abs(given_s)));
+  }
+});
+
+test('messages about times are rounded', () => {
+  const request = { keyframes: [0, 1 / 3, 1].map((time) => ({ position: [0, 0, 0], orientation: [1, 0, 0, 0], time })) } as unknown as PlanRequest;
+  assert.deepEqual(edits.withTime(request, 2, 0.1), { refused: 'Keyframe 2 must be later than keyframe 1 (0.333 s).' });
+  const pose = { position: [0, 0, 0], orientation: [1, 0, 0, 0] } as never;
+  assert.deepEqual(edits.insertedAt(request, [], 1 / 3, pose), { refused: 'At 0.333 s there is a keyframe already.' });
 });

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import type { Answer, Correction } from '../src/contract/answer.js';
 import type { Field } from '../src/contract/door.js';
-import { counted, lowerBoundText, numberText, timeText, withUnit } from '../src/model/format.js';
+import { counted, lowerBoundText, numberText, positionText, timeText, withUnit } from '../src/model/format.js';
 import * as words from '../src/panels/answer_words.js';
 import { numberOf } from '../src/panels/inputs.js';
 import { fieldGroups, unitOf } from '../src/panels/option_fields.js';
@@ -52,6 +52,8 @@ test('numbers are written with three digits and no needless exponent', () => {
   assert.equal(counted(28612, 'triangle'), '28,612 triangles');
   assert.equal(timeText(1.7e9 + 2.5, 1.7e9), '+2.50');
   assert.equal(timeText(2.5, 0), '2.50');
+  assert.equal(positionText(101, 100, 103.5), '101.00 / 103.50 s');
+  assert.equal(positionText(1.7e9 + 2.5, 1.7e9, 1.7e9 + 4), '+2.50 / +4.00 s');
 });
 
 test('a proved lower bound is never rounded up', () => {

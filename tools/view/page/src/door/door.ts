@@ -19,11 +19,21 @@ import {
 } from './places.js';
 import { completed, kProfileOption, Planner } from './planner.js';
 import { SceneEditor } from './scene_editor.js';
-import { DoorSocket } from './socket.js';
+import { DoorError, DoorSocket } from './socket.js';
 
 /** The name of the scene that a request means: a path is cut to its file's stem, as the door does. */
 function sceneStem(scene: string | undefined): string | undefined {
   return scene?.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '');
+}
+
+const kForbidden = 403;
+const kLost = 'The connection to camway is lost. The page goes on when it is back.';
+const kRestarted =
+  'Camway was started again, and refuses this page. Save your request first, then open the newly printed address.';
+
+/** What to say of a door that is lost, by the error with which it answers now. */
+export function lostMessage(error: unknown): string {
+  return error instanceof DoorError && error.code === kForbidden ? kRestarted : kLost;
 }
 
 export function openDoor(store: Store, page: PageParts): Backing {
@@ -32,15 +42,29 @@ export function openDoor(store: Store, page: PageParts): Backing {
   const onError = (message: string): void => store.set({ message });
   let stateBefore: boolean | undefined;
   let isProfileMissing = false;
+  let lostWords: string = kLost;
+  /** A process that was started again has another token; the socket alone does not tell that from no process. */
+  const learnWhyLost = async (): Promise<void> => {
+    try {
+      await fetchStatus();
+    } catch (error) {
+      lostWords = lostMessage(error);
+      if (store.now.connection === 'lost') store.set({ message: lostWords });
+    }
+  };
   const socket = new DoorSocket(`ws://${location.host}/v1/socket`, (isOpen) => {
     const isBack = isOpen && stateBefore === false;
     stateBefore = isOpen;
     store.set({
       connection: isOpen ? 'open' : 'lost',
       isPending: false,
-      ...(isOpen ? {} : { watched: 'off', message: 'The connection to camway is lost. The page goes on when it is back.' }),
+      ...(isOpen ? {} : { watched: 'off', message: lostWords }),
     });
-    if (!isOpen) return;
+    if (!isOpen) {
+      void learnWhyLost();
+      return;
+    }
+    lostWords = kLost;
     scenes.start();
     if (isBack) {
       store.set({ message: 'Connected again.' });
@@ -50,11 +74,11 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (request && (isBack || isProfileMissing || !answer)) planner.plan(request, 'full');
     isProfileMissing = false;
   });
-  const planner = new Planner(socket, store, () => undefined);
-  const scenes = new SceneWatch(socket, store, nameNow, () => {
+  const planner = new Planner(socket, store);
+  const scenes = new SceneWatch(socket, store, nameNow, (isChanged) => {
     // A changed scene makes the answer one of another scene: plan anew, unless a daemon does so for the watched path.
-    const { request, watched } = store.now;
-    if (request && watched === 'off') planner.plan(request, 'full');
+    const { request, watched, unplanned } = store.now;
+    if (request && (isChanged ? watched === 'off' : unplanned !== '')) planner.plan(request, 'full');
   });
   const watch = new PathWatch(socket, store);
 
@@ -69,8 +93,8 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
     page.load(request, last.answer && completed(last.answer));
-    if (last.answer) {
-      planner.interpolate(request);
+    if (last.answer && store.now.answer) {
+      planner.interpolate(request, store.now.answer);
       // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
       isProfileMissing = planner.hasProfile && last.answer.clearance_profile === undefined;
     }

@@ -31,7 +31,8 @@ export class SceneWatch {
     private readonly store: Store,
     /** The scene that is shown; undefined for the first that there is. */
     private readonly sceneName: () => string | undefined,
-    private readonly onScene: () => void,
+    /** Hears that the scene changed, or that a daemon which was lost is back. */
+    private readonly onScene: (isChanged: boolean) => void,
   ) {}
 
   start(): void {
@@ -46,7 +47,7 @@ export class SceneWatch {
           ? { connection: 'open', message: '' }
           : { connection: 'lost', message: 'The daemon is not heard. The page goes on when it is back.' },
       );
-      if (event.heard) void this.refresh();
+      if (event.heard) void this.refresh().then(() => this.onScene(false));
       return;
     }
     const scenes = event.state?.scenes ?? [];
@@ -70,7 +71,7 @@ export class SceneWatch {
         const scene = await describeScene(name);
         const isChanged = this.store.now.scene !== undefined && this.store.now.scene.scene.digest !== scene.scene.digest;
         this.store.set({ scene });
-        if (isChanged) this.onScene();
+        if (isChanged) this.onScene(true);
       } catch (error) {
         this.store.set({ message: (error as Error).message });
       }
@@ -127,14 +128,14 @@ export class PathWatch {
       const isBetter = name === 'better'; // it is offered, and the path that is followed stays
       if (!isBetter && answer.status === 'ok') this.followed = answer;
       this.store.set({
-        ...(isBetter ? {} : { answer, isDraft: false, isPending: false }),
+        ...(isBetter ? {} : { answer, unplanned: '', isDraft: false, isPending: false }),
         watched: answer.status === 'ok' ? 'ok' : 'broken',
         message: isBetter ? 'A better path is possible now: plan again to take it.' : answer.message,
       });
     } else if (name === 'broken') {
       this.store.set({ watched: 'broken', message: 'The scene changed, and the path is broken.' });
     } else if (name === 'free') {
-      const answer = this.followed ? { answer: this.followed, isDraft: false, isPending: false } : {};
+      const answer = this.followed ? { answer: this.followed, unplanned: '', isDraft: false, isPending: false } : {};
       this.store.set({ ...answer, watched: 'ok', message: 'The path is free again.' });
     } else if (event.error) {
       this.store.set({ message: event.error });

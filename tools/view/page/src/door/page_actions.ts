@@ -6,7 +6,7 @@ import type { Actions, Direction, ExportFormat, NewObject, PlanKind, Pose, Stop 
 import { RequestDocument } from '../model/document.js';
 import {
   insertedAfter,
-  insertedAt,
+  insertedAtCursor,
   isRefusal,
   withAnswer,
   withCamera,
@@ -21,8 +21,8 @@ import type { Insertion, Refusal } from '../model/edits.js';
 import { beginOf, clampToPath, endOf } from '../model/path.js';
 import { answerText, readRequest, requestText } from '../model/request_file.js';
 import { nextStop, pathOf } from '../model/stops.js';
+import { isAnswered } from '../model/store.js';
 import type { State, Store } from '../model/store.js';
-import { TimeMap } from '../model/times.js';
 import { pickFile, saveFile } from './files.js';
 import type { SceneEditor } from './scene_editor.js';
 
@@ -123,11 +123,10 @@ export class PageActions implements Actions {
   insertKeyframe(time_s?: number, pose?: Pose): void {
     if (!this.canEdit) return;
     const request = this.document.current;
-    const { answer, before } = this.store.now;
     const inserted: Insertion | Refusal =
       time_s === undefined
         ? insertedAfter(request, request.keyframes.length - 1, pose ?? this.around.viewPose())
-        : insertedAt(request, before.length > 0 ? before : pathOf(this.store.now), new TimeMap(request, answer).toGiven(time_s), pose);
+        : insertedAtCursor(request, this.store.now, time_s, pose);
     if ('refused' in inserted) {
       this.say(inserted.refused);
       return;
@@ -161,7 +160,7 @@ export class PageActions implements Actions {
 
   editAnswer(): void {
     const { answer } = this.store.now;
-    if (answer && answer.keyframes.length > 0) this.apply(withAnswer(this.document.current, answer));
+    if (answer && isAnswered(this.store.now) && answer.keyframes.length > 0) this.apply(withAnswer(this.document.current, answer));
   }
 
   seek(time_s: number): void {
@@ -229,7 +228,7 @@ export class PageActions implements Actions {
     this.document.apply(request);
     this.document.name = name;
     this.document.markSaved();
-    this.store.set({ request, selection: undefined, cursor_s: 0, answer, before: [], message: '' });
+    this.store.set({ request, selection: undefined, cursor_s: 0, answer, unplanned: '', before: [], message: '' });
     this.around.opened();
   }
 
@@ -240,7 +239,7 @@ export class PageActions implements Actions {
 
   saveAnswer(): void {
     const { answer } = this.store.now;
-    if (answer) saveFile(`${this.baseName}-answer.json`, answerText(answer));
+    if (answer && isAnswered(this.store.now)) saveFile(`${this.baseName}-answer.json`, answerText(answer));
   }
 
   private get baseName(): string {
@@ -249,7 +248,7 @@ export class PageActions implements Actions {
 
   exportAs(format: ExportFormat): void {
     const { answer, request } = this.store.now;
-    if (!answer || !request) return;
+    if (!answer || !request || !isAnswered(this.store.now)) return;
     this.around.exported(format, request, answer).then(
       (file) => saveFile(`${this.baseName}.${format}`, file),
       (error: Error) => this.say(error.message),
@@ -258,7 +257,7 @@ export class PageActions implements Actions {
 
   saveReview(): void {
     const { answer, request } = this.store.now;
-    if (!answer || !request) return;
+    if (!answer || !request || !isAnswered(this.store.now)) return;
     this.around.review(request, answer).then(
       (file) => saveFile(`${this.baseName}.html`, file),
       (error: Error) => this.say(error.message),

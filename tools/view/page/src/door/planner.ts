@@ -44,7 +44,10 @@ class Interpolation {
   private next: PlanRequest | undefined;
   private isAsking = false;
 
-  constructor(private readonly onPath: (request: PlanRequest, path: readonly Segment[]) => void) {}
+  constructor(
+    private readonly interpolated: (request: PlanRequest) => Promise<readonly Segment[]>,
+    private readonly onPath: (request: PlanRequest, path: readonly Segment[]) => void,
+  ) {}
 
   ask(request: PlanRequest): void {
     this.next = request;
@@ -56,7 +59,7 @@ class Interpolation {
     for (let request = this.next; request; request = this.next) {
       this.next = undefined;
       try {
-        this.onPath(request, await interpolate(request));
+        this.onPath(request, await this.interpolated(request));
       } catch {
         this.onPath(request, []); // the answer to the request says what is wrong
       }
@@ -65,39 +68,52 @@ class Interpolation {
   }
 }
 
+/** An answer with all that it is of. */
+interface Answered {
+  readonly request: PlanRequest;
+  readonly answer: Answer;
+  readonly scene: string | undefined;
+}
+
 export class Planner {
   private asked = 0;
   private shown = 0;
   private running: number | undefined;
+  private answered: Answered | undefined;
   /** Whether the door has the option for profiles of the clearance. */
   hasProfile = false;
   private readonly interpolation: Interpolation;
 
   constructor(
-    private readonly socket: DoorSocket,
+    private readonly socket: Pick<DoorSocket, 'ask' | 'tell'>,
     private readonly store: Store,
-    /** Hears of the full answers. */
-    private readonly onAnswer: (request: PlanRequest, answer: Answer) => void,
+    /** Asks for the path as interpolated. */
+    interpolated: (request: PlanRequest) => Promise<readonly Segment[]> = interpolate,
   ) {
-    this.interpolation = new Interpolation((request, before) => {
+    this.interpolation = new Interpolation(interpolated, (request, before) => {
       if (store.now.request === request) store.set({ before });
     });
   }
 
-  /** Asks for the path before alone: the answer is there already. */
-  interpolate(request: PlanRequest): void {
+  /** Asks for the path before alone: `answer` is that of `request` already. */
+  interpolate(request: PlanRequest, answer: Answer): void {
+    this.remember(request, answer);
     this.interpolation.ask(request);
+  }
+
+  private remember(request: PlanRequest, answer: Answer): void {
+    this.answered = { request, answer, scene: this.store.now.scene?.scene.digest };
   }
 
   plan(request: PlanRequest, kind: PlanKind): void {
     const asked = ++this.asked;
     if (request.keyframes.length < kLeastKeyframes) {
       this.shown = asked;
-      this.store.set({ answer: undefined, before: [], isPending: false, isDraft: false });
+      this.store.set({ answer: undefined, unplanned: '', before: [], isPending: false, isDraft: false });
       return;
     }
     this.interpolation.ask(request);
-    this.store.set({ isPending: true, isDraft: kind === 'draft' });
+    this.store.set({ isPending: true, isDraft: kind === 'draft', unplanned: '' });
     void this.run(asked, request, kind);
   }
 
@@ -105,7 +121,19 @@ export class Planner {
     if (this.running === undefined) return;
     this.socket.tell(this.running, 'cancel');
     this.asked += 1; // whatever comes now is not wanted
-    this.store.set({ isPending: false, isDraft: false, message: 'Planning was cancelled.' });
+    this.refused('Planning was cancelled.');
+  }
+
+  /**
+   * Says why the request has no answer. An older answer goes, as what it proves is not of this request; that of this
+   * request in this scene stays, where it was only to be planned again.
+   */
+  private refused(sentence: string): void {
+    const { request, answer, scene } = this.store.now;
+    const known = this.answered;
+    const isOfThis = known !== undefined && known.request === request && known.answer === answer && known.scene === scene?.scene.digest;
+    const left = isOfThis ? {} : { answer: undefined, unplanned: sentence };
+    this.store.set({ isPending: false, isDraft: false, message: sentence, ...left });
   }
 
   private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
@@ -118,13 +146,13 @@ export class Planner {
     this.running = id;
     try {
       const message = await answer;
+      if (message['cancelled'] === true && asked === this.asked) this.refused('Planning was cancelled.');
       if (asked < this.shown || message['cancelled'] === true) return;
       this.shown = asked;
       this.show(completed(message['answer'] as Answer), request, isDraft, asked === this.asked);
     } catch (error) {
       if (asked !== this.asked || error instanceof Superseded) return;
-      const message = error instanceof DoorLost ? 'The connection is lost; this will be planned when it is back.' : (error as Error).message;
-      this.store.set({ isPending: false, isDraft: false, message });
+      this.refused(error instanceof DoorLost ? 'The connection is lost; this will be planned when it is back.' : (error as Error).message);
     } finally {
       if (this.running === id) this.running = undefined;
     }
@@ -133,11 +161,12 @@ export class Planner {
   private show(answer: Answer, request: PlanRequest, isDraft: boolean, isLast: boolean): void {
     this.store.set({
       answer,
+      unplanned: '',
       isDraft: isDraft || !isLast,
       isPending: !isLast,
       ...(isLast && !isDraft ? { message: '' } : {}),
     });
-    if (!isDraft && isLast) this.onAnswer(request, answer);
+    if (!isDraft && isLast) this.remember(request, answer);
   }
 
   private showProgress(asked: number, progress: unknown): void {

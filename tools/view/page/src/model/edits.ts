@@ -6,8 +6,11 @@
 import type { Answer, Segment } from '../contract/answer.js';
 import type { Camera, Keyframe, Options, PlanRequest } from '../contract/request.js';
 import type { Pose } from './actions.js';
+import { timeText } from './format.js';
 import { poseAt } from './path.js';
-import { areApart, isTimed, timesOf } from './times.js';
+import { pathOf } from './stops.js';
+import type { State } from './store.js';
+import { areApart, isTimed, TimeMap, timesOf } from './times.js';
 
 /** An edit that cannot be done, as a sentence. */
 export interface Refusal {
@@ -38,13 +41,18 @@ export function withTime(request: PlanRequest, index: number, time_s: number): P
   const before = timed.keyframes[index - 1]?.time;
   const after = timed.keyframes[index + 1]?.time;
   if (before !== undefined && !areApart(before, time_s)) {
-    return { refused: `Keyframe ${index} must be later than keyframe ${index - 1} (${before} s).` };
+    return { refused: `Keyframe ${index} must be later than keyframe ${index - 1} (${shortTime(before, timed)} s).` };
   }
   if (after !== undefined && !areApart(time_s, after)) {
-    return { refused: `Keyframe ${index} must be earlier than keyframe ${index + 1} (${after} s).` };
+    return { refused: `Keyframe ${index} must be earlier than keyframe ${index + 1} (${shortTime(after, timed)} s).` };
   }
   if (timed === request && old.time === time_s) return request;
   return { ...timed, keyframes: spliced(timed.keyframes, index, 1, { ...old, time: time_s }) };
+}
+
+/** A time as messages have it, rounded. */
+function shortTime(time_s: number, request: PlanRequest): string {
+  return timeText(time_s, timesOf(request)[0], 3);
 }
 
 /** Gives each keyframe the time that it has by the default speed, which is refused beside times and goes. */
@@ -88,9 +96,23 @@ export function insertedAt(
   const after = times[index];
   const isFree =
     (before === undefined || areApart(before, time_s)) && (after === undefined || areApart(time_s, after));
-  if (!isFree) return { refused: `At ${time_s} s there is a keyframe already.` };
+  if (!isFree) return { refused: `At ${shortTime(time_s, request)} s there is a keyframe already.` };
   const timed = isTimed(request) ? { time: time_s } : {};
   return insertion(request, index, { position: at.position, orientation: at.orientation, ...timed });
+}
+
+/**
+ * Inserts a keyframe at a time of the path that is shown, which may be corrected and slowed: at the pose that it has
+ * there, and at the time that this is before slowing.
+ */
+export function insertedAtCursor(
+  request: PlanRequest,
+  shown: Pick<State, 'answer' | 'before'>,
+  time_s: number,
+  pose?: Pose,
+): Insertion | Refusal {
+  const path = pathOf(shown);
+  return insertedAt(request, path, new TimeMap(request, shown.answer).toGiven(time_s), pose ?? poseAt(path, time_s));
 }
 
 /**

@@ -32,6 +32,11 @@ export function timeText(time_s: number, begin_s = 0, decimals = 2): string {
   return isEpoch(begin_s) ? `+${(time_s - begin_s).toFixed(decimals)}` : time_s.toFixed(decimals);
 }
 
+/** An instant of a path and the end of it, on the same clock, in seconds. */
+export function positionText(time_s: number, begin_s: number, end_s: number): string {
+  return `${timeText(time_s, begin_s)} / ${timeText(end_s, begin_s)} s`;
+}
+
 /** Whether times of a path that begins then are shown from its begin. */
 export function isEpoch(begin_s: number): boolean {
   return Math.abs(begin_s) > kEpoch_s;

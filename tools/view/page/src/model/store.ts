@@ -8,6 +8,8 @@ export interface State {
   readonly request: PlanRequest | undefined;
   /** The answer to `request`, or to an older one while `isPending`. */
   readonly answer: Answer | undefined;
+  /** Why there is no answer to `request`, as a sentence: it was refused, cancelled or could not be asked. Else empty. */
+  readonly unplanned: string;
   /** The path as interpolated through the keyframes of the request. */
   readonly before: readonly Segment[];
   readonly isPending: boolean;
@@ -23,6 +25,11 @@ export interface State {
   readonly watched: 'off' | 'ok' | 'broken' | 'replanning';
   readonly message: string;
   readonly isReadOnly: boolean;
+}
+
+/** Whether `answer` is the whole answer to `request`: neither one to an older request, nor that of a drag. */
+export function isAnswered(now: Pick<State, 'answer' | 'isPending' | 'isDraft'>): boolean {
+  return now.answer !== undefined && !now.isPending && !now.isDraft;
 }
 
 export type Listener = (now: State, before: State) => void;
@@ -51,6 +58,7 @@ export class Store {
 export const kEmptyState: State = {
   request: undefined,
   answer: undefined,
+  unplanned: '',
   before: [],
   isPending: false,
   isDraft: false,

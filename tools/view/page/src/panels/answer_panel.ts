@@ -31,6 +31,8 @@ export function makeAnswerPanel(host: HTMLElement, store: Store, actions: Action
 function isChanged(now: State, before: State): boolean {
   return (
     now.answer !== before.answer ||
+    now.unplanned !== before.unplanned ||
+    now.isPending !== before.isPending ||
     now.isDraft !== before.isDraft ||
     now.connection !== before.connection ||
     now.before !== before.before
@@ -39,6 +41,7 @@ function isChanged(now: State, before: State): boolean {
 
 function contentOf(state: State, actions: Actions): Node[] {
   const answer = state.answer;
+  if (!answer && state.unplanned) return [unplannedHead(state.unplanned)];
   if (!answer) {
     const text = state.request ? 'Not planned yet.' : 'Open a request, or add keyframes: walk to a view and insert it.';
     return [make('p', { class: 'cw-empty', text })];
@@ -54,15 +57,24 @@ function contentOf(state: State, actions: Actions): Node[] {
   ];
 }
 
+function badgeOf(status: string, symbol: string, title: string, note?: string): HTMLElement {
+  return make(
+    'div',
+    { class: 'cw-badge', 'data-status': status },
+    make('span', { class: 'cw-badge-symbol', text: symbol, 'aria-hidden': 'true' }),
+    make('strong', { text: title }),
+    note ? make('span', { class: 'cw-draft', text: note }) : undefined,
+  );
+}
+
+/** Of a request that has no answer. */
+function unplannedHead(reason: string): HTMLElement {
+  return make('section', { 'aria-label': 'Status' }, badgeOf('invalid', '!', 'Not planned'), text(sentence(reason)));
+}
+
 function headOf(state: State, answer: Answer): HTMLElement {
   const words = statusWords(answer.status);
-  const badge = make(
-    'div',
-    { class: 'cw-badge', 'data-status': answer.status },
-    make('span', { class: 'cw-badge-symbol', text: words.symbol, 'aria-hidden': 'true' }),
-    make('strong', { text: words.title }),
-    state.isDraft ? make('span', { class: 'cw-draft', text: 'draft' }) : undefined,
-  );
+  const badge = badgeOf(answer.status, words.symbol, words.title, draftWords(state));
   const lines = [words.meaning, certificateWords(answer)].filter((line) => line !== undefined && line !== '');
   const isSaid = answer.status === 'ok' && answer.certificate?.certified;
   return make(
@@ -72,6 +84,12 @@ function headOf(state: State, answer: Answer): HTMLElement {
     ...(isSaid ? lines.slice(1) : lines).map((text) => make('p', { class: 'cw-lead', text: text as string })),
     make('p', { class: 'cw-message', text: sentence(answer.message) }),
   );
+}
+
+/** What else than its status is to be said of an answer that is not the last one. */
+function draftWords({ isDraft, isPending }: State): string | undefined {
+  if (isDraft) return 'draft';
+  return isPending ? 'of before; planning …' : undefined;
 }
 
 function faultsOf(state: State, faults: readonly KeyframeFault[], actions: Actions): Node[] {

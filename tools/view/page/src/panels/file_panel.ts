@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { Actions, DocumentFacts, ExportFormat, Facts } from '../model/actions.js';
+import { isAnswered } from '../model/store.js';
 import type { State, Store } from '../model/store.js';
 import { make, makeButton, setText } from './dom.js';
 import { isEditable } from './render.js';
@@ -43,16 +44,17 @@ export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions)
   );
 
   const update = (now: State): void => {
-    const hasPath = (now.answer?.segments?.length ?? 0) > 0;
+    const isThere = isAnswered(now);
+    const hasPath = isThere && (now.answer?.segments?.length ?? 0) > 0;
     open.hidden = !isEditable(now);
     edit.hidden = !isEditable(now);
     reviewing.hidden = now.connection === 'review';
     exporting.hidden = now.connection === 'review' || format.options.length === 0;
     save.disabled = now.request === undefined;
-    saveAnswer.disabled = now.answer === undefined || now.isDraft;
-    edit.disabled = !hasPath || now.isDraft;
-    exportButton.disabled = !hasPath || now.isDraft || now.connection !== 'open';
-    review.disabled = now.answer === undefined || now.isDraft || now.connection !== 'open';
+    saveAnswer.disabled = !isThere;
+    edit.disabled = !hasPath;
+    exportButton.disabled = !hasPath || now.connection !== 'open';
+    review.disabled = !isThere || now.connection !== 'open';
   };
   store.listen(update);
   update(store.now);

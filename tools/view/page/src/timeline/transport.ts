@@ -5,8 +5,8 @@
 import type { Actions } from '../model/actions.js';
 import type { CurveName } from '../model/curves.js';
 import { kCurveKinds } from '../model/curves.js';
-import { timeText, withUnit } from '../model/format.js';
-import { beginOf, durationOf } from '../model/path.js';
+import { positionText, timeText, withUnit } from '../model/format.js';
+import { beginOf, durationOf, endOf } from '../model/path.js';
 import { collisionTimes, pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
 import { make, makeIconButton, setText } from '../panels/dom.js';
@@ -48,8 +48,8 @@ export function makeTransport(store: Store, actions: Actions, curvesChanged: () 
     play.disabled = !hasPath;
     const hasCollisions = collisionTimes(now.answer).length > 0;
     jumps.forEach((button, i) => (button.disabled = !hasPath || (i >= 2 && !hasCollisions)));
-    const begin_s = beginOf(path);
-    setText(time, hasPath ? `${timeText(now.cursor_s, begin_s)} / ${withUnit(durationOf(path), 's')}` : 'no path');
+    setText(time, hasPath ? positionText(now.cursor_s, beginOf(path), endOf(path)) : 'no path');
+    time.title = hasPath ? `From ${timeText(beginOf(path), beginOf(path))} s on, ${withUnit(durationOf(path), 's')} long` : '';
   };
   store.listen(update);
   update(store.now);

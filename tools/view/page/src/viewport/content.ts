@@ -81,7 +81,7 @@ export class Content {
     cameraViews.setEyes(
       { ...camera, near: camera.near * nearScale },
       eye(pose, collides(answer?.remaining_collisions, cursor_s)),
-      isCorrected ? eye(poseBefore, collides(answer?.collisions, given_s)) : undefined,
+      isCorrected ? eye(poseBefore, collides(answer?.collisions, cursor_s)) : undefined,
       4 * this.extent.sceneSphere.radius,
     );
   }

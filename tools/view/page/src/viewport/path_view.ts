@@ -7,6 +7,8 @@ import type { Answer, Segment } from '../contract/answer.js';
 import type { PlanRequest } from '../contract/request.js';
 import { clearanceColour, kPalette } from '../model/palette.js';
 import { bezierAt, poseAt } from '../model/path.js';
+import { collisionSpansBefore, indicesWithin } from '../model/spans.js';
+import type { Span } from '../model/spans.js';
 import { TimeMap } from '../model/times.js';
 import type { Frame } from './frame.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
@@ -27,11 +29,6 @@ const kSleeveStyle: TubeStyle = { radius_m: 3 * kPathRadius_m, least_px: 11 };
 /** Colours of a path about whose clearance nothing is proved. */
 export interface PathColours {
   unproved: Rgb;
-}
-
-interface Span {
-  begin: number;
-  end: number;
 }
 
 function sampleTimes(path: readonly Segment[], breaks: readonly number[]): number[] {
@@ -64,11 +61,10 @@ class Samples {
     });
   }
 
-  /** Indices of the samples from one time to another. */
-  span({ begin, end }: Span): [number, number] {
-    const first = this.times.findIndex((t) => t >= begin - 1e-12);
-    const last = this.times.findLastIndex((t) => t <= end + 1e-12);
-    return [Math.max(first, 0), Math.max(last, 0)];
+  /** The points within a span. */
+  within(span: Span): Vector3[] {
+    const found = indicesWithin(this.times, span);
+    return found ? this.points.slice(found[0], found[1] + 1) : [];
   }
 }
 
@@ -136,8 +132,7 @@ export class PathView {
 
   private addSpans(builder: TubeBuilder, samples: Samples, spans: readonly Span[], colour: Rgb, style: TubeStyle): void {
     for (const span of spans) {
-      const [first, last] = samples.span(span);
-      const points = samples.points.slice(first, last + 1);
+      const points = samples.within(span);
       if (points.length === 1) points.push((points[0] as Vector3).clone().add(new Vector3(1e-4, 0, 0)));
       builder.line(points, () => colour, style);
     }
@@ -151,7 +146,7 @@ export class PathView {
     before: readonly Segment[],
     frame: Frame,
   ): void {
-    const spans = (answer?.collisions ?? []).map((c) => ({ begin: c.t_begin, end: c.t_end }));
+    const spans = collisionSpansBefore(request, answer, before);
     const samples = new Samples(before, frame, spans.flatMap((s) => [s.begin, s.end]));
     const after = answer?.segments ?? [];
     const clock = new TimeMap(request, answer);
