@@ -19,12 +19,6 @@ function revision(page) {
   return page.state().then(({scene}) => scene.scene.revision);
 }
 
-/// A daemon may not send its meshes: the page says so then, and shows the path alone.
-async function leave(page) {
-  page.forgive(/501/);
-  await page.close();
-}
-
 async function shows_revision(page, least) {
   await page.until(({state}, least) => state.scene.scene.revision >= least, least);
 }
@@ -49,7 +43,7 @@ test('an object that another process moves breaks the watched path, and heals it
   await shows_revision(page, before + 3);
   await page.until(({state}) => state.watched === 'ok' && state.answer.status === 'ok');
   await page.tab.getByText('watched path: free').waitFor();
-  await leave(page);
+  await page.close();
 });
 
 test('a daemon that is killed is missed, and found again', async () => {
@@ -63,5 +57,5 @@ test('a daemon that is killed is missed, and found again', async () => {
   await page.tab.getByText(/The daemon is not heard/).first().waitFor({state: 'detached'});
   await page.tab.keyboard.press('p');
   await page.shows('ok');
-  await leave(page);
+  await page.close();
 });
