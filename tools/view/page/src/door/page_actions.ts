@@ -67,7 +67,7 @@ export class PageActions implements Actions {
     return this.store.now.connection !== 'review';
   }
 
-  private say(message: string): void {
+  say(message: string): void {
     this.store.set({ message });
   }
 
