@@ -299,8 +299,7 @@ base::Result<scene::SceneChange> PlannerHere::change_of(const SceneOrder& order,
 }
 
 Answer PlannerHere::unknown_scene(const std::string& scene) const {
-  return failure(code::kNotFound,
-                 fmt::format("unknown scene '{}'; there is: {}", scene, store_.summary()));
+  return failure(code::kNotFound, fmt::format("unknown scene '{}'; {}", scene, store_.summary()));
 }
 
 std::vector<SceneFacts> PlannerHere::all_facts() const {

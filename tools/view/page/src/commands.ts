@@ -71,9 +71,14 @@ function keyframeCommands({ store, actions, viewport }: CommandContext): Command
     if (selection && 'keyframe' in selection) actions.deleteKeyframe(selection.keyframe);
     else if (selection) actions.removeObject(selection.object);
   };
+  const add = (): void => {
+    const isOutside = viewport.isOutside;
+    actions.insertKeyframe(undefined, viewport.viewPose);
+    if (isOutside) actions.say('This keyframe is outside of the scene. Walk into the scene first (V), or undo (Ctrl Z).');
+  };
   const group = 'Keyframes';
   return [
-    { keys: ['k'], shown: 'K', name: 'Add a keyframe where the view is', group, icon: 'add', run: () => actions.insertKeyframe(undefined, viewport.viewPose) },
+    { keys: ['k'], shown: 'K', name: 'Add a keyframe where the view is', group, icon: 'add', run: add },
     { keys: ['i'], shown: 'I', name: 'Insert a keyframe on the path at the cursor', group, icon: 'insert', run: () => actions.insertKeyframe(store.now.cursor_s) },
     { keys: ['Delete', 'Backspace'], shown: 'Del', name: 'Delete what is selected', group, icon: 'delete', run: remove },
     { keys: ['g'], shown: 'G', name: 'Handles that move', group, icon: 'move', isOn: () => viewport.handleMode === 'translate', run: () => (viewport.handleMode = 'translate') },

@@ -26,14 +26,16 @@ function entry(kind: keyof typeof kNames): HTMLElement {
 }
 
 /** What is to be seen for an answer, so that the legend names no more. */
-function kindsIn({ answer, before }: State): (keyof typeof kNames)[] {
+export function kindsIn({ answer, before }: Pick<State, 'answer' | 'before'>): (keyof typeof kNames)[] {
   if (!answer) return before.length > 0 ? ['before'] : [];
   const kinds: (keyof typeof kNames)[] = [];
-  if (answer.certificate?.certified && !answer.clearance_profile?.length) kinds.push('after');
-  const isCorrected = (answer.corrections ?? []).some(({ kind }) => kind !== 'none');
-  if (isCorrected) kinds.push('before', 'corrected');
+  if (answer.segments.length > 0 && answer.certificate?.certified && !answer.clearance_profile?.length) kinds.push('after');
+  const hasPath = answer.segments.length > 0;
+  const isCorrected = hasPath && (answer.corrections ?? []).some(({ kind }) => kind !== 'none');
+  if (before.length > 0 && (isCorrected || !hasPath)) kinds.push('before');
+  if (isCorrected) kinds.push('corrected');
   if (answer.collisions.length + answer.remaining_collisions.length > 0) kinds.push('collision');
-  if (answer.keyframes.some(({ origin }) => origin === 'inserted')) kinds.push('inserted');
+  if (hasPath && answer.keyframes.some(({ origin }) => origin === 'inserted')) kinds.push('inserted');
   if (answer.infeasibility) kinds.push('infeasible');
   return kinds;
 }

@@ -30,6 +30,8 @@ export interface Backing {
   request: PlanRequest | undefined;
   facts: Facts;
   plan(request: PlanRequest, kind: PlanKind): void;
+  /** Why a request cannot be planned in the scene that is shown, as a sentence; undefined if it can. */
+  sceneFault(request: PlanRequest): string | undefined;
   cancelPlan(): void;
   watchPath(request: PlanRequest | undefined): void;
   review(request: PlanRequest, answer: Answer): Promise<Blob>;
@@ -76,6 +78,7 @@ export class Page {
       store,
       {
         plan: backing.plan,
+        sceneFault: backing.sceneFault,
         cancelPlan: backing.cancelPlan,
         watchPath: backing.watchPath,
         review: backing.review,

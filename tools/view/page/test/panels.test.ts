@@ -7,8 +7,8 @@ import type { Field } from '../src/contract/door.js';
 import { counted, lowerBoundText, numberText, positionText, timeText, withUnit } from '../src/model/format.js';
 import * as words from '../src/panels/answer_words.js';
 import { numberOf } from '../src/panels/inputs.js';
-import { fieldGroups, unitOf } from '../src/panels/option_fields.js';
-import { isWithin, rangeOf } from '../src/panels/ranges.js';
+import { fieldGroups, labelOf, unitOf } from '../src/panels/option_fields.js';
+import { isWithin, rangeOf, wrongText } from '../src/panels/ranges.js';
 import { Random } from './random.js';
 
 const kRequests = readFileSync(`${process.env['CAMWAY_SOURCE']}/docs/requests.md`, 'utf8');
@@ -33,6 +33,18 @@ test('the ends of ranges count as the words say', () => {
   assert.deepEqual(within('between 0 and 180°', 0, 180, 181), [true, true, false]);
   assert.deepEqual(within('at least 1e-05 and finite', 1e-5, 1e300, Infinity), [true, true, false]);
   assert.deepEqual(within('as you like', 5, Number.NaN), [true, false]);
+});
+
+test('options are named for people', () => {
+  const names = ['clearance_m', 'acceleration_m_per_s2', 'turn_rate_deg_per_s', 'seed', 'max_inserted_keyframes'];
+  assert.deepEqual(names.map((name) => labelOf(name)), ['Clearance, m', 'Acceleration, m/s²', 'Turn rate, °/s', 'Seed', 'Max inserted keyframes']);
+  assert.equal(labelOf('max_shrink', '%'), 'Max shrink, %');
+});
+
+test('a field out of its range says the range', () => {
+  assert.equal(wrongText(rangeOf('above 0 and at most 2')), 'This must be a number, above 0 and at most 2.');
+  assert.equal(wrongText(rangeOf('at least 1'), true), 'This must be a whole number, at least 1 and at most 9007199254740991.');
+  assert.equal(wrongText(undefined), 'This must be a number.');
 });
 
 test('numbers are read as people write them', () => {

@@ -2,6 +2,7 @@
 // The door of `camway view`, behind the page.
 
 import type { PlanRequest } from '../contract/request.js';
+import { sceneFault, sceneStem } from '../model/scene_name.js';
 import type { Store } from '../model/store.js';
 import type { Backing, PageParts } from '../page.js';
 import { kDefaultCamera } from '../viewport/bodies.js';
@@ -20,11 +21,6 @@ import {
 import { completed, kProfileOption, Planner } from './planner.js';
 import { SceneEditor } from './scene_editor.js';
 import { DoorError, DoorSocket } from './socket.js';
-
-/** The name of the scene that a request means: a path is cut to its file's stem, as the door does. */
-function sceneStem(scene: string | undefined): string | undefined {
-  return scene?.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '');
-}
 
 const kForbidden = 403;
 const kLost = 'The connection to camway is lost. The page goes on when it is back.';
@@ -93,6 +89,8 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
     page.load(request, last.answer && completed(last.answer));
+    const fault = sceneFault(request, sceneName);
+    if (fault) onError(fault);
     if (last.answer && store.now.answer) {
       planner.interpolate(request, store.now.answer);
       // The answer is shown at once; the profile that it lacks comes with a plan of the page's own.
@@ -109,6 +107,7 @@ export function openDoor(store: Store, page: PageParts): Backing {
     request: undefined,
     facts: { fields: [], exports: ['csv'], status: undefined },
     plan: (request, kind) => planner.plan(request, kind),
+    sceneFault: (request) => sceneFault(request, sceneName),
     cancelPlan: () => planner.cancel(),
     watchPath: (request) => (request ? watch.start(request) : watch.stop()),
     review: fetchReview,

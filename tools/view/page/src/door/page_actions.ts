@@ -29,6 +29,8 @@ import type { SceneEditor } from './scene_editor.js';
 /** What the actions need of the rest of the page. */
 export interface Surroundings {
   plan(request: PlanRequest, kind: PlanKind): void;
+  /** Why a request cannot be planned in the scene that is shown, as a sentence; undefined if it can. */
+  sceneFault(request: PlanRequest): string | undefined;
   cancelPlan(): void;
   watchPath(request: PlanRequest | undefined): void;
   review(request: PlanRequest, answer: NonNullable<State['answer']>): Promise<Blob>;
@@ -65,7 +67,7 @@ export class PageActions implements Actions {
     return this.store.now.connection !== 'review';
   }
 
-  private say(message: string): void {
+  say(message: string): void {
     this.store.set({ message });
   }
 
@@ -215,6 +217,11 @@ export class PageActions implements Actions {
     const read = readRequest(text);
     if ('error' in read) {
       this.say(`${name}: ${read.error}`);
+      return;
+    }
+    const fault = this.around.sceneFault(read.request);
+    if (fault) {
+      this.say(`${name} was not opened. ${fault}`);
       return;
     }
     this.load(read.request, name);

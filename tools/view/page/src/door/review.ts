@@ -30,6 +30,7 @@ export function openReview(review: Review, store: Store): Backing {
     request: review.request,
     facts: { fields: [], exports: [], status: undefined },
     plan: () => undefined,
+    sceneFault: () => undefined,
     cancelPlan: () => undefined,
     watchPath: () => undefined,
     review: refuse,

@@ -66,6 +66,9 @@ export interface Actions {
   /** Takes the keyframes and the frame of the answer as those of the request, to edit the path on. */
   editAnswer(): void;
 
+  /** Shows a sentence until the next one. */
+  say(message: string): void;
+
   // Time
   /** Sets the cursor, within the path. Playing goes on from there. */
   seek(time_s: number): void;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { make, uniqueId } from './dom.js';
 import type { Range } from './ranges.js';
-import { isWithin } from './ranges.js';
+import { isWithin, wrongText } from './ranges.js';
 
 export interface NumberSettings {
   /** Kept over rendering, so that the focus is. */
@@ -23,7 +23,7 @@ export function numberOf(text: string): number | undefined {
 
 /**
  * A labelled field for a number. `changed` gets the number when it is right and differs, and `undefined` when the
- * field was emptied. A wrong one is marked, told to screen readers, and not passed on.
+ * field was emptied. A wrong one is marked, with a sentence beside it, and not passed on.
  */
 export function numberInput(
   name: string,
@@ -52,18 +52,26 @@ export function numberField(
     'data-key': settings.key,
     'aria-describedby': settings.describedBy,
   });
+  const wrong = make('span', { class: 'cw-bad cw-wrong', role: 'alert' });
+  const accept = (): void => {
+    input.removeAttribute('aria-invalid');
+    wrong.remove();
+  };
   const read = (): void => {
     const next = numberOf(input.value);
-    const isRight = next === undefined || (isWithin(settings.range, next) && (!settings.isWhole || Number.isInteger(next)));
-    input.removeAttribute('aria-invalid');
-    if (!isRight) input.setAttribute('aria-invalid', 'true');
-    else if (next !== value) changed(next);
+    const isRight = next === undefined || (isWithin(settings.range, next) && (!settings.isWhole || Number.isSafeInteger(next)));
+    accept();
+    if (!isRight) {
+      input.setAttribute('aria-invalid', 'true');
+      wrong.textContent = wrongText(settings.range, settings.isWhole);
+      input.after(wrong);
+    } else if (next !== value) changed(next);
   };
   input.addEventListener('change', read);
   input.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape') return;
     input.value = shown;
-    input.removeAttribute('aria-invalid');
+    accept();
   });
   return input;
 }

@@ -124,6 +124,13 @@ export function unitOf(name: string): string {
   return kUnits.find(([suffix]) => name.endsWith(suffix))?.[1] ?? '';
 }
 
+/** The name of an option as people read it: "Clearance, m" for `clearance_m`. */
+export function labelOf(name: string, unit = unitOf(name)): string {
+  const suffix = kUnits.find(([end]) => name.endsWith(end))?.[0] ?? '';
+  const words = name.slice(0, name.length - suffix.length).replaceAll('_', ' ');
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${unit ? `, ${unit}` : ''}`;
+}
+
 /** Help without the marks of Markdown. */
 function plain(text: string): string {
   return text.replaceAll('`', '');

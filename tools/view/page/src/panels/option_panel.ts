@@ -8,7 +8,7 @@ import type { State, Store } from '../model/store.js';
 import { make, makeButton, uniqueId } from './dom.js';
 import { numberField, numberInput } from './inputs.js';
 import type { FieldGroup, OptionField } from './option_fields.js';
-import { fieldGroups, isSet } from './option_fields.js';
+import { fieldGroups, isSet, labelOf } from './option_fields.js';
 import { rangeOf } from './ranges.js';
 import { isEditable, renderKeepingFocus, whileVisible } from './render.js';
 
@@ -80,7 +80,7 @@ function cameraOf(state: State, actions: Actions): Node[] {
 
 function groupOf(state: State, group: FieldGroup, actions: Actions): HTMLElement {
   const isChangedGroup = isSet(state.request, [group.name]);
-  const title = make('h3', { class: 'cw-option-name' }, make('span', { text: group.name }));
+  const title = make('h3', { class: 'cw-option-name' }, ...namesOf(group.name, group.fields.length === 1 ? group.fields[0]?.unit : ''));
   if (isChangedGroup) {
     const reset = makeButton('reset', () => actions.setOption([group.name], undefined), {
       class: 'cw-reset',
@@ -102,17 +102,21 @@ function fieldRow(state: State, field: OptionField, helpId: string, actions: Act
   const isMember = field.path.length > 1;
   const control = controlOf(field, value, `${helpId} ${rule.id}`, (next) => actions.setOption(field.path, next));
   if (control instanceof HTMLInputElement && control.type === 'checkbox') {
-    const label = make('label', { class: 'cw-check' }, control, isMember ? memberOf(name, field.help) : 'on');
+    const label = make('label', { class: 'cw-check' }, control, isMember ? memberOf(name, field) : 'on');
     return make('div', { class: 'cw-option-field' }, label, rule);
   }
   control.setAttribute('aria-label', isMember ? `${field.path[0]}, ${name}` : name);
-  const words = isMember ? memberOf(name, field.help) : undefined;
-  const unit = field.unit ? make('span', { class: 'cw-unit', text: field.unit }) : undefined;
-  return make('div', { class: 'cw-option-field' }, words, control, unit, rule);
+  const words = isMember ? memberOf(name, field) : undefined;
+  return make('div', { class: 'cw-option-field' }, words, control, rule);
 }
 
-function memberOf(name: string, help: string): HTMLElement {
-  return make('span', { class: 'cw-member' }, name, help ? make('span', { class: 'cw-rule', text: help }) : undefined);
+function memberOf(name: string, { unit, help }: OptionField): HTMLElement {
+  return make('span', { class: 'cw-member' }, ...namesOf(name, unit), help ? make('span', { class: 'cw-rule', text: help }) : undefined);
+}
+
+/** The label for people, and the name that requests and scripts have. */
+function namesOf(name: string, unit: string | undefined): HTMLElement[] {
+  return [make('span', { text: labelOf(name, unit) }), make('code', { class: 'cw-code', text: name })];
 }
 
 function controlOf(field: OptionField, value: unknown, describedBy: string, changed: (value: unknown) => void): HTMLElement {

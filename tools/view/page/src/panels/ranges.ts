@@ -39,3 +39,13 @@ export function isWithin(range: Range | undefined, value: number): boolean {
   const isLow = range.excludesMost ? value < range.most : value <= range.most;
   return isHigh && isLow;
 }
+
+/** What a number field takes, as a sentence for one that has something else. */
+export function wrongText(range: Range | undefined, isWhole = false): string {
+  const noun = isWhole ? 'a whole number' : 'a number';
+  const parts: string[] = [];
+  if (range && range.least > -Infinity) parts.push(`${range.excludesLeast ? 'above' : 'at least'} ${range.least}`);
+  const most = Math.min(range?.most ?? Infinity, isWhole ? Number.MAX_SAFE_INTEGER : Infinity);
+  if (most < Infinity) parts.push(`${range?.excludesMost ? 'below' : 'at most'} ${most}`);
+  return `This must be ${[noun, parts.join(' and ')].filter((words) => words !== '').join(', ')}.`;
+}

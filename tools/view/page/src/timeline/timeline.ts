@@ -192,7 +192,11 @@ class Timeline {
     const x = xOf(this.layout, this.hover_s);
     const width = this.tooltip.offsetWidth;
     const isRight = x + 14 + width > this.layout.width;
-    this.tooltip.style.left = `${Math.max(0, isRight ? x - 14 - width : x + 14)}px`;
+    // In the window and not in the strip, which scrolls where the window is low, and would cut it off.
+    const slider = this.slider.getBoundingClientRect();
+    const top = Math.max(slider.top, this.host.getBoundingClientRect().top);
+    this.tooltip.style.left = `${slider.left + Math.max(0, isRight ? x - 14 - width : x + 14)}px`;
+    this.tooltip.style.bottom = `${innerHeight - top}px`;
   }
 
   private key(event: KeyboardEvent): void {

@@ -5,6 +5,7 @@
 import { PerspectiveCamera } from 'three';
 import type { Quaternion, Vector3 } from 'three';
 import type { Camera } from '../contract/request.js';
+import { setText } from '../panels/dom.js';
 import { pictureHalf } from './bodies.js';
 
 export type CameraMode = 'off' | 'inset' | 'full';
@@ -18,6 +19,7 @@ export interface Eye {
 interface View {
   figure: HTMLElement;
   picture: HTMLElement;
+  caption: HTMLElement;
   camera: PerspectiveCamera;
   eye: Eye | undefined;
 }
@@ -30,7 +32,11 @@ export interface Part {
   height: number;
 }
 
+/** The path that the camera of a view is on: it is named, and its line is drawn beside the name. */
+export type PathShown = 'after' | 'before';
+
 const kNames = { after: 'through the camera', before: 'before correction' } as const;
+const kUncorrected = 'through the camera, path as interpolated';
 
 export class CameraViews {
   private readonly views: Record<'after' | 'before', View>;
@@ -51,6 +57,13 @@ export class CameraViews {
   setMode(mode: CameraMode): void {
     this.modeNow = mode;
     this.host.dataset['mode'] = mode;
+  }
+
+  /** Names the path that the first view is on: as interpolated, where there is no answer with a path. */
+  setPath(path: PathShown): void {
+    const { figure, caption } = this.views.after;
+    figure.dataset['path'] = path;
+    setText(caption, path === 'after' ? kNames.after : kUncorrected);
   }
 
   setEyes(camera: Camera, after: Eye | undefined, before: Eye | undefined, far_m: number): void {
@@ -92,10 +105,11 @@ export class CameraViews {
 function makeView(kind: 'after' | 'before'): View {
   const figure = document.createElement('figure');
   figure.dataset['view'] = kind;
+  figure.dataset['path'] = kind;
   const picture = document.createElement('div');
   picture.className = 'picture';
   const caption = document.createElement('figcaption');
   caption.textContent = kNames[kind];
   figure.append(picture, caption);
-  return { figure, picture, camera: new PerspectiveCamera(), eye: undefined };
+  return { figure, picture, caption, camera: new PerspectiveCamera(), eye: undefined };
 }

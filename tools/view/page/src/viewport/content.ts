@@ -78,6 +78,7 @@ export class Content {
     const collides = (list: readonly { t_begin: number; t_end: number }[] | undefined, t: number): boolean =>
       (list ?? []).some(({ t_begin, t_end }) => t >= t_begin && t <= t_end);
     const isCorrected = (answer?.corrections ?? []).some(({ kind }) => kind !== 'none');
+    cameraViews.setPath(answer?.segments.length ? 'after' : 'before');
     cameraViews.setEyes(
       { ...camera, near: camera.near * nearScale },
       eye(pose, collides(answer?.remaining_collisions, cursor_s)),

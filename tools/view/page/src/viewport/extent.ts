@@ -66,7 +66,7 @@ export class Extent {
   get pathSphere(): Sphere | undefined {
     if (this.path.isEmpty()) return undefined;
     const sphere = this.path.getBoundingSphere(new Sphere());
-    sphere.radius = Math.max(kAround * sphere.radius, kLeastView_m);
+    sphere.radius = Math.max(kAround * sphere.radius, Math.min(kLeastView_m, this.sceneSphere.radius));
     return sphere;
   }
 

@@ -16,6 +16,8 @@ import {
   Vector4,
 } from 'three';
 
+import { paceOf } from './pace.js';
+
 CameraControls.install({
   THREE: { Box3, MathUtils, Matrix4, Quaternion, Raycaster, Sphere, Spherical, Vector2, Vector3, Vector4 } as never,
 });
@@ -30,8 +32,7 @@ export interface Heading {
 }
 
 const kWalkDistance_m = 1e-3;
-const kWalkSpeed_m_per_s = 1.6;
-const kWheelStep_m = 0.35;
+const kLeastFit_m = 0.3;
 const kOrbitSpeed = 0.9; // of the distance to the middle, per second
 const kTransition_s = 0.16;
 const kFitLift = 0.22;
@@ -121,7 +122,7 @@ export class Navigation {
     const target = this.controls.getTarget(new Vector3());
     const from = (direction ?? eye.sub(target)).clone().normalize();
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    const distance_m = Math.max(sphere.radius, 0.3) / Math.sin(Math.atan(half));
+    const distance_m = Math.max(sphere.radius, Math.min(kLeastFit_m, this.reach_m)) / Math.sin(Math.atan(half));
     // A little above the middle of the sphere, as the upper edge of the view has the pictures of the camera.
     const right = this.camera.up.clone().cross(from).normalize();
     const middle = sphere.center.clone().addScaledVector(from.clone().cross(right), kFitLift * sphere.radius);
@@ -146,7 +147,7 @@ export class Navigation {
   /** Moves on; returns whether the view changed, so that another frame is due. */
   update(elapsed_s: number, isFast: boolean): boolean {
     if (this.isMoving) {
-      const rate = this.modeNow === 'walk' ? kWalkSpeed_m_per_s : kOrbitSpeed * Math.max(this.controls.distance, 0.5);
+      const rate = this.modeNow === 'walk' ? paceOf(this.reach_m).speed_m_per_s : kOrbitSpeed * Math.max(this.controls.distance, 0.5);
       this.move(this.heading, rate * elapsed_s * (isFast ? 3 : 1));
     }
     const changed = this.controls.update(elapsed_s);
@@ -170,7 +171,7 @@ export class Navigation {
   private walkByWheel(event: WheelEvent): void {
     if (this.modeNow !== 'walk') return;
     event.preventDefault();
-    this.move({ right: 0, forward: -Math.sign(event.deltaY), up: 0 }, kWheelStep_m);
+    this.move({ right: 0, forward: -Math.sign(event.deltaY), up: 0 }, paceOf(this.reach_m).step_m);
     this.onChange();
   }
 

@@ -118,6 +118,11 @@ export class Viewport {
     return this.frame.toPose(camera.position, camera.getWorldQuaternion(new Quaternion()));
   }
 
+  /** Whether the view is from outside of the scene. */
+  get isOutside(): boolean {
+    return !this.extent.scene.containsPoint(this.navigation.camera.position);
+  }
+
   /** Where the view looks: just off the surface in its middle, or ahead if there is none. */
   get viewTarget(): Vec3 {
     const { camera, controls, mode } = this.navigation;
