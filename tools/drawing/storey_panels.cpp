@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "tools/drawing/storeys.h"
@@ -38,6 +39,17 @@ std::vector<std::size_t> of_samples(const SampledPath& path,
   return of_sample;
 }
 
+/// Puts keyframes on the storey of the path at their times: on stairs, both are near a change.
+void follow_path(const FloorPlan& plan, StoreySplit& split) {
+  const SampledPath& path = plan.after.empty() ? plan.before : plan.after;
+  const std::vector<std::size_t>& of_path = plan.after.empty() ? split.of_before : split.of_after;
+  if (path.empty()) return;
+  for (std::size_t i = 0; i < plan.keyframes.size(); ++i) {
+    const auto at = &sample_at(path, plan.keyframes[i].time_s) - path.data();
+    split.of_keyframe[i] = of_path[static_cast<std::size_t>(at)];
+  }
+}
+
 StoreySplit split_by_storey(const FloorPlan& plan) {
   std::vector<geometry::Vec3> points_W;
   for (const motion::Keyframe& keyframe : plan.keyframes) {
@@ -53,6 +65,7 @@ StoreySplit split_by_storey(const FloorPlan& plan) {
                            visited.of_point.begin() + static_cast<std::ptrdiff_t>(next));
   split.of_before = of_samples(plan.before, visited.of_point, next);
   split.of_after = of_samples(plan.after, visited.of_point, next);
+  follow_path(plan, split);
   return split;
 }
 
@@ -102,17 +115,39 @@ std::vector<motion::Keyframe> seen_on(const FloorPlan& plan, const StoreySplit& 
   return seen;
 }
 
+/// Returns the height for the section of a storey: the median height of the poses seen on it, where
+/// doors are open or not below the lowest of them, and below the ceiling.
+double cut_of_storey(const FloorPlan& plan, double floor_m,
+                     const std::vector<motion::Keyframe>& seen) {
+  constexpr double kLeast_m = 0.8;  // above the floor: cuts windows
+  constexpr double kMost_m = 2.2;   // above the floor: lintels of doors are about as high
+  constexpr double kBelowCeiling_m = 0.1;
+  std::vector<double> heights_m;
+  std::vector<geometry::Vec3> points_W;
+  for (const motion::Keyframe& keyframe : seen) {
+    points_W.push_back(keyframe.pose.position);
+    heights_m.push_back(height_of(points_W.back(), plan.up));
+  }
+  std::ranges::sort(heights_m);
+  const double most_m = std::max(floor_m + kMost_m, heights_m.front());
+  const double height_m =
+      std::clamp(heights_m[(heights_m.size() - 1) / 2], floor_m + kLeast_m, most_m);
+  const std::optional<double> ceiling_m = ceiling_above(plan.mesh, plan.up, points_W, floor_m);
+  return ceiling_m ? std::min(height_m, *ceiling_m - kBelowCeiling_m) : height_m;
+}
+
 FloorSection section_of_storey(const FloorPlan& plan, const StoreySplit& split,
                                std::size_t storey) {
-  const bool is_one = split.floors_m.size() < 2;
-  const double height_m =
-      plan.cut_height_m && is_one
-          ? *plan.cut_height_m
-          : cut_height_m(plan.mesh, plan.up,
-                         is_one ? plan.keyframes : seen_on(plan, split, storey));
-  const bool is_below = !is_one && split.floors_m[storey] < height_m;
-  return cut_floor(plan.mesh, plan.up, height_m,
-                   is_below ? std::optional(split.floors_m[storey]) : std::nullopt);
+  if (plan.cut_height_m && split.floors_m.size() < 2) {
+    return cut_floor(plan.mesh, plan.up, *plan.cut_height_m);
+  }
+  if (split.floors_m.empty()) {
+    return cut_floor(plan.mesh, plan.up, cut_height_m(plan.mesh, plan.up, plan.keyframes));
+  }
+  const double floor_m = split.floors_m[storey];
+  const std::vector<motion::Keyframe> seen = seen_on(plan, split, storey);
+  const double height_m = seen.empty() ? floor_m + kEyes_m : cut_of_storey(plan, floor_m, seen);
+  return cut_floor(plan.mesh, plan.up, height_m, floor_m);
 }
 
 Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t storey) {

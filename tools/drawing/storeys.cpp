@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace camway::draw {
 namespace {
@@ -22,25 +23,34 @@ constexpr double kLeastStorey_m = 1.8;
 /// Heights of one floor differ by less.
 constexpr double kSameFloor_m = 0.25;
 
-// Rays: one from the point itself, and two rings of eight.
+// Rays that find a floor: one from the point itself, and two rings of eight.
 constexpr std::array kRings_m{1.0, 2.0};
 constexpr std::size_t kPerRing = 8;
-constexpr std::size_t kRays = 1 + kRings_m.size() * kPerRing;
 /// Rays that a surface has to meet to be the floor; a bed or a table meets fewer.
 constexpr std::size_t kEnoughRays = 7;
 
 /// Heights at which the rays of one point meet surfaces.
 struct Hits {
-  std::array<std::vector<double>, kRays> of_ray;
+  std::vector<std::vector<double>> of_ray;
 };
 
-std::vector<PlanPoint> feet_of(const PlanPoint& p) {
-  std::vector<PlanPoint> feet{p};
+std::vector<PlanPoint> rings_of_rays() {
+  std::vector<PlanPoint> feet{PlanPoint(0.0, 0.0)};
   for (const double radius_m : kRings_m) {
     for (std::size_t i = 0; i < kPerRing; ++i) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kPerRing;
-      feet.emplace_back(p + radius_m * PlanPoint(std::cos(angle), std::sin(angle)));
+      feet.emplace_back(radius_m * PlanPoint(std::cos(angle), std::sin(angle)));
     }
+  }
+  return feet;
+}
+
+/// Returns the rays that measure how far a floor extends: a square of 8 x 8 m about the point.
+std::vector<PlanPoint> square_of_rays() {
+  constexpr int kHalf = 4;
+  std::vector<PlanPoint> feet;
+  for (int x = -kHalf; x <= kHalf; ++x) {
+    for (int y = -kHalf; y <= kHalf; ++y) feet.emplace_back(x, y);
   }
   return feet;
 }
@@ -107,15 +117,16 @@ bool is_walkable(const Triangle& t, SceneUp up) {
   return std::abs(height_of(normal, up)) > kSteepest * normal.norm();
 }
 
-std::vector<Hits> hits_below(const scene::Mesh& mesh, SceneUp up,
-                             const std::vector<Vec3>& points_W) {
+/// Returns where rays downwards from each point and from `rays` about it meet surfaces.
+std::vector<Hits> hits_below(const scene::Mesh& mesh, SceneUp up, const std::vector<Vec3>& points_W,
+                             const std::vector<PlanPoint>& rays) {
   constexpr double kLeastBelow_m = 0.1;
   std::vector<PlanPoint> feet;
   for (const Vec3& p_W : points_W) {
-    for (const PlanPoint& foot : feet_of(to_plan(p_W, up))) feet.push_back(foot);
+    for (const PlanPoint& ray : rays) feet.emplace_back(to_plan(p_W, up) + ray);
   }
   const RayGrid grid(feet);
-  std::vector<Hits> hits(points_W.size());
+  std::vector<Hits> hits(points_W.size(), {std::vector<std::vector<double>>(rays.size())});
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle triangle = mesh.triangle(i);
     if (!is_walkable(triangle, up)) continue;
@@ -123,15 +134,17 @@ std::vector<Hits> hits_below(const scene::Mesh& mesh, SceneUp up,
     for (const Vec3& corner : triangle) box.extend(to_plan(corner, up));
     grid.visit_in(box, [&](std::size_t ray) {
       const std::optional<double> h = height_at(triangle, up, grid.foot(ray));
-      const std::size_t point = ray / kRays;
+      const std::size_t point = ray / rays.size();
       if (!h || *h > height_of(points_W[point], up) - kLeastBelow_m) return;
-      hits[point].of_ray[ray % kRays].push_back(*h);
+      hits[point].of_ray[ray % rays.size()].push_back(*h);
     });
   }
   return hits;
 }
 
-/// Returns the highest level that enough rays meet.
+/// Returns the height of the highest surface that enough rays meet: the middle one of where they
+/// do, as a tread or the foot of a chair may lie a little higher. The ray of the point itself has
+/// to be one of them: beside stairs, the others meet floors above which the point is not.
 std::optional<double> floor_among(const Hits& hits) {
   constexpr double kSameSurface_m = 0.2;
   std::vector<double> levels;
@@ -143,44 +156,117 @@ std::optional<double> floor_among(const Hits& hits) {
   for (const double level : levels) {
     if (level == last) continue;
     last = level;
-    const auto meets = [&](const std::vector<double>& ray) {
-      return std::ranges::any_of(
-          ray, [&](double h) { return h <= level && h >= level - kSameSurface_m; });
-    };
-    const auto count = std::ranges::count_if(hits.of_ray, meets);
-    if (static_cast<std::size_t>(count) >= kEnoughRays) return level;
+    std::vector<double> met;  // by each ray, its highest hit
+    bool is_below = false;
+    for (std::size_t i = 0; i < hits.of_ray.size(); ++i) {
+      double highest = -std::numeric_limits<double>::infinity();
+      for (const double h : hits.of_ray[i]) {
+        if (h <= level && h >= level - kSameSurface_m) highest = std::max(highest, h);
+      }
+      if (!std::isfinite(highest)) continue;
+      met.push_back(highest);
+      is_below = is_below || i == 0;
+    }
+    if (!is_below) continue;
+    if (met.size() < kEnoughRays) continue;
+    std::ranges::sort(met);
+    return met[met.size() / 2];
   }
   return std::nullopt;
 }
 
-/// Returns the heights about which most of `floors_m` are, at least a storey apart, lowest first;
-/// nothing if too many are about none of them. Requires sorted heights.
-std::vector<double> levels_among(const std::vector<double>& floors_m) {
-  constexpr double kLeastShare = 0.7;
-  std::vector<double> levels;
-  std::vector<double> left = floors_m;
-  std::size_t covered = 0;
-  while (!left.empty()) {
-    std::size_t most = 0;
-    double level = 0.0;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const auto end = std::upper_bound(left.begin(), left.end(), left[i] + 2 * kSameFloor_m);
-      const auto count = static_cast<std::size_t>(end - left.begin()) - i;
-      if (count <= most) continue;
-      most = count;
-      level = left[i + count / 2];
-    }
-    const bool is_apart = std::ranges::all_of(
-        levels, [&](double other) { return std::abs(level - other) >= kLeastStorey_m; });
-    if (is_apart) {
-      levels.push_back(level);
-      covered += most;
-    }
-    std::erase_if(left, [&](double h) { return std::abs(h - level) <= 2 * kSameFloor_m; });
+/// A height about which floors of points are.
+struct FloorLevel {
+  double height_m = 0.0;
+  std::size_t points = 0;
+  double extent = 0.0;  ///< largest share of the square about a point that is on the level
+
+  [[nodiscard]] bool is_about(double floor_m) const {
+    return std::abs(floor_m - height_m) <= 2 * kSameFloor_m;
   }
-  if (static_cast<double>(covered) < kLeastShare * static_cast<double>(floors_m.size())) return {};
-  std::ranges::sort(levels);
+};
+
+/// Returns the levels of `floors_m`, those of most points first. Requires sorted heights.
+std::vector<FloorLevel> levels_among(std::vector<double> floors_m) {
+  std::vector<FloorLevel> levels;
+  while (!floors_m.empty()) {
+    FloorLevel level;
+    for (std::size_t i = 0; i < floors_m.size(); ++i) {
+      const auto end =
+          std::upper_bound(floors_m.begin(), floors_m.end(), floors_m[i] + 2 * kSameFloor_m);
+      const auto count = static_cast<std::size_t>(end - floors_m.begin()) - i;
+      if (count > level.points) level = {floors_m[i + count / 2], count};
+    }
+    std::erase_if(floors_m, [&](double h) { return level.is_about(h); });
+    levels.push_back(level);
+  }
   return levels;
+}
+
+/// Measures how far the levels extend about some of their points.
+void measure_extents(const scene::Mesh& mesh, SceneUp up, const std::vector<Vec3>& points_W,
+                     const std::vector<std::optional<double>>& floors,
+                     std::vector<FloorLevel>& levels) {
+  constexpr std::size_t kMostMeasured = 9;  // points of a level
+  std::vector<Vec3> measured_W;
+  std::vector<FloorLevel*> level_of;
+  for (FloorLevel& level : levels) {
+    std::vector<Vec3> on_W;
+    for (std::size_t i = 0; i < floors.size(); ++i) {
+      if (floors[i] && level.is_about(*floors[i])) on_W.push_back(points_W[i]);
+    }
+    const std::size_t count = std::min(on_W.size(), kMostMeasured);
+    for (std::size_t i = 0; i < count; ++i) {
+      measured_W.push_back(on_W[i * (on_W.size() - 1) / std::max<std::size_t>(count - 1, 1)]);
+      level_of.push_back(&level);
+    }
+  }
+  const std::vector<Hits> hits = hits_below(mesh, up, measured_W, square_of_rays());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    FloorLevel& level = *level_of[i];
+    const auto is_met = [&](const std::vector<double>& ray) {
+      return std::ranges::any_of(
+          ray, [&](double h) { return std::abs(h - level.height_m) <= kSameFloor_m; });
+    };
+    const auto met = static_cast<double>(std::ranges::count_if(hits[i].of_ray, is_met));
+    level.extent = std::max(level.extent, met / static_cast<double>(hits[i].of_ray.size()));
+  }
+}
+
+/// Takes the levels that are too small for a storey out of `levels`, and returns them: landings of
+/// stairs. In a small building every floor is small.
+std::vector<FloorLevel> take_landings(std::vector<FloorLevel>& levels) {
+  constexpr double kLeastExtent = 0.25;  // the square about a point in the corner of a storey
+  constexpr double kLeastOfWidest = 0.5;
+  double widest = 0.0;
+  for (const FloorLevel& level : levels) widest = std::max(widest, level.extent);
+  const double least = std::min(kLeastExtent, kLeastOfWidest * widest);
+  const auto landings = std::ranges::stable_partition(
+      levels, [&](const FloorLevel& level) { return level.extent >= least; });
+  std::vector<FloorLevel> taken(landings.begin(), landings.end());
+  levels.erase(landings.begin(), landings.end());
+  return taken;
+}
+
+/// Returns the heights of the levels that are at least a storey apart, lowest first; nothing if too
+/// many points are about none of them. Requires the levels of most points first.
+std::vector<double> storeys_among(const std::vector<FloorLevel>& levels) {
+  constexpr double kLeastShare = 0.7;
+  std::vector<double> storeys_m;
+  std::size_t covered = 0;
+  std::size_t all = 0;
+  for (const FloorLevel& level : levels) {
+    all += level.points;
+    const bool is_apart = std::ranges::all_of(storeys_m, [&](double other) {
+      return std::abs(level.height_m - other) >= kLeastStorey_m;
+    });
+    if (!is_apart) continue;
+    storeys_m.push_back(level.height_m);
+    covered += level.points;
+  }
+  if (static_cast<double>(covered) < kLeastShare * static_cast<double>(all)) return {};
+  std::ranges::sort(storeys_m);
+  return storeys_m;
 }
 
 std::size_t nearest_level(const std::vector<double>& levels, double height_m) {
@@ -211,23 +297,21 @@ std::vector<double> filled(const std::vector<std::optional<double>>& floors) {
   return all;
 }
 
-/// Leaves out levels with few points, none of which is one of the first `certain`.
+/// Leaves out levels that have neither a few points in a row nor one of the first `certain` points.
 void drop_rare(std::vector<double>& levels, const std::vector<double>& floors,
                std::size_t certain) {
-  constexpr double kRare = 0.03;
-  std::vector<std::size_t> counts(levels.size(), 0);
-  std::vector<bool> is_certain(levels.size(), false);
+  constexpr std::size_t kEnoughInARow = 3;
+  std::vector<bool> is_visited(levels.size(), false);
+  std::size_t in_a_row = 0;
+  std::size_t last = levels.size();
   for (std::size_t i = 0; i < floors.size(); ++i) {
     const std::size_t level = nearest_level(levels, floors[i]);
-    ++counts[level];
-    if (i < certain) is_certain[level] = true;
+    in_a_row = level == last ? in_a_row + 1 : 1;
+    last = level;
+    if (i < certain || in_a_row >= kEnoughInARow) is_visited[level] = true;
   }
   for (std::size_t i = levels.size(); i-- > 0;) {
-    const bool is_rare =
-        static_cast<double>(counts[i]) < kRare * static_cast<double>(floors.size());
-    if (counts[i] == 0 || (is_rare && !is_certain[i])) {
-      levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    if (!is_visited[i]) levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
@@ -239,21 +323,48 @@ VisitedStoreys visited_storeys(const scene::Mesh& mesh, SceneUp up,
   storeys.of_point.assign(points_W.size(), 0);
   std::vector<std::optional<double>> floors;
   std::vector<double> found;
-  for (const Hits& hits : hits_below(mesh, up, points_W)) {
+  for (const Hits& hits : hits_below(mesh, up, points_W, rings_of_rays())) {
     floors.push_back(floor_among(hits));
     if (floors.back()) found.push_back(*floors.back());
   }
   // On a hill, only its top is level.
   if (found.empty() || 2 * found.size() < points_W.size()) return storeys;
   std::ranges::sort(found);
-  storeys.floors_m = levels_among(found);
+  std::vector<FloorLevel> levels = levels_among(std::move(found));
+  measure_extents(mesh, up, points_W, floors, levels);
+  const std::vector<FloorLevel> landings = take_landings(levels);
+  storeys.floors_m = storeys_among(levels);
   if (storeys.floors_m.empty()) return storeys;
+  // A landing is on the storey that the path comes from or goes to, whichever is nearer in time.
+  for (std::optional<double>& floor : floors) {
+    const auto has_floor = [&](const FloorLevel& landing) { return landing.is_about(*floor); };
+    if (floor && std::ranges::any_of(landings, has_floor)) floor.reset();
+  }
   const std::vector<double> floor_of = filled(floors);
   drop_rare(storeys.floors_m, floor_of, certain);
   for (std::size_t i = 0; i < floor_of.size() && !storeys.floors_m.empty(); ++i) {
     storeys.of_point[i] = nearest_level(storeys.floors_m, floor_of[i]);
   }
   return storeys;
+}
+
+std::optional<double> ceiling_above(const scene::Mesh& mesh, SceneUp up,
+                                    const std::vector<Vec3>& points_W, double floor_m) {
+  std::vector<PlanPoint> feet;
+  for (const Vec3& p_W : points_W) feet.push_back(to_plan(p_W, up));
+  std::optional<double> ceiling_m;
+  if (feet.empty()) return ceiling_m;
+  const RayGrid grid(feet);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle triangle = mesh.triangle(i);
+    Eigen::AlignedBox2d box;
+    for (const Vec3& corner : triangle) box.extend(to_plan(corner, up));
+    grid.visit_in(box, [&](std::size_t ray) {
+      const std::optional<double> h = height_at(triangle, up, grid.foot(ray));
+      if (h && *h >= floor_m + kLeastStorey_m && (!ceiling_m || *h < *ceiling_m)) ceiling_m = h;
+    });
+  }
+  return ceiling_m;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "tools/drawing/floor_section.h"
@@ -17,11 +18,17 @@ struct VisitedStoreys {
 
 /// Returns the storeys that a path visits, given as points in the order of time. The floor below a
 /// point is the highest surface that rays downwards from the point and from a ring about it meet
-/// often, so a table, a tread or a landing is no floor. Floors that differ by less than 1.8 m are
-/// one. Of the storeys on which there are few points, those are left out that have none of the
-/// first `certain` points. Where floors are of all heights, as on a hill, there is one storey.
+/// often, so a table or a tread is no floor. A level as small as a landing of stairs is no storey.
+/// Floors that differ by less than 1.8 m are one. Storeys are left out that never have three points
+/// in a row nor one of the first `certain` points. Where floors are of all heights, as on a hill,
+/// there is one storey.
 VisitedStoreys visited_storeys(const scene::Mesh& mesh, SceneUp up,
                                const std::vector<geometry::Vec3>& points_W, std::size_t certain);
+
+/// Returns the height of the lowest surface over or under one of `points_W` that is so far above
+/// the floor that people can stand below it; nothing if there is none.
+std::optional<double> ceiling_above(const scene::Mesh& mesh, SceneUp up,
+                                    const std::vector<geometry::Vec3>& points_W, double floor_m);
 
 /// Height above a floor at which a storey is cut if no path says otherwise: doors and windows are
 /// open there, and most furniture is lower.

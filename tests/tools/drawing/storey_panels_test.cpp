@@ -4,19 +4,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/scene/import/import.h"
 #include "tests/support/random.h"
 #include "tests/tools/drawing/drawn_house.h"
+#include "tools/json/json_request.h"
 
 namespace camway::draw {
 namespace {
 
 using geometry::Vec3;
 using motion::KeyframeOrigin;
+using ::testing::DoubleNear;
 using ::testing::HasSubstr;
+using ::testing::Pointwise;
 
 /// Returns a plan with keyframes on both storeys of the house, some of them inserted.
 FloorPlan through_both_storeys(testing::Random& random) {
@@ -114,6 +124,56 @@ TEST(StoreyPanels, KeyframesHaveTheirHeights) {
   EXPECT_TRUE(are_level(plan.keyframes, plan.up));
   for (const PanelKeyframe& keyframe : storey_panels(plan)[0].keyframes) {
     EXPECT_EQ(keyframe.height, "");
+  }
+}
+
+/// A plan of the own keyframes of a request of the repository.
+FloorPlan plan_of_request(const std::string& name) {
+  const std::filesystem::path file =
+      std::filesystem::path(CAMWAY_SCENES_FOLDER) / "requests" / (name + ".json");
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  const base::Result<tools::RequestFile> request =
+      tools::parse_as<tools::RequestFile>(text.str(), file.string());
+  EXPECT_TRUE(request) << request.error;
+  FloorPlan plan;
+  plan.keyframes = request->keyframes;
+  for (std::size_t i = 0; i < plan.keyframes.size(); ++i) {
+    plan.keyframes[i].time_s = static_cast<double>(i);
+  }
+  plan.before = sample(motion::interpolate(plan.keyframes), 1500);
+  const scene::ImportResult read =
+      scene::import_mesh((std::filesystem::path(CAMWAY_SCENES_FOLDER) / "office.obj").string(), {});
+  EXPECT_TRUE(read.mesh) << read.error;
+  plan.mesh = *read.mesh;
+  return plan;
+}
+
+/// The own request that climbs stairs is drawn on the storeys that it is on, cut at the heights of
+/// its keyframes; requests that stay on one storey are drawn on that one.
+TEST(StoreyPanels, OfTheOfficeRequestsAreTheirStoreys) {
+  constexpr double kStorey_m = 3.6;
+  const auto floors_of = [](const std::vector<Panel>& panels) {
+    std::vector<double> floors_m;
+    for (const Panel& panel : panels) floors_m.push_back(panel.section.floor_m);
+    return floors_m;
+  };
+  const std::vector<Panel> stairs = storey_panels(plan_of_request("office-free-stairs"));
+  ASSERT_THAT(floors_of(stairs), Pointwise(DoubleNear(1e-6), std::vector{0.0, kStorey_m}));
+  EXPECT_EQ(stairs[0].before.here.size(), 1U) << "one change";
+  EXPECT_EQ(stairs[0].keyframes.front().number, "0");
+  EXPECT_EQ(stairs[1].keyframes.back().number, "10");
+  EXPECT_GE(stairs[1].keyframes.size(), 3U);
+  EXPECT_LT(stairs[0].section.height_m, 3.3) << "below the ceiling";
+  EXPECT_NEAR(stairs[1].section.height_m, 5.2, 1e-9);
+  const std::vector<std::pair<std::string, double>> level{
+      {"office-free-corridor", 0.0},    {"office-free-timed", kStorey_m},
+      {"office-wall-rooms", kStorey_m}, {"office-wall-tour", 2 * kStorey_m},
+      {"office-free-atrium", 0.0},      {"office-graze-steps", 0.0}};
+  for (const auto& [name, floor_m] : level) {
+    EXPECT_THAT(floors_of(storey_panels(plan_of_request(name))),
+                Pointwise(DoubleNear(1e-6), std::vector{floor_m}))
+        << name;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -125,6 +126,84 @@ TEST(VisitedStoreys, ATableIsNoStorey) {
     points_W.emplace_back(4.5 + std::cos(0.1 * i), 2.6, 1.5 + std::sin(0.1 * i));
   }
   EXPECT_THAT(visited_storeys(mesh, SceneUp::kY, points_W, 0).floors_m, ElementsAre(0.0));
+}
+
+/// A building of two storeys, and stairs of two flights with a half landing between them.
+struct StairsBuilding {
+  scene::Mesh mesh;
+  double floor_m;
+  double storey_m;
+  std::vector<Vec3> walk_W;  ///< up the stairs, at the height of eyes
+};
+
+/// Adds the treads of a flight along z.
+void add_flight(scene::Mesh& mesh, double x, const Vec3& begin, const Vec3& end, int treads) {
+  for (int i = 0; i < treads; ++i) {
+    const Vec3 low = begin + static_cast<double>(i) / treads * (end - begin);
+    const Vec3 high = begin + (i + 1.0) / treads * (end - begin);
+    add_box(mesh, {x, high.y() - 0.2, std::min(low.z(), high.z())},
+            {x + 1.4, high.y(), std::max(low.z(), high.z())});
+  }
+}
+
+StairsBuilding random_stairs(Random& random) {
+  StairsBuilding building{{}, random.uniform(-10, 10), random.uniform(2.6, 5.0), {}};
+  scene::Mesh& mesh = building.mesh;
+  const double low_m = building.floor_m;
+  const double half_m = low_m + building.storey_m / 2;
+  const double high_m = low_m + building.storey_m;
+  const double foot_z = 2.0 + 2.0 * building.storey_m / 2;  // the flights rise by 1 : 2
+  add_box(mesh, {-10, low_m - 0.3, 0}, {13, low_m, foot_z + 8});
+  for (const auto& [low_x, high_x, low_z] :
+       {std::array{-10.0, 0.0, 0.0}, {3.0, 13.0, 0.0}, {0.0, 3.0, foot_z}}) {
+    add_box(mesh, {low_x, high_m - 0.3, low_z}, {high_x, high_m, foot_z + 8});
+  }
+  const double landing_z = random.uniform(1.2, 2.0);
+  const int treads = random.integer(7, 14);
+  add_box(mesh, {0, half_m - 0.2, 2.0 - landing_z}, {3, half_m, 2.0});
+  add_flight(mesh, 0.0, {0, low_m, foot_z}, {0, half_m, 2}, treads);
+  add_flight(mesh, 1.6, {0, half_m, 2}, {0, high_m, foot_z}, treads);
+  const std::vector<Vec3> way{{0.7, low_m, foot_z + random.uniform(1, 6)},
+                              {0.7, low_m, foot_z},
+                              {0.7, half_m, 2},
+                              {0.7, half_m, 1.2},
+                              {2.3, half_m, 1.2},
+                              {2.3, half_m, 2},
+                              {2.3, high_m, foot_z},
+                              {2.3, high_m, foot_z + random.uniform(1, 6)}};
+  const double eyes_m = random.uniform(1.4, 1.9);
+  for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
+    const int steps = random.integer(5, 40);  // at a speed of its own
+    for (int i = 0; i < steps; ++i) {
+      const Vec3 p = way[leg] + static_cast<double>(i) / steps * (way[leg + 1] - way[leg]);
+      building.walk_W.emplace_back(p.x(), p.y() + eyes_m, p.z());
+    }
+  }
+  return building;
+}
+
+/// However long the camera stays on a half landing, the storeys are the two floors, and the path
+/// changes between them once.
+TEST(VisitedStoreys, ALandingIsNoStorey) {
+  Random random(kDrawSeed);
+  for (int trial = 0; trial < 100; ++trial) {
+    const StairsBuilding building = random_stairs(random);
+    const VisitedStoreys found = visited_storeys(building.mesh, SceneUp::kY, building.walk_W, 0);
+    ASSERT_THAT(found.floors_m, ElementsAre(DoubleNear(building.floor_m, 1e-9),
+                                            DoubleNear(building.floor_m + building.storey_m, 1e-9)))
+        << trial;
+    EXPECT_TRUE(std::ranges::is_sorted(found.of_point)) << trial;
+    EXPECT_EQ(found.of_point.front(), 0U) << trial;
+    EXPECT_EQ(found.of_point.back(), 1U) << trial;
+  }
+}
+
+/// A short stay on a storey counts, without a keyframe there.
+TEST(VisitedStoreys, AShortStayCounts) {
+  const scene::Mesh house = small_house();
+  std::vector<Vec3> points_W(300, Vec3(2, 1.6, 2));
+  std::fill_n(points_W.begin() + 150, 3, Vec3(2, 4.6, 2));
+  EXPECT_THAT(visited_storeys(house, SceneUp::kY, points_W, 0).floors_m, ElementsAre(0.0, 3.0));
 }
 
 TEST(VisitedStoreys, AGlimpseOfAStoreyCountsWhereAKeyframeIs) {
