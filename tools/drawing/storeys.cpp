@@ -361,7 +361,8 @@ std::optional<double> ceiling_above(const scene::Mesh& mesh, SceneUp up,
     for (const Vec3& corner : triangle) box.extend(to_plan(corner, up));
     grid.visit_in(box, [&](std::size_t ray) {
       const std::optional<double> h = height_at(triangle, up, grid.foot(ray));
-      if (h && *h >= floor_m + kLeastStorey_m && (!ceiling_m || *h < *ceiling_m)) ceiling_m = h;
+      if (!h || *h < std::max(floor_m + kLeastStorey_m, height_of(points_W[ray], up))) return;
+      if (!ceiling_m || *h < *ceiling_m) ceiling_m = h;
     });
   }
   return ceiling_m;

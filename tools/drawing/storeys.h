@@ -25,7 +25,7 @@ struct VisitedStoreys {
 VisitedStoreys visited_storeys(const scene::Mesh& mesh, SceneUp up,
                                const std::vector<geometry::Vec3>& points_W, std::size_t certain);
 
-/// Returns the height of the lowest surface over or under one of `points_W` that is so far above
+/// Returns the height of the lowest surface above one of `points_W` that is so far above
 /// the floor that people can stand below it; nothing if there is none.
 std::optional<double> ceiling_above(const scene::Mesh& mesh, SceneUp up,
                                     const std::vector<geometry::Vec3>& points_W, double floor_m);
