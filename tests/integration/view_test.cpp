@@ -154,6 +154,9 @@ TEST_F(ViewDaemonTest, PathsAreProvedAsHere) {
     one->erase("clearance_lower_bound");
   }
   EXPECT_EQ(there, at_home);
+  ASSERT_EQ(door_here.post("/v1/plan", request).code, 200);
+  EXPECT_EQ(daemon_door.get("/plan.svg").body.size(), door_here.get("/plan.svg").body.size())
+      << "both have the walls";
   // What is in the way is seen by the next proof.
   const json begin = json::parse(request).at("keyframes").at(0).at("position");
   const Reached added = daemon_door.post(
