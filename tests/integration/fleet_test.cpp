@@ -568,6 +568,26 @@ TEST_F(FleetTest, AChangeThroughAnotherFrontIsKnownAtOnceAndLogged) {
   EXPECT_THAT(front("TWO").output(), HasSubstr("operation=move scene=yard0 object=crate"));
 }
 
+TEST_F(FleetTest, EveryFrontSendsTheTrianglesOfWhatOneOfThemGot) {
+  start_front("ONE");
+  start_front("TWO");
+  Client one(of_prefix("ONE"));
+  Client two(of_prefix("TWO"));
+  const SceneAnswer put = one.put_object("office", "ball", SceneSphere{0.5, 0.0});
+  ASSERT_TRUE(put.ok()) << put.error;
+  const std::string digest = put.objects.at(0).digest;
+  const SceneTriangles sent = one.object_triangles("office", digest);
+  ASSERT_TRUE(sent.ok()) << sent.error;
+  SceneTriangles other;
+  EXPECT_TRUE(eventually([&] {
+    other = two.object_triangles("office", digest);
+    return other.ok();
+  })) << other.error;
+  EXPECT_GT(sent.triangles.size(), 100U);
+  EXPECT_EQ(other.vertices_m, sent.vertices_m);
+  EXPECT_EQ(other.triangles, sent.triangles);
+}
+
 TEST_F(FleetTest, SaysWhyThereIsNoWayIntoTheFleet) {
   server_.kill();
   write_file(file("planner.toml"), "[fleet]\npatience_s = 0.5\n");

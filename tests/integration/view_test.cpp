@@ -154,6 +154,11 @@ TEST_F(ViewDaemonTest, PathsAreProvedAsHere) {
     one->erase("clearance_lower_bound");
   }
   EXPECT_EQ(there, at_home);
+  ASSERT_EQ(door_here.post("/v1/plan", request).code, 200);
+  // Names inside of a picture count what was drawn before; walls are most of it.
+  const auto drawn = static_cast<double>(daemon_door.get("/plan.svg").body.size());
+  const auto drawn_here = static_cast<double>(door_here.get("/plan.svg").body.size());
+  EXPECT_NEAR(drawn, drawn_here, 0.01 * drawn_here) << "both have the walls";
   // What is in the way is seen by the next proof.
   const json begin = json::parse(request).at("keyframes").at(0).at("position");
   const Reached added = daemon_door.post(
