@@ -344,7 +344,7 @@ class MapPages final : public Call {
   std::promise<Came> promise_;
 };
 
-/// What was fetched, or the reason why it was not.
+/// The fetched bytes, or the reason why there are none.
 struct Exported {
   Failure failure{Status::kOk, {}};
   SceneAnswer answer;

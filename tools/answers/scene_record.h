@@ -9,7 +9,7 @@
 #include "daemon/scene/import/record/import_options.h"
 #include "daemon/scene/import/record/vertical_axis.h"
 
-/// What an answer says about the scene that it was planned in, and what follows from it.
+/// The record of an answer about the scene that it was planned in, and its consequences.
 namespace camway::tools {
 
 /// Returns the axis that points up where a request was planned: the one that the axes of the scene

@@ -18,11 +18,11 @@
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/door_request.h"
+#include "tools/view/access/token.h"
 #include "tools/view/daemon/planner_daemon.h"
 #include "tools/view/door.h"
 #include "tools/view/here/planner_here.h"
 #include "tools/view/page/embed/embedded_page.h"
-#include "tools/view/token.h"
 
 namespace camway::tools {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "tools/drawing/floor_plan.h"
 
-/// What each panel of a picture shows: a floor plan, storey by storey.
+/// The panels of a picture: a floor plan, storey by storey.
 namespace camway::draw {
 
 /// A keyframe as drawn.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "daemon/http/server.h"
-#include "tools/view/access.h"
+#include "tools/view/access/access.h"
 #include "tools/view/desk.h"
 #include "tools/view/export.h"
 #include "tools/view/http_jobs.h"

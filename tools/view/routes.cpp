@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "tools/view/access.h"
+#include "tools/view/access/access.h"
 
 namespace camway::view {
 namespace {

@@ -15,6 +15,9 @@
 namespace camway::scene {
 namespace {
 
+/// More animations than any file has.
+constexpr double kMostTakes = 1e6;
+
 /// Removes the first word, and the blank after it.
 std::string_view take_word(std::string_view& line) {
   const std::size_t size = std::min(line.find(' '), line.size());
@@ -48,6 +51,13 @@ bool take_lens(std::string_view line, double unit_m, SceneFileCamera& camera) {
   return true;
 }
 
+bool take_takes(std::string_view line, SceneFileCamera& camera) {
+  std::array<double, 1> n{};
+  if (!take_numbers(line, n) || !(n[0] >= 0.0 && n[0] <= kMostTakes)) return false;
+  camera.takes = static_cast<int>(n[0]);
+  return true;
+}
+
 bool take_key(std::string_view line, double unit_m, SceneFileCamera& camera) {
   std::array<double, 8> n{};
   if (!take_numbers(line, n)) return false;
@@ -71,6 +81,7 @@ base::Result<std::vector<SceneFileCamera>> cameras_from(const std::string& text,
       cameras.emplace_back().name = line;
     } else if (!cameras.empty()) {
       is_sound = (word == "lens" && take_lens(line, unit_m, cameras.back())) ||
+                 (word == "takes" && take_takes(line, cameras.back())) ||
                  (word == "key" && take_key(line, unit_m, cameras.back()));
     }
     if (!is_sound) {

@@ -24,6 +24,7 @@ struct SceneFileCamera {
   std::optional<double> fov_x_rad;  ///< full angle across
   std::optional<double> aspect;     ///< width of the picture divided by its height
   std::optional<double> near_m;
+  int takes = 0;  ///< animations of the file that move it, of which the first counts
   std::vector<CameraFileKey>
       keys;  ///< at the times of its animation's keys; one if it stands still
 };

@@ -61,16 +61,18 @@ TEST(CameraImport, SaysWhatIsMissing) {
 }
 
 TEST(CameraImport, TrustsNothingThatTheProcessSays) {
-  const std::string good = "camera one two\nlens 1 0 0.5\nkey 0 1 2 3 1 0 0 0\n";
+  const std::string good = "camera one two\nlens 1 0 0.5\ntakes 2\nkey 0 1 2 3 1 0 0 0\n";
   const auto cameras = cameras_from(good, 0.5);
   ASSERT_TRUE(cameras) << cameras.error;
   EXPECT_EQ(cameras->front().name, "one two");
   EXPECT_EQ(cameras->front().aspect, std::nullopt);
   EXPECT_EQ(*cameras->front().near_m, 0.25);
+  EXPECT_EQ(cameras->front().takes, 2);
   EXPECT_EQ(cameras->front().keys[0].position_m, Vec3(0.5, 1, 1.5));
   for (const char* const bad :
        {"key 0 1 2 3 1 0 0 0\n", "camera a\nkey 0 1 2\n", "camera a\nkey 0 1 2 nan 1 0 0 0\n",
-        "camera a\nlens 1 2 3 4\n", "camera a\nwhat\n", "camera a\nkey 0 1 2 3 1 0 0 0 9\n"}) {
+        "camera a\ntakes -1\n", "camera a\ntakes 1e300\n", "camera a\nlens 1 2 3 4\n",
+        "camera a\nwhat\n", "camera a\nkey 0 1 2 3 1 0 0 0 9\n"}) {
     EXPECT_THAT(cameras_from(bad, 1.0).error, HasSubstr("its cameras are wrong in line")) << bad;
   }
 }

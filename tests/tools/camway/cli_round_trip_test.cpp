@@ -17,8 +17,8 @@
 
 #include "tests/support/random.h"
 #include "tests/tools/camway/cli_runner.h"
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/camera_format.h"
-#include "tools/cameras/formats/text_rows.h"
 
 namespace camway::tools {
 namespace {

@@ -10,7 +10,7 @@ namespace camway::tools {
 /// Scales and turns a track as a scene file is (`scene::ImportOptions`).
 void place_as_scene(CameraTrack& track, double scale, scene::UpAxis up);
 
-/// How poses of a file differ from those of a request.
+/// The differences between the poses of a file and those of a request.
 struct FileMapping {
   CameraAxes file_axes = CameraAxes::kGl;    ///< the frame of cameras in the file
   CameraAxes format_axes = CameraAxes::kGl;  ///< the one that the format's writer writes

@@ -50,8 +50,8 @@ base::Result<PathFile> read_path(const ExportDocuments& documents) {
   return response;
 }
 
-/// How the file's poses differ from those of the request: as in the imported file, unless choices
-/// say otherwise, or the format says what they are.
+/// The differences between the file's poses and those of the request: as in the imported file,
+/// unless choices say otherwise, or the format says what they are.
 FileMapping mapping_of(const ExportChoices& choices, const CameraFormat& format,
                        const CameraRemark& remark) {
   const FormatTraits traits = traits_of(format);

@@ -13,7 +13,7 @@
 
 namespace camway::tools {
 
-/// What a user asks of a file. What is nothing is as in the file that the request was imported
+/// The user's choices for a file. A missing choice is as in the file that the request was imported
 /// from (`CameraRemark`), else as usual for the format.
 struct ExportChoices {
   std::optional<std::string> name;

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/scene/import/readers/decimal.h"
-#include "tools/cameras/formats/text_rows.h"
+#include "tools/cameras/files/text_rows.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {

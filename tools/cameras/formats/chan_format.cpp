@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/key_rows.h"
-#include "tools/cameras/formats/text_rows.h"
 
 namespace camway::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "daemon/scene/import/readers/tokens.h"
-#include "tools/cameras/formats/text_rows.h"
+#include "tools/cameras/files/text_rows.h"
 
 namespace camway::tools {
 namespace {

@@ -11,11 +11,11 @@
 #include "daemon/scene/import/readers/decimal.h"
 #include "daemon/scene/import/readers/tokens.h"
 #include "daemon/scene/import/unsupported_formats.h"
+#include "tools/cameras/files/mcap_records.h"
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/formats/csv_columns.h"
-#include "tools/cameras/formats/mcap_records.h"
 #include "tools/cameras/formats/pose_tables.h"
-#include "tools/cameras/formats/text_rows.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/base/base64.h"
-#include "tools/cameras/formats/glb_file.h"
+#include "tools/cameras/files/glb_file.h"
 #include "tools/cameras/formats/gltf_formats.h"
 
 namespace camway::tools {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/cameras/formats/mcap_records.h"
+#include "tools/cameras/files/mcap_records.h"
 
 namespace camway::tools {
 

@@ -17,8 +17,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/cameras/files/mcap_records.h"
 #include "tools/cameras/formats/mcap_formats.h"
-#include "tools/cameras/formats/mcap_records.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {

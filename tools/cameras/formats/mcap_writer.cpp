@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/mcap_file.h"
 #include "tools/cameras/formats/mcap_formats.h"
-#include "tools/cameras/formats/text_rows.h"
 
 namespace camway::tools {
 namespace {

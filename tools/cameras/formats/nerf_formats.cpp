@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/cameras/formats/rotation_matrix.h"
+#include "tools/cameras/files/rotation_matrix.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {

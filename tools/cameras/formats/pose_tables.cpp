@@ -11,9 +11,9 @@
 #include <numbers>
 #include <utility>
 
+#include "tools/cameras/files/rotation_matrix.h"
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/key_rows.h"
-#include "tools/cameras/formats/rotation_matrix.h"
-#include "tools/cameras/formats/text_rows.h"
 
 namespace camway::tools {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/cameras/formats/scene_file_format.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -67,11 +69,16 @@ base::Result<CameraTrack> read_scene_file(const CameraFile& file,
   if (options.camera.empty() && cameras->size() > 1) {
     track.notes.push_back(choice_note(camera->name, names_of(*cameras)));
   }
+  if (camera->takes > 1) {
+    track.notes.push_back(fmt::format(
+        "{} animations of the file move the camera, and the first counts: export another one alone",
+        camera->takes));
+  }
   if (animates_a_lens(file.bytes)) {
     track.notes.emplace_back(
-        "a lens changes in the file, which is not read: the angle may be the narrowest, so give "
-        "the "
-        "widest with --fov-x-deg or --fov-y-deg");
+        "the file animates a lens, which is not read: if it changes, the angle may be the "
+        "narrowest, so give "
+        "the widest with --fov-x-deg or --fov-y-deg");
   }
   const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
   for (const scene::CameraFileKey& key : camera->keys) {

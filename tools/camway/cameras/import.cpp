@@ -149,7 +149,7 @@ bool states_lens(const CameraTrack& track, const ImportLens& lens) {
   return lens.fov_x_deg || lens.fov_y_deg || widest_fov_x_rad(track) || widest_fov_y_rad(track);
 }
 
-/// What moves. A body needs no lens, but keeps that of its file.
+/// The moving thing. A body needs no lens, but keeps that of its file.
 base::Result<RequestBody> body_of(const ImportFlags& flags, CameraTrack& track) {
   RequestBody body;
   if (!flags.body.empty()) {

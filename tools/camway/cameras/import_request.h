@@ -41,7 +41,7 @@ struct RequestScene {
   scene::UpAxis up = scene::UpAxis::kAsInFile;
 };
 
-/// What moves: a camera, or a body beside it or without it.
+/// The moving thing: a camera, or a body beside it or without it.
 struct RequestBody {
   std::optional<RequestCamera> camera;
   nlohmann::ordered_json shape;  ///< the member `body` of the request; null: there is none

@@ -7,7 +7,7 @@
 
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/result/path_faults.h"
-#include "tools/cameras/formats/text_rows.h"
+#include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/camway/common/commands.h"
 #include "tools/json/json_response.h"

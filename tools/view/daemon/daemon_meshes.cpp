@@ -15,7 +15,7 @@ namespace {
 /// Memory of the objects that are kept.
 constexpr std::uint64_t kMostKeptBytes = std::uint64_t{512} << 20;
 
-/// How often a scene is listed again because it changed meanwhile.
+/// The number of times that a scene is listed again because it changed meanwhile.
 constexpr int kMostListings = 4;
 
 scene::Mesh mesh_of(const SceneTriangles& sent) {

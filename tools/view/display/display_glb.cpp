@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/cameras/formats/glb_file.h"
+#include "tools/cameras/files/glb_file.h"
 #include "tools/view/display/display_mesh.h"
 
 namespace camway::view {

@@ -94,6 +94,19 @@ struct CameraChain {
   std::vector<NodeMotion> motions;
 };
 
+/// The number of animations that move a camera. The first counts.
+std::size_t takes_of(const aiScene& scene, const CameraChain& chain) {
+  const auto moves = [&](const aiAnimation* animation) {
+    const std::span channels(animation->mChannels, animation->mNumChannels);
+    return std::ranges::any_of(channels, [&](const aiNodeAnim* channel) {
+      return std::ranges::any_of(
+          chain.nodes, [&](const aiNode* node) { return channel->mNodeName == node->mName; });
+    });
+  };
+  const std::span animations(scene.mAnimations, scene.mNumAnimations);
+  return static_cast<std::size_t>(std::ranges::count_if(animations, moves));
+}
+
 CameraChain chain_of(const aiScene& scene, const aiCamera& camera) {
   CameraChain chain{&camera, {}, {}};
   for (const aiNode* node = scene.mRootNode->FindNode(camera.mName); node != nullptr;
@@ -214,6 +227,7 @@ std::string cameras_text(const aiScene& scene, std::string_view format) {
     std::snprintf(lens, sizeof lens, "lens %.17g %.17g %.17g\n", fov_x_rad(*camera, format),
                   aspect_of(*camera), static_cast<double>(camera->mClipPlaneNear));
     text += "camera " + one_line(camera->mName.C_Str()) + "\n" + lens;
+    text += "takes " + std::to_string(takes_of(scene, chain)) + "\n";
     const std::set<double> times_s = key_times_s(chain);
     for (const double time_s : is_fbx ? frame_times_s(times_s) : times_s) {
       text += key_line(chain, time_s);

@@ -175,7 +175,7 @@ std::string text_of(const std::string& file, std::size_t most) {
   return text;
 }
 
-/// As much as says what a file is.
+/// The first part of a file, which says what it is.
 std::string begin_of(const std::string& file) { return text_of(file, std::size_t{1} << 20); }
 
 bool is_collada(const std::string& extension) {
@@ -209,7 +209,7 @@ int import_cameras_with_assimp(const std::string& file) {
         "for each frame (in Blender: animation curves off, or sampled)");
   }
   Assimp::Importer importer;
-  // Else nodes that only FBX has stand between the camera and what moves it.
+  // Without this, nodes that only FBX has stand between the camera and its animated node.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene* scene = read_with_assimp(importer, file, extension, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {

@@ -109,7 +109,7 @@ int run(int argc, char** argv, const std::function<void()>& prepare,
   try {
     code = import(argv[1]);
   } catch (const std::exception& e) {
-    // What a library throws is the name of a C++ type often enough.
+    // Libraries often throw the mere name of a C++ type.
     code = refuse(std::string("it is damaged, or has what its reader does not know (") + e.what() +
                   ")");
   }

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/cameras/files/mcap_records.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/formats/mcap_file.h"
 #include "tools/cameras/formats/mcap_formats.h"
-#include "tools/cameras/formats/mcap_records.h"
 
 namespace camway::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/tools/cameras/formats/read_format.h"
-#include "tools/cameras/formats/rotation_matrix.h"
+#include "tools/cameras/files/rotation_matrix.h"
 
 namespace camway::tools {
 namespace {

@@ -35,7 +35,7 @@ TEST(SceneFileFormat, SaysThatALensChangesOnlyWhereOneDoes) {
   const std::string plain = testing::collada_camera("eye/transform");
   EXPECT_THAT(notes_of(plain), IsEmpty());
   EXPECT_THAT(notes_of(with(plain, R"(<channel source="#s" target="lens/xfov"/>)", "</animation>")),
-              Contains(HasSubstr("a lens changes in the file, which is not read")));
+              Contains(HasSubstr("the file animates a lens, which is not read")));
 }
 
 TEST(SceneFileFormat, NamesTheOtherCameras) {

@@ -115,7 +115,7 @@ export class Page {
     await this.tab.getByRole('tab', {name, exact: true}).click();
   }
 
-  /// Where a point of the world is in the window.
+  /// The place of a point of the world in the window.
   async place_of(point) {
     const place = await this.tab.evaluate(at => window.camway.screenOf(at), point);
     assert.ok(place, `${point} is not in the view`);

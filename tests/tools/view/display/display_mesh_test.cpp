@@ -141,7 +141,7 @@ TEST(DisplayMesh, ABallWithFewerTrianglesIsStillThatBall) {
   for (std::size_t i = 0; i < display.shown(); ++i) {
     const geometry::Triangle corners = triangle_of(display, i);
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    // What the simplifier estimates is no bound; three times it is one here.
+    // The simplifier's error is an estimate; on a sphere it is off by less than a factor of 3.
     EXPECT_NEAR(middle.norm(), kRadius_m, 3.0 * display.error_m);
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     EXPECT_GT(normal.dot(middle), 0.0);

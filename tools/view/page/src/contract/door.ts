@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the door says of scenes, fields and itself: docs/http.md.
+// The door's answers about scenes, fields and itself: docs/http.md.
 
 import type { Answer, Segment } from './answer.js';
 import type { PlanRequest, Quat, Vec3 } from './request.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens at the door while the page is open: scenes that change, daemons that come and go, and a watched path.
+// Events at the door while the page is open: scenes that change, daemons that come and go, and a watched path.
 
 import type { Answer } from '../contract/answer.js';
 import type { SceneFacts } from '../contract/door.js';

@@ -111,7 +111,7 @@ function faultsOf(state: State, faults: readonly KeyframeFault[], actions: Actio
 
 function infeasibilityOf(state: State, answer: Answer, actions: Actions): Node[] {
   const proof = answer.infeasibility;
-  // Of an invalid request it is the keyframe that is wrong, which was said already.
+  // An invalid request has a wrong keyframe, and that was said already.
   const isShutIn = answer.keyframe !== undefined && answer.status !== 'invalid';
   if (!proof) return isShutIn ? [section('Shut in', text(shutInWords(answer.keyframe as number)))] : [];
   const sentences = infeasibilityWords(proof).map(text);

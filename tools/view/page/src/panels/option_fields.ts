@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which fields the options panel has: those that the door lists.
+// The fields of the options panel are those that the door lists.
 
 import type { Field } from '../contract/door.js';
 import type { PlanRequest } from '../contract/request.js';

@@ -209,7 +209,7 @@ function paintLane(context: Context, { layout, theme }: Picture, lane: Lane, top
   context.fillStyle = theme.muted;
   // Below the limit's words, or above them where the limit is low.
   const y = curve.limit === undefined ? (low + high) / 2 : yOf(curve.limit) < (low + high) / 2 ? low - 5 : high + 1;
-  // Of a clearance the least matters.
+  // The least clearance matters, not the largest.
   const least = curve.values.reduce((smallest, value) => Math.min(smallest, value), Infinity);
   const words = lane.kind.name === 'clearance' ? `min ${lowerBoundText(least)}` : `max ${numberText(curve.largest)}`;
   context.fillText(words, layout.x1 + 8, y);

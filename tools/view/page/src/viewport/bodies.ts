@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves: the near quadrilateral of a camera with the pyramid of its picture, or another body.
+// The moving thing: the near quadrilateral of a camera with the pyramid of its picture, or another body.
 
 import { BoxGeometry, BufferAttribute, BufferGeometry, SphereGeometry, Vector3 } from 'three';
 import type { Quaternion } from 'three';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the view shows of request and answer: the path, keyframes, findings, the body at the cursor, and names.
+// The view of request and answer: the path, keyframes, findings, the body at the cursor, and names.
 
 import { Group, Vector3 } from 'three';
 import type { IUniform, Vector4 } from 'three';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hands do in the view: keyframes and objects that are moved and turned become actions.
+// Edits by hand in the view: keyframes and objects that are moved and turned become actions.
 
 import { Quaternion, Vector3 } from 'three';
 import type { Vec3 } from '../contract/request.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far scene and path reach, in the frame that is drawn, and from where a path is seen well.
+// The extents of scene and path, in the frame that is drawn, and from where a path is seen well.
 
 import { Box3, Sphere, Vector3 } from 'three';
 import type { Vec3 } from '../contract/request.js';

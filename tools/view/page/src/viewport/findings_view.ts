@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the answer says about the scene: witnesses of collisions with their triangles, and the closed surface or cage
+// The answer's findings in the scene: witnesses of collisions with their triangles, and the closed surface or cage
 // that proves that there is no path.
 
 import {

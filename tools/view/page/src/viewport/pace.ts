@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How fast people walk through a scene: as on foot in rooms, and by the size of what is smaller or larger.
+// The pace of a walk through a scene: as on foot in rooms, and by the size of what is smaller or larger.
 
 const kSpeed_m_per_s = 1.6;
 const kStep_m = 0.35;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the scene's surfaces look: flat, by derivatives, like a clay model, cut off above the section plane. Where the
+// The look of the scene's surfaces: flat, by derivatives, like a clay model, cut off above the section plane. Where the
 // section opens a closed solid, the inside is one plain tone, as in a drawing.
 
 import { DoubleSide, ShaderMaterial, Vector3, Vector4 } from 'three';

@@ -258,7 +258,7 @@ export class Viewport {
     return [box.left + (place.x * 0.5 + 0.5) * box.width, box.top + (0.5 - place.y * 0.5) * box.height];
   }
 
-  // What the store says.
+  // The state of the store.
 
   private follow(now: State, before: State): void {
     if (now.scene !== before.scene && now.scene) void this.showScenes(now);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/view/access.h"
+#include "tools/view/access/access.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include "tests/tools/view/door_client.h"
 #include "tests/tools/view/fake_backend.h"
+#include "tools/view/access/token.h"
 #include "tools/view/door.h"
-#include "tools/view/token.h"
 
 namespace camway::view {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/cameras/formats/glb_file.h"
+#include "tools/cameras/files/glb_file.h"
 
 #include <bit>
 #include <cstdint>

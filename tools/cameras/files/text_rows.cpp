@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/cameras/formats/text_rows.h"
+#include "tools/cameras/files/text_rows.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/cameras/formats/mcap_records.h"
+#include "tools/cameras/files/mcap_records.h"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/view/access.h"
+#include "tools/view/access/access.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tools/view/token.h"
+#include "tools/view/access/token.h"
 
 namespace camway::view {
 namespace {

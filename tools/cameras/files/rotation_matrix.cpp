@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/cameras/formats/rotation_matrix.h"
+#include "tools/cameras/files/rotation_matrix.h"
 
 #include <fmt/format.h>
 

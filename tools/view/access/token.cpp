@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/view/token.h"
+#include "tools/view/access/token.h"
 
 #include <fmt/format.h>
 #include <sys/random.h>
