@@ -63,15 +63,14 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
 
 /// Writes the response to each request as a file. Returns an error text, empty on success. Client
 /// ids consist of letters, digits, '-' and '_', so they are valid file names.
-std::string write_responses(const ReplayFlags& flags, const Session& session, const Scenes& scenes,
+std::string write_responses(const ReplayFlags& flags, const Session& session,
                             const std::vector<ReplayedRequest>& replayed) {
   for (std::size_t i = 0; i < replayed.size(); ++i) {
     const RecordedRequest& recorded = session.requests[i];
     ResponseFormat format;
     format.has_timing = !flags.no_timing;
     format.scene = recorded.scene;
-    const auto scene = scenes.find(recorded.scene);
-    if (scene != scenes.end()) format.scene_digest = scene->second->digest;
+    format.scene_digest = replayed[i].scene_digest;
     const base::Result<std::string> text = write_plan_response(replayed[i].result, format);
     if (!text) return "the response cannot be written: " + text.error;
     const std::string name =
@@ -122,19 +121,20 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (const std::string fault = make_responses_dir(flags.responses_dir); !fault.empty()) {
     return invalid_input(fault);
   }
-  const std::optional<Scenes> scenes = load_scenes(flags.scenes);
-  if (!scenes) return ExitCode::kInvalidInput;
-  const std::vector<std::string> missing = missing_scenes(session, *scenes);
+  std::optional<Scenes> named = load_scenes(flags.scenes);
+  if (!named) return ExitCode::kInvalidInput;
+  NamedScenes scenes(*std::move(named));
+  const std::vector<std::string> missing = missing_scenes(session, scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
                             wire::printable(name), wire::printable(name)));
   }
   if (!missing.empty()) return ExitCode::kInvalidInput;
-  const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
+  const std::vector<ReplayedRequest> replayed = replay(session, scenes, flags.run);
   fmt::print("{}", report(session, replayed, flags.no_timing ? Times::kHidden : Times::kShown));
   ExitCode outcome = verdict_code(session, replayed);
   if (!flags.responses_dir.empty()) {
-    const std::string error = write_responses(flags, session, *scenes, replayed);
+    const std::string error = write_responses(flags, session, replayed);
     if (!error.empty()) outcome = worse(outcome, invalid_input(error));
   }
   return outcome;
