@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/record/blob_log.h"
 #include "daemon/record/log_files.h"
-#include "daemon/scene/log/scene_log.h"
 #include "daemon/scene/log/shared_log.h"
 
 namespace camway::record {
@@ -17,7 +17,7 @@ namespace camway::record {
 /// A log of scenes that only passes changes on, to be written among the messages, and puts blobs
 /// into the folder of a recording. It reads no scenes.
 /// Not thread-safe.
-class UpdateLog final : public scene::SceneLog {
+class UpdateLog final : public BlobLog {
  public:
   using Take = std::function<void(scene::LogUpdate)>;
 
@@ -35,22 +35,6 @@ class UpdateLog final : public scene::SceneLog {
   scene::AppendResult append(std::string_view scene, const scene::LogEntry& entry) override;
   scene::AppendResult remove(std::string_view scene, std::uint64_t revision,
                              std::string_view request) override;
-
-  scene::AppendResult summarize(std::string_view, std::uint64_t, const scene::Bytes&,
-                                const std::vector<scene::BlobId>&) override {
-    return {};
-  }
-  std::uint64_t highest_removed() override { return 0; }
-  std::vector<std::string> removals() override { return {}; }
-  base::Result<std::vector<scene::LoggedScene>> scenes() override {
-    return std::vector<scene::LoggedScene>();
-  }
-  std::string note(std::string_view) override { return {}; }
-  scene::AppendResult set_note(std::string_view, std::string_view) override { return {}; }
-  base::Result<std::map<std::string, std::string>> notes(std::string_view) override {
-    return std::map<std::string, std::string>();
-  }
-  scene::AppendResult drop_unused_blobs() override { return {}; }
 
  private:
   using Needs = std::map<scene::BlobId, std::vector<scene::BlobId>>;

@@ -14,6 +14,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
+#include "tools/camway/replay/session_scenes.h"
 #include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
@@ -123,7 +124,11 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   }
   std::optional<Scenes> named = load_scenes(flags.scenes);
   if (!named) return ExitCode::kInvalidInput;
-  NamedScenes scenes(*std::move(named));
+  // What the user names goes before what was recorded.
+  SceneChain scenes;
+  scenes.add(std::make_unique<NamedScenes>(*std::move(named)));
+  scenes.add(std::make_unique<SessionScenes>(session, blob_folders_of({flags.log})));
+  scenes.add(std::make_unique<DigestScenes>(session, blob_folders_of({flags.log})));
   const std::vector<std::string> missing = missing_scenes(session, scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
