@@ -15,6 +15,7 @@
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
 #include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/session/session_files.h"
 #include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
@@ -103,7 +104,9 @@ std::string make_responses_dir(const std::string& folder) {
 
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::string& prefix = flags.publishing.prefix;
-  const Session session = read_session(flags.log, prefix, keys);
+  const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
+  if (!files) return invalid_input(files.error);
+  const Session session = read_session(files->logs(), prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty() && session.other_version > 0) {
     return invalid_input(fmt::format(
@@ -127,8 +130,9 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   // What the user names goes before what was recorded.
   SceneChain scenes;
   scenes.add(std::make_unique<NamedScenes>(*std::move(named)));
-  scenes.add(std::make_unique<SessionScenes>(session, blob_folders_of({flags.log})));
-  scenes.add(std::make_unique<DigestScenes>(session, blob_folders_of({flags.log})));
+  const auto blobs = blob_folders_of(files->logs());
+  scenes.add(std::make_unique<SessionScenes>(session, blobs));
+  scenes.add(std::make_unique<DigestScenes>(session, blobs));
   const std::vector<std::string> missing = missing_scenes(session, scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
@@ -209,7 +213,7 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
-  command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
+  command->add_option("LOG", flags->log, "What was recorded: a log of lcm-logger, or a folder of camwayd --record")->required();
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
   command
