@@ -11,8 +11,8 @@ namespace {
 
 using scene::AppendFault;
 using scene::AppendResult;
-using scene::Keeping;
 using scene::KeepFault;
+using scene::Keeping;
 
 /// Events that are written together.
 constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
@@ -39,7 +39,9 @@ RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::st
       warnings_(log, service::LogLevel::kWarn, "recording", kWarnings),
       files_(std::move(files)),
       updates_(files_,
-               [this](scene::LogUpdate update) { add(SceneUpdate{std::move(update), digest_}); }),
+               [this](scene::LogUpdate update) {
+                 add(SceneUpdate{std::move(update), digest_});
+               }),
       recorded_(updates_) {}
 
 void RecordWriter::write(const RecordedMessage& message) {
@@ -72,8 +74,8 @@ void RecordWriter::keep(const ChangedScene& change) {
     done = recorded_.keep_removal(after, {});
   } else if (change.kind == ChangedScene::Kind::kChange && before != scenes_.end() &&
              before->second->revision == change.before) {
-    done = recorded_.keep_changes(*before->second, after, change.changes, change.note,
-                                  after.revision);
+    done =
+        recorded_.keep_changes(*before->second, after, change.changes, change.note, after.revision);
   } else {
     done = recorded_.keep_scene(after, after.revision, change.note);
   }

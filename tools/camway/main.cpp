@@ -20,7 +20,7 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 17> kCommands{{
+constexpr std::array<Command, 19> kCommands{{
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
@@ -30,6 +30,8 @@ constexpr std::array<Command, 17> kCommands{{
     {"occupancy", camway::tools::add_occupancy_command},
     {"load", camway::tools::add_load_command},
     {"replay", camway::tools::add_replay_command},
+    {"pack", camway::tools::add_pack_command},
+    {"unpack", camway::tools::add_unpack_command},
     {"scene", camway::tools::add_scene_command},
     {"draw", camway::tools::add_draw_command},
     {"cache", camway::tools::add_cache_command},

@@ -7,14 +7,12 @@
 #include <thread>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/settings/scene_argument.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
-#include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
-#include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/replay/scene_sources.h"
 #include "tools/camway/session/session_files.h"
 #include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
@@ -24,7 +22,7 @@ namespace {
 
 struct ReplayFlags {
   std::string log;
-  std::vector<std::string> scenes;
+  SceneSourceFlags sources;
   ReplayOptions run;
   std::string responses_dir;
   bool no_timing = false;
@@ -36,31 +34,6 @@ struct ReplayFlags {
 ExitCode invalid_input(std::string_view message) {
   print_error(message);
   return ExitCode::kInvalidInput;
-}
-
-/// Loads the scenes of `--scene`. On an error, prints it and returns nothing.
-std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
-  Scenes scenes;
-  for (const std::string& argument : arguments) {
-    const auto parsed = process::parse_scene_argument(argument);
-    if (!parsed) {
-      print_error("--scene " + argument + ": " + parsed.error);
-      return std::nullopt;
-    }
-    // Planning does not use the occupancy map, so none is made.
-    scene::SnapshotOptions options = parsed->options;
-    options.occupancy_resolution_m.reset();
-    LoadedScene loaded = load_timed(parsed->name, parsed->file.string(), options);
-    if (!loaded.result.snapshot) {
-      print_error(loaded.result.error);
-      return std::nullopt;
-    }
-    if (!scenes.emplace(parsed->name, std::move(loaded.result.snapshot)).second) {
-      print_error("--scene " + argument + ": the name stands twice");
-      return std::nullopt;
-    }
-  }
-  return scenes;
 }
 
 /// Writes the response to each request as a file. Returns an error text, empty on success. Client
@@ -104,7 +77,7 @@ std::string make_responses_dir(const std::string& folder) {
 
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::string& prefix = flags.publishing.prefix;
-  const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
+  const base::Result<SessionFiles> files = SessionFiles::open(std::filesystem::path(flags.log));
   if (!files) return invalid_input(files.error);
   const Session session = read_session(files->logs(), prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
@@ -125,18 +98,13 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (const std::string fault = make_responses_dir(flags.responses_dir); !fault.empty()) {
     return invalid_input(fault);
   }
-  std::optional<Scenes> named = load_scenes(flags.scenes);
-  if (!named) return ExitCode::kInvalidInput;
-  // What the user names goes before what was recorded.
-  SceneChain scenes;
-  scenes.add(std::make_unique<NamedScenes>(*std::move(named)));
-  const auto blobs = blob_folders_of(files->logs());
-  scenes.add(std::make_unique<SessionScenes>(session, blobs));
-  scenes.add(std::make_unique<DigestScenes>(session, blobs));
+  const auto sources = open_scene_sources(flags.sources, session, *files, prefix, keys);
+  if (!sources) return invalid_input(sources.error);
+  ReplayScenes& scenes = **sources;
   const std::vector<std::string> missing = missing_scenes(session, scenes);
   for (const std::string& name : missing) {
-    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
-                            wire::printable(name), wire::printable(name)));
+    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE, or --root DIR",
+                            flags.log, wire::printable(name), wire::printable(name)));
   }
   if (!missing.empty()) return ExitCode::kInvalidInput;
   const std::vector<ReplayedRequest> replayed = replay(session, scenes, flags.run);
@@ -162,13 +130,7 @@ ExitCode run_replay(const ReplayFlags& flags) {
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
-  command
-      .add_option("--scene", flags.scenes,
-                  "A scene by the name that the requests use; may stand several times; as "
-                  "camwayd's")
-      ->type_name(process::kSceneArgumentForm)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_scene_source_flags(command, flags.sources);
   command
       .add_option("--threads", flags.run.threads,
                   "Requests planned at the same time; the output does not depend on it")
@@ -213,7 +175,10 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
-  command->add_option("LOG", flags->log, "What was recorded: a log of lcm-logger, or a folder of camwayd --record")->required();
+  command
+      ->add_option("LOG", flags->log,
+                   "What was recorded: a log of lcm-logger, or a folder of camwayd --record")
+      ->required();
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
   command

@@ -21,7 +21,7 @@ struct RecordedAnswer {
   /// The whole answer if it is a result of planning: not overloaded or malformed, and with a path
   /// that is one.
   std::optional<plan_response_t> result;
-  std::string scene_digest;  ///< digest of the scene of the answer; may be empty
+  std::string scene_digest;          ///< digest of the scene of the answer; may be empty
   std::uint64_t scene_revision = 0;  ///< revision of that scene; 0 if there is none
   /// Recording in which it stands (`record::FileBegin::session`); empty for a plain log.
   std::string session;
