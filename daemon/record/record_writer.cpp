@@ -21,12 +21,6 @@ constexpr std::chrono::seconds kRetry{1};
 /// A disk that is full, has room and is full again makes few lines.
 constexpr service::LimitedLog::Limits kWarnings{0.05, 5.0};
 
-AppendResult fault_of(const Keeping& keeping) {
-  if (keeping.fault == KeepFault::kNone) return {};
-  return {keeping.fault == KeepFault::kFull ? AppendFault::kFull : AppendFault::kBroken,
-          keeping.error};
-}
-
 }  // namespace
 
 RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::string session,
@@ -81,7 +75,7 @@ void RecordWriter::keep(const ChangedScene& change) {
   }
   const std::int64_t now = wire::utime_now();
   if (done.fault != KeepFault::kNone) {
-    fail(fault_of(done));
+    fail(updates_.fault());
     return lose(0, 1, now);
   }
   if (messages_ + changes_ == 0) first_utime_ = now;
@@ -140,7 +134,7 @@ bool RecordWriter::begin_events() {
     const Keeping done = recorded_.keep_scene(*scene, scene->revision, {});
     if (done.fault == KeepFault::kNone) continue;
     events_.clear();
-    fail(fault_of(done));
+    fail(updates_.fault());
     return false;
   }
   if (!has_begun_) updates_.end_begin();

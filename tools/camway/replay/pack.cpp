@@ -226,7 +226,8 @@ void add_pack_command(CLI::App& app, ExitCode& exit_code) {
   add_scene_source_flags(*command, flags->sources);
   command->footer(exit_code_help("") +
                   "\nThe file holds everything that was said, in clear, and the scenes."
-                  "\nExample: camway pack recorded -o bug.camway-session");
+                  "\nExample: camway pack session.lcmlog --scene office=scenes/office.obj -o "
+                  "bug.camway-session");
   command->callback([flags, &exit_code] { exit_code = run_pack(*flags); });
 }
 
@@ -242,7 +243,7 @@ void add_unpack_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("DIR", flags->folder, "Folder to make")->required();
   command->footer(exit_code_help("") +
                   "\nIf anything is missing or damaged, says what, and leaves nothing."
-                  "\nExample: camway unpack bug.camway-session bug && camway replay bug");
+                  "\nExample: camway unpack bug.camway-session bug");
   command->callback([flags, &exit_code] {
     const std::string fault = unpack(flags->pack, flags->folder);
     exit_code = fault.empty() ? ExitCode::kSuccess : wrong_input(fault);

@@ -60,7 +60,8 @@ std::string write_responses(const ReplayFlags& flags, const Session& session,
 /// agrees.
 ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>& replayed) {
   if (count(replayed, Verdict::kDiffers) > 0) return ExitCode::kNegative;
-  if (!session.log.damage.empty() || count(replayed, Verdict::kAgrees) == 0) {
+  if (!session.log.damage.empty() || session.damaged_events > 0 ||
+      count(replayed, Verdict::kAgrees) == 0) {
     return ExitCode::kInvalidInput;
   }
   return ExitCode::kSuccess;
@@ -109,6 +110,7 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (!missing.empty()) return ExitCode::kInvalidInput;
   const std::vector<ReplayedRequest> replayed = replay(session, scenes, flags.run);
   fmt::print("{}", report(session, replayed, flags.no_timing ? Times::kHidden : Times::kShown));
+  fmt::print("{}", notes_on(session));
   ExitCode outcome = verdict_code(session, replayed);
   if (!flags.responses_dir.empty()) {
     const std::string error = write_responses(flags, session, replayed);

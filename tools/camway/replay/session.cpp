@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/session.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <utility>
 
@@ -147,6 +149,20 @@ class SessionBuilder {
 };
 
 }  // namespace
+
+std::string notes_on(const Session& session) {
+  std::string notes;
+  for (const record::Gap& gap : session.gaps) {
+    const double seconds = static_cast<double>(gap.to_utime - gap.from_utime) * 1e-6;
+    notes += fmt::format(
+        "note: the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}\n",
+        gap.messages, gap.changes, seconds, wire::printable(gap.reason));
+  }
+  if (session.damaged_events > 0) {
+    notes += fmt::format("note: {} events of the recording are damaged\n", session.damaged_events);
+  }
+  return notes;
+}
 
 Session read_session(const std::filesystem::path& log, const std::string& prefix,
                      const wire::MessageKeys* keys) {

@@ -66,6 +66,9 @@ struct Session {
   std::uint64_t scene_requests = 0;
 };
 
+/// Returns a line for each thing that is missing in a recording; empty if nothing is.
+std::string notes_on(const Session& session);
+
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a
 /// request has several answers, the first that is a result of planning counts. With `keys`, only
 /// messages that are signed with one of them count; without, signatures are ignored.
