@@ -104,6 +104,7 @@ class RecorderTest : public ::testing::Test {
  protected:
   std::unique_ptr<Recorder> open(RecordOptions options) {
     if (options.folder.empty()) options.folder = folder_.path() / "recorded";
+    options.pause = std::chrono::milliseconds(0);
     auto opened = Recorder::open(options, {"build 1", {{"queue.requests", "7"}}}, log_.log());
     EXPECT_TRUE(opened) << opened.error;
     return opened ? *std::move(opened) : nullptr;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -95,6 +96,18 @@ json json_of(const ObjectOptions& options) {
   return value;
 }
 
+/// Largest distance field to accept, of the options of a record.
+constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
+
+bool are_possible(const ObjectOptions& options) {
+  const bool has_voxels =
+      !options.occupancy_resolution_m ||
+      (std::isfinite(*options.occupancy_resolution_m) && *options.occupancy_resolution_m > 0.0);
+  return options.index.threshold >= 1 && options.index.max_depth <= kMaxIndexDepth &&
+         options.index.max_duplication >= 0.0 && has_voxels &&
+         (!options.field || options.field->memory_limit_bytes <= kMostFieldBytes);
+}
+
 ObjectOptions object_options_from(const json& value) {
   ObjectOptions options;
   options.index.threshold = value.at("index_threshold").get<std::uint32_t>();
@@ -108,6 +121,7 @@ ObjectOptions object_options_from(const json& value) {
     options.field->memory_limit_bytes = value.at("field_bytes").get<std::size_t>();
   }
   if (value.contains("voxel_m")) options.occupancy_resolution_m = value.at("voxel_m").get<double>();
+  if (!are_possible(options)) throw NoRecord{};
   return options;
 }
 
@@ -145,6 +159,12 @@ RecordedScene recorded_scene_from(const json& value) {
   for (const json& object : value.at("objects")) {
     scene.objects.push_back({object.at(0).get<std::string>(), blob_id_from(object.at(1)),
                              placement_from(object.at(2))});
+  }
+  const auto is_not_before = [](const RecordedObject& a, const RecordedObject& b) {
+    return a.name >= b.name;
+  };
+  if (std::ranges::adjacent_find(scene.objects, is_not_before) != scene.objects.end()) {
+    throw NoRecord{};
   }
   for (const json& revision : value.at("revisions")) {
     scene.revisions.push_back(recorded_revision_from(revision));

@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "daemon/scene/log/change_record.h"
 #include "tests/support/random.h"
 #include "tests/tools/camway/replay/recorded_wall.h"
 #include "tools/camway/replay/replay_run.h"
@@ -80,11 +82,14 @@ TEST_F(SessionDamage, TheWholeRecordingReplays) {
   EXPECT_FALSE(left.is_told);
 }
 
-TEST_F(SessionDamage, EveryTruncationIsToldAndLeavesWhatIsBefore) {
+/// For every one of them: --gtest_repeat=7, each time with other lengths.
+TEST_F(SessionDamage, ATruncationIsToldAndLeavesWhatIsBefore) {
   std::size_t whole = 0;
-  constexpr std::size_t kWithScenes = 64;
-  for (std::size_t length = 0; length < bytes_.size(); ++length) {
-    const Left left = left_of(bytes_.substr(0, length), length % kWithScenes == 0);
+  constexpr std::size_t kStep = 7;
+  static std::size_t repetition = 0;
+  const std::size_t first = repetition++ % kStep;
+  for (std::size_t length = first; length < bytes_.size(); length += kStep) {
+    const Left left = left_of(bytes_.substr(0, length), length / kStep % 16 == 0);
     ASSERT_TRUE(left.is_told) << length;
     ASSERT_GE(left.whole, whole) << "a longer log has no less";
     whole = left.whole;
@@ -106,6 +111,33 @@ TEST_F(SessionDamage, FlippedBitsNeverCrash) {
     }
     left_of(bytes);
   }
+}
+
+/// Options that no daemon has would end the process where scenes are built.
+TEST_F(SessionDamage, ImpossibleOptionsAreRefused) {
+  const Session session = read_session(log_, "CAMWAY");
+  scene::Bytes record = session.updates.front().change.update.entry.record;
+  const std::string key = "index_threshold";
+  const auto same = [](std::byte a, char b) { return a == static_cast<std::byte>(b); };
+  const auto found = std::search(record.begin(), record.end(), key.begin(), key.end(), same);
+  ASSERT_NE(found, record.end());
+  EXPECT_TRUE(scene::change_record_from(record));
+  *(found + static_cast<std::ptrdiff_t>(key.size())) = std::byte{0};
+  EXPECT_FALSE(scene::change_record_from(record));
+  // Items within items, as deep as the bytes are long.
+  EXPECT_FALSE(scene::change_record_from(scene::Bytes(1'000'000, std::byte{0x81})));
+}
+
+TEST_F(SessionDamage, AnObjectThatCannotBePlacedIsTold) {
+  Session session = read_session(log_, "CAMWAY");
+  scene::LogUpdate& update = session.updates.front().change.update;
+  auto whole = std::get<scene::RecordedScene>(*scene::change_record_from(update.entry.record));
+  std::string fault;
+  whole.objects.front().placement =
+      scene::Placement::make({1e8, 0, 0}, geometry::Quat::Identity(), fault);
+  update.entry.record = scene::change_record_of(whole);
+  SessionScenes scenes(session, blob_folders_of({log_}));
+  EXPECT_THAT(scenes.snapshot_of(session.requests.front()).why_not, HasSubstr("is not in the log"));
 }
 
 TEST_F(SessionDamage, ADamagedOrMissingContentIsNamed) {
