@@ -87,7 +87,13 @@ TEST_F(ViewDaemonTest, EveryPlaceIsAnsweredByTheDaemon) {
       client.send("PATCH", objects + "/crate", R"({"orientation": [0, 0, 0, 1]})");
   EXPECT_EQ(moved.json().at("objects").at(0).at("position"), json({5.0, 6.0, 7.0})) << moved.body;
   EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 200);
-  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 404);
+  const Reached missing = client.send("DELETE", objects + "/crate");
+  EXPECT_EQ(missing.code, 404);
+  EXPECT_THAT(missing.json().at("error").get<std::string>(), StartsWith("object: "));
+  const Reached refused = client.post(
+      objects, R"({"name": "crate", "form": {"type": "mesh", "file": "/nowhere/crate.obj"}})");
+  EXPECT_EQ(refused.code, 400) << refused.body;
+  EXPECT_NE(refused.json().value("field", "invalid"), "invalid") << refused.body;
   const std::string plan = client.post("/v1/plan", request_text("office-graze-door")).body;
   EXPECT_EQ(json::parse(plan).at("status"), "ok") << plan;
   EXPECT_THAT(client.get("/plan.svg").body, HasSubstr("<svg"));
