@@ -9,6 +9,11 @@ set(camway_client_objects
   $<TARGET_OBJECTS:camway_client> $<TARGET_OBJECTS:camway_client_engine>
   $<TARGET_OBJECTS:camway_client_messages> $<TARGET_OBJECTS:camway_client_types>
   $<TARGET_OBJECTS:camway_wire>)
+# The numbers of the ABIs: that of C is written in its header, that of C++ follows the version.
+file(STRINGS ${PROJECT_SOURCE_DIR}/client/include/camway/c/base.h camway_c_abi REGEX "define CAMWAY_ABI_M(AJOR|INOR) ")
+list(TRANSFORM camway_c_abi REPLACE ".* " "")
+list(GET camway_c_abi 0 camway_c_abi_major)
+list(JOIN camway_c_abi "." camway_c_abi)
 set(camway_cxx_abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(camway_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/camway)
 
@@ -34,7 +39,8 @@ function(camway_versioned target abi version map)
   endif()
 endfunction()
 
-camway_installed_library(camway_client_installed STATIC camway client_static ${camway_client_objects})
+camway_installed_library(camway_client_installed STATIC camway client_static
+  ${camway_client_objects} $<TARGET_OBJECTS:camway_client_c>)
 target_compile_features(camway_client_installed INTERFACE cxx_std_17)
 target_link_libraries(camway_client_installed INTERFACE LCM::lcm Threads::Threads)
 
@@ -42,6 +48,10 @@ camway_installed_library(camway_client_shared SHARED camway client_shared ${camw
 target_compile_features(camway_client_shared INTERFACE cxx_std_17)
 target_link_libraries(camway_client_shared INTERFACE Threads::Threads)
 camway_versioned(camway_client_shared ${camway_cxx_abi} ${PROJECT_VERSION} camway.map)
+
+camway_installed_library(camway_c_shared SHARED camway_c c
+  ${camway_client_objects} $<TARGET_OBJECTS:camway_client_c>)
+camway_versioned(camway_c_shared ${camway_c_abi_major} ${camway_c_abi}.0 camway_c.map)
 
 # Signing by shared keys, for those who ask for it: COMPONENTS authentication. Its users need libsodium. It
 # has the wire checks itself, which the shared library does not export.
@@ -53,7 +63,7 @@ target_link_libraries(camway_authentication_installed INTERFACE LCM::lcm PkgConf
 # Sets of their own, as a package may have the one without the other.
 install(TARGETS camway_client_installed EXPORT camway-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
-install(TARGETS camway_client_shared EXPORT camway-shared-targets
+install(TARGETS camway_client_shared camway_c_shared EXPORT camway-shared-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT client)
 install(TARGETS camway_authentication_installed EXPORT camway-authentication-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
@@ -63,6 +73,9 @@ endforeach()
 
 # For pkg-config. The prefix is found from the place of the file, so the files can be moved.
 file(RELATIVE_PATH camway_prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/camway-client.pc.in ${PROJECT_BINARY_DIR}/camway-client.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/camway-client.pc
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT client)
+foreach(library client c)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/camway-${library}.pc.in ${PROJECT_BINARY_DIR}/camway-${library}.pc
+                 @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/camway-${library}.pc
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT client)
+endforeach()
