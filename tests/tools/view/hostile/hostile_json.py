@@ -71,7 +71,7 @@ def bent(message, dice):
     """Returns a copy of a message in which some members are wrong, missing or unknown."""
     message = json.loads(json.dumps(message))
     for _ in range(dice.choice((1, 1, 1, 2, 4))):
-        places = [place for place in places_in(message)]
+        places = places_in(message)
         if not places:
             return message
         holder, key = dice.choice(places)
