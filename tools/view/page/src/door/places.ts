@@ -2,7 +2,7 @@
 // The places of the door over HTTP; the browser's cookie holds the token.
 
 import type { Answer, Segment } from '../contract/answer.js';
-import type { Field, LastPlan, ObjectFacts, SceneDescription, SceneFacts } from '../contract/door.js';
+import type { ExportFormat, Field, LastPlan, ObjectFacts, SceneDescription, SceneFacts } from '../contract/door.js';
 import type { PlanRequest, Vec3 } from '../contract/request.js';
 import { DoorError } from './socket.js';
 
@@ -68,8 +68,14 @@ export async function interpolate(request: PlanRequest): Promise<Segment[]> {
   return (await fetchJson<{ segments: Segment[] }>('/v1/interpolate', request)).segments;
 }
 
-export async function fetchFields(): Promise<Field[]> {
-  return (await fetchJson<{ fields: Field[] }>('/v1/fields')).fields;
+export interface DoorFields {
+  fields: Field[];
+  exports: ExportFormat[];
+}
+
+export async function fetchFields(): Promise<DoorFields> {
+  const { fields, exports = [] } = await fetchJson<{ fields: Field[]; exports?: ExportFormat[] }>('/v1/fields');
+  return { fields, exports };
 }
 
 export function fetchLast(): Promise<LastPlan> {
@@ -107,6 +113,6 @@ export async function fetchReview(request: PlanRequest, answer: Answer): Promise
   return (await fetchPlace('/v1/review', { request, answer })).blob();
 }
 
-export async function fetchExport(format: string, request: PlanRequest, answer: Answer): Promise<Blob> {
-  return (await fetchPlace(`/v1/export?format=${encodeURIComponent(format)}`, { request, answer })).blob();
+export async function fetchExport(format: ExportFormat, request: PlanRequest, answer: Answer): Promise<Blob> {
+  return (await fetchPlace(`/v1/export?format=${encodeURIComponent(format.name)}`, { request, answer })).blob();
 }

@@ -78,10 +78,12 @@ export class Viewport {
     private readonly actions: Actions,
     private readonly sources: Sources,
     private readonly onDrawn: (report: ViewReport) => void,
+    /** Hears that what the last report is of is on the screen. */
+    onFinished: () => void,
   ) {
     this.host = host;
     const part = (name: string): HTMLElement => host.querySelector<HTMLElement>(`[data-part="${name}"]`) ?? host;
-    this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h));
+    this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h), onFinished);
     const invalidate = (): void => this.stage.invalidate();
     this.extent = new Extent(store, () => this.frame, () => this.up);
     this.sceneView = new SceneView(this.look, this.stage.tubes.viewHeight, sources.mesh, invalidate, (message) => store.set({ message }));
