@@ -18,8 +18,8 @@ namespace camway::view {
 /// an object with one part.
 MeshAnswer object_mesh(const scene::Snapshot& snapshot, std::string_view digest);
 
-/// Digests of meshes in the frames of their objects. Each is made once for a source, which an object
-/// keeps when it is moved. Thread-safe.
+/// Digests of meshes in the frames of their objects. Each is made once for a source, which an
+/// object keeps when it is moved. Thread-safe.
 class MeshDigests {
  public:
   /// Returns the digest; empty for an occupancy map, whose mesh is another one after each scan.

@@ -22,10 +22,11 @@ export const browser = await chromium.launch({
          ...(process.env.CAMWAY_PICTURES ? [] : ['--webgl-antialias-mode=none'])],
 });
 
-/// Opens the page of a door, or a file.
-export async function open_page(url, {theme = 'light'} = {}) {
-  const context = await browser.newContext({viewport: kWindow, colorScheme: theme, acceptDownloads: true});
+/// Opens the page of a door, or a file. `before` runs in the page ahead of its scripts.
+export async function open_page(url, {theme = 'light', window = kWindow, before} = {}) {
+  const context = await browser.newContext({viewport: window, colorScheme: theme, acceptDownloads: true});
   context.setDefaultTimeout(kPatience_ms);
+  if (before) await context.addInitScript(before);
   const page = new Page(await context.newPage(), url);
   await page.open();
   return page;
@@ -129,8 +130,10 @@ export class Page {
     return read_png(await this.tab.screenshot({clip}));
   }
 
-  /// Waits for two frames: what was asked to be drawn in the first is on the screen in the second.
-  drawn() {
-    return this.tab.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+  /// Waits until all that was asked for is drawn, and one frame more, which puts it on the screen.
+  async drawn() {
+    await this.tab.evaluate(() => new Promise(requestAnimationFrame));
+    await this.until(({isDrawn}) => isDrawn);
+    await this.tab.evaluate(() => new Promise(requestAnimationFrame));
   }
 }

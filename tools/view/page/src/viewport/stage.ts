@@ -66,6 +66,11 @@ export class Stage {
     this.resize();
   }
 
+  /** Whether the last frame is drawn, and no other one is due. */
+  get isDrawn(): boolean {
+    return !this.isDue && this.fence.isPassed;
+  }
+
   get pixelRatio(): number {
     return this.renderer.getPixelRatio();
   }

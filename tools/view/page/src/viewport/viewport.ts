@@ -135,6 +135,10 @@ export class Viewport {
     return this.frame.toPose(place, new Quaternion()).position;
   }
 
+  get isDrawn(): boolean {
+    return this.stage.isDrawn;
+  }
+
   get upAxis(): UpAxis {
     return this.up;
   }
