@@ -102,6 +102,15 @@ test('a box is added and moved by the mouse, another tab shows it, and its mesh 
   await other.close();
 });
 
+test('a click names the part of a file that has names', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  await page.tab.mouse.click(...await page.place_of([9, 5.1, 8]));
+  await page.until(({state}) => state.selection?.object === 'office');
+  await page.tab.locator('.labels [data-kind="object"]', {hasText: /^office: \w+/}).waitFor();
+  await page.close();
+});
+
 test('storeys are opened by buttons, and a window of another size shows all of the scene', async () => {
   const page = await open_page(door.url);
   await page.ready();

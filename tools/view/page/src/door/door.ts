@@ -13,6 +13,7 @@ import {
   fetchFields,
   fetchLast,
   fetchMesh,
+  fetchPart,
   fetchReview,
   fetchStatus,
   fetchTriangles,
@@ -123,6 +124,7 @@ export function openDoor(store: Store, page: PageParts): Backing {
     sources: {
       mesh: (digest) => fetchMesh(sceneName ?? '', digest),
       triangles: (indices) => fetchTriangles(sceneName ?? '', indices),
+      part: (point, reach_m) => fetchPart(sceneName ?? '', point, reach_m),
     },
     request: undefined,
     facts: { fields: [], exports: [], status: undefined },

@@ -30,6 +30,8 @@ const kMostLabels = 2000;
 export interface Picked {
   name: string;
   point: Vector3;
+  /** The part of the object there, where its file has names; undefined until it is known. */
+  part: string | undefined;
 }
 
 export class Content {
@@ -111,7 +113,8 @@ export class Content {
     if (selection && 'object' in selection) {
       const bounds = scene?.objects.find(({ name }) => name === selection.object)?.bounds;
       const at = picked?.point ?? (bounds && this.extent.boxOf(bounds).getCenter(new Vector3()));
-      if (at) labels.unshift({ text: selection.object, at, kind: 'object' });
+      const part = picked?.part === undefined ? '' : `: ${picked.part}`;
+      if (at) labels.unshift({ text: `${selection.object}${part}`, at, kind: 'object' });
     }
     return labels.sort((a, b) => Number(a.kind === 'keyframe') - Number(b.kind === 'keyframe'));
   }
