@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What must not be lost: edits when the connection drops or the page is loaded again, and poses to a stray key.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import test, {after} from 'node:test';
 
 import {browser, open_page as open_window} from './browser.mjs';
@@ -15,30 +16,8 @@ after(async () => {
   assert.equal(await door.end(), 0, door.output);
 });
 
-/// Opens a page whose sockets the test can reach.
-async function open_page(url) {
-  return open_window(url, {
-    window: kSmall,
-    before: () => {
-      window.sockets = [];
-      window.WebSocket = class extends WebSocket {
-        constructor(...words) {
-          super(...words);
-          window.sockets.push(this);
-        }
-      };
-    },
-  });
-}
-
-/// Has the door close the socket: it takes no bytes that are not text.
-function drop(page) {
-  return page.tab.evaluate(() => {
-    const socket = window.sockets.at(-1);
-    const closed = new Promise(done => socket.addEventListener('close', ({code}) => done(code)));
-    socket.send(new Uint8Array(1));
-    return closed;
-  });
+function open_page(url) {
+  return open_window(url, {window: kSmall});
 }
 
 test('a socket that the door closes is opened again, and what was asked is answered', async () => {
@@ -47,7 +26,7 @@ test('a socket that the door closes is opened again, and what was asked is answe
   const given = (await page.state()).request.keyframes[0].position[0];
   await page.tab.keyboard.press('n');
   // The edit is made before the page has heard of the close, so its plan is lost with the socket.
-  const closed = drop(page);
+  const closed = page.drop_socket();
   await page.tab.keyboard.press('Alt+PageUp');
   assert.equal(await closed, 1003);
   await page.until(() => window.sockets.length === 2 && window.sockets[1].readyState === WebSocket.OPEN);
@@ -75,7 +54,7 @@ test('while there is no connection the bar says so, and edits are kept and plann
       }
     };
   });
-  await drop(page);
+  await page.drop_socket();
   await page.tab.locator('#status', {hasText: 'connection lost, trying again'}).waitFor();
   await page.tab.locator('#message', {hasText: 'The connection to camway is lost'}).waitFor();
   await page.tab.keyboard.press('n');
@@ -122,7 +101,6 @@ test('an option that is refused is marked, and the path is still drawn', async (
   const refused = await open_door('--scene', scene_file('office'));
   const page = await open_page(refused.url);
   await page.ready();
-  const fs = await import('node:fs');
   const [chooser] = await Promise.all([page.tab.waitForEvent('filechooser'), page.tab.keyboard.press('Control+o')]);
   const request = JSON.parse(fs.readFileSync(request_with('office-wall-rooms', {clearance_m: -1, chord_error_m: 0.01}), 'utf8'));
   await chooser.setFiles({name: 'wrong.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(request))});
