@@ -14,6 +14,8 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
+#include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/session/session_files.h"
 #include "tools/json/json_response.h"
 #include "tools/support/output_file.h"
 
@@ -63,15 +65,14 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
 
 /// Writes the response to each request as a file. Returns an error text, empty on success. Client
 /// ids consist of letters, digits, '-' and '_', so they are valid file names.
-std::string write_responses(const ReplayFlags& flags, const Session& session, const Scenes& scenes,
+std::string write_responses(const ReplayFlags& flags, const Session& session,
                             const std::vector<ReplayedRequest>& replayed) {
   for (std::size_t i = 0; i < replayed.size(); ++i) {
     const RecordedRequest& recorded = session.requests[i];
     ResponseFormat format;
     format.has_timing = !flags.no_timing;
     format.scene = recorded.scene;
-    const auto scene = scenes.find(recorded.scene);
-    if (scene != scenes.end()) format.scene_digest = scene->second->digest;
+    format.scene_digest = replayed[i].scene_digest;
     const base::Result<std::string> text = write_plan_response(replayed[i].result, format);
     if (!text) return "the response cannot be written: " + text.error;
     const std::string name =
@@ -103,7 +104,9 @@ std::string make_responses_dir(const std::string& folder) {
 
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::string& prefix = flags.publishing.prefix;
-  const Session session = read_session(flags.log, prefix, keys);
+  const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
+  if (!files) return invalid_input(files.error);
+  const Session session = read_session(files->logs(), prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty() && session.other_version > 0) {
     return invalid_input(fmt::format(
@@ -122,19 +125,25 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (const std::string fault = make_responses_dir(flags.responses_dir); !fault.empty()) {
     return invalid_input(fault);
   }
-  const std::optional<Scenes> scenes = load_scenes(flags.scenes);
-  if (!scenes) return ExitCode::kInvalidInput;
-  const std::vector<std::string> missing = missing_scenes(session, *scenes);
+  std::optional<Scenes> named = load_scenes(flags.scenes);
+  if (!named) return ExitCode::kInvalidInput;
+  // What the user names goes before what was recorded.
+  SceneChain scenes;
+  scenes.add(std::make_unique<NamedScenes>(*std::move(named)));
+  const auto blobs = blob_folders_of(files->logs());
+  scenes.add(std::make_unique<SessionScenes>(session, blobs));
+  scenes.add(std::make_unique<DigestScenes>(session, blobs));
+  const std::vector<std::string> missing = missing_scenes(session, scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
                             wire::printable(name), wire::printable(name)));
   }
   if (!missing.empty()) return ExitCode::kInvalidInput;
-  const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
+  const std::vector<ReplayedRequest> replayed = replay(session, scenes, flags.run);
   fmt::print("{}", report(session, replayed, flags.no_timing ? Times::kHidden : Times::kShown));
   ExitCode outcome = verdict_code(session, replayed);
   if (!flags.responses_dir.empty()) {
-    const std::string error = write_responses(flags, session, *scenes, replayed);
+    const std::string error = write_responses(flags, session, replayed);
     if (!error.empty()) outcome = worse(outcome, invalid_input(error));
   }
   return outcome;
@@ -204,7 +213,7 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
-  command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
+  command->add_option("LOG", flags->log, "What was recorded: a log of lcm-logger, or a folder of camwayd --record")->required();
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
   command

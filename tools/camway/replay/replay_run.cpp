@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -16,20 +15,15 @@ namespace {
 using planning::PlanResult;
 using planning::Status;
 
-bool scene_was_unknown(const RecordedRequest& request) {
-  return request.answer && request.answer->result &&
-         request.answer->result->status == plan_response_t::STATUS_UNKNOWN_SCENE;
-}
-
-PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
+/// Plans a request again; `scene` may be null.
+PlanResult plan_again(const RecordedRequest& recorded, const scene::Snapshot* scene) {
   PlanResult result;
   if (!recorded.request) {
     result.status = Status::kInvalid;
     result.message = recorded.error;
     return result;
   }
-  const auto scene = scenes.find(recorded.scene);
-  if (scene == scenes.end()) {
+  if (scene == nullptr) {
     result.status = Status::kUnknownScene;
     result.message = "no scene '" + recorded.scene + "'";
     return result;
@@ -40,38 +34,38 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
     request.options.bounds =
         request.options.bounds.within(messages::from_wire(recorded.answer->result->bounds));
   }
-  result = planning::plan(*scene->second, request);
-  planning::name_witnesses(scene->second->mesh, request, result);
+  result = planning::plan(*scene, request);
+  planning::name_witnesses(scene->mesh, request, result);
   return result;
+}
+
+ReplayedRequest replay_one(const RecordedRequest& recorded, ReplayScenes& scenes,
+                           double tolerance_m) {
+  ReplayedRequest item;
+  const FoundScene found = recorded.request ? scenes.snapshot_of(recorded) : FoundScene{};
+  item.result = plan_again(recorded, found.snapshot.get());
+  if (!found.why_not.empty()) {
+    item.note = found.why_not;
+    return item;
+  }
+  static_cast<Judgement&>(item) = judge(recorded, item.result, tolerance_m);
+  if (found.snapshot == nullptr) return item;
+  item.scene_digest = found.snapshot->digest;
+  item.scene_changed = recorded.answer && !recorded.answer->scene_digest.empty() &&
+                       recorded.answer->scene_digest != item.scene_digest;
+  return item;
 }
 
 }  // namespace
 
-std::vector<std::string> missing_scenes(const Session& session, const Scenes& scenes) {
-  std::set<std::string> missing;
-  for (const RecordedRequest& request : session.requests) {
-    if (request.request && !scenes.contains(request.scene) && !scene_was_unknown(request)) {
-      missing.insert(request.scene);
-    }
-  }
-  return {missing.begin(), missing.end()};
-}
-
-std::vector<ReplayedRequest> replay(const Session& session, const Scenes& scenes,
+std::vector<ReplayedRequest> replay(const Session& session, ReplayScenes& scenes,
                                     const ReplayOptions& options) {
   std::vector<ReplayedRequest> replayed(session.requests.size());
   std::atomic<std::size_t> next{0};
-  // Threads share the counter only: each writes the elements whose indices it took.
+  // Threads share the counter and the scenes only: each writes the elements whose indices it took.
   const auto work = [&] {
     for (std::size_t i = next++; i < replayed.size(); i = next++) {
-      const RecordedRequest& recorded = session.requests[i];
-      ReplayedRequest& item = replayed[i];
-      item.result = plan_again(recorded, scenes);
-      static_cast<Judgement&>(item) = judge(recorded, item.result, options.tolerance_m);
-      const auto scene = scenes.find(recorded.scene);
-      item.scene_changed = scene != scenes.end() && recorded.answer &&
-                           !recorded.answer->scene_digest.empty() &&
-                           recorded.answer->scene_digest != scene->second->digest;
+      replayed[i] = replay_one(session.requests[i], scenes, options.tolerance_m);
     }
   };
   std::vector<std::jthread> threads;

@@ -68,7 +68,8 @@ class ReplayTest : public ::testing::Test {
                                                  unsigned threads = 1) const {
     ReplayOptions options;
     options.threads = threads;
-    return replay(session, scenes_, options);
+    NamedScenes scenes(scenes_);
+    return replay(session, scenes, options);
   }
 
   TemporaryFolder folder_;
@@ -135,7 +136,8 @@ TEST_F(ReplayTest, SeesAChangedAnswer) {
 
   ReplayOptions tolerant;
   tolerant.tolerance_m = 1e-9;
-  const auto within = replay(recorded, scenes_, tolerant);
+  NamedScenes scenes(scenes_);
+  const auto within = replay(recorded, scenes, tolerant);
   EXPECT_EQ(within[0].verdict, Verdict::kAgrees);
   EXPECT_EQ(within[1].verdict, Verdict::kDiffers);
 }
@@ -231,8 +233,8 @@ TEST_F(ReplayTest, KnowsWhichScenesItLacks) {
   log_.add_request(request, {"client", 3, 0});
   log_.add_answer(unknown, {{"client", 3, 0}, "nowhere", 0, ""});
   const Session recorded = session();
-  EXPECT_THAT(missing_scenes(recorded, scenes_), ElementsAre("office"));
-  EXPECT_THAT(missing_scenes(recorded, {}), ElementsAre("office", "wall"));
+  EXPECT_THAT(missing_scenes(recorded, NamedScenes(scenes_)), ElementsAre("office"));
+  EXPECT_THAT(missing_scenes(recorded, NamedScenes({})), ElementsAre("office", "wall"));
   const auto replayed = run(recorded);
   EXPECT_EQ(replayed[2].verdict, Verdict::kAgrees);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/cameras/formats/mcap_file.h"
+#include "tools/cameras/files/mcap_file.h"
 
 #include <utility>
 
