@@ -113,8 +113,9 @@ export function openDoor(store: Store, page: PageParts): Backing {
         await start();
         return;
       } catch (error) {
-        onError(lostMessage(error));
-        if (error instanceof DoorError && error.code === kForbidden) return;
+        const isRefused = error instanceof DoorError && error.code === kForbidden;
+        onError(error instanceof DoorError && !isRefused ? error.message : lostMessage(error));
+        if (isRefused) return;
       }
       await new Promise((done) => setTimeout(done, kStartPause_ms));
     }

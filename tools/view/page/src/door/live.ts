@@ -112,9 +112,9 @@ export class PathWatch {
     );
   }
 
-  /** Watches again what was watched when the connection was lost. */
+  /** Watches again where a path was watched when the connection was lost, as it was edited since. */
   resume(): void {
-    if (this.id === undefined && this.request) this.start(this.request);
+    if (this.id === undefined && this.request) this.start(this.store.now.request ?? this.request);
   }
 
   stop(): void {
