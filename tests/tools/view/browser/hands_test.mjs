@@ -48,9 +48,12 @@ async function drag(page, [x, y], [dx, dy]) {
   await page.tab.mouse.up();
 }
 
-test('handles turn a keyframe and leave it where it is', async () => {
+test('a click names the part of a file, and handles turn a keyframe and leave it where it is', async () => {
   const page = await open_page(door.url);
   await page.ready();
+  await page.tab.mouse.click(...await page.place_of([9, 5.1, 8]));
+  await page.until(({state}) => state.selection?.object === 'office');
+  await page.tab.locator('.labels [data-kind="object"]', {hasText: /^office: \w+/}).waitFor();
   const {keyframes: [given]} = (await page.state()).request;
   await page.tab.keyboard.press('n');
   await page.button('Handles that turn').click();
@@ -102,15 +105,6 @@ test('a box is added and moved by the mouse, another tab shows it, and its mesh 
   await other.close();
 });
 
-test('a click names the part of a file that has names', async () => {
-  const page = await open_page(door.url);
-  await page.ready();
-  await page.tab.mouse.click(...await page.place_of([9, 5.1, 8]));
-  await page.until(({state}) => state.selection?.object === 'office');
-  await page.tab.locator('.labels [data-kind="object"]', {hasText: /^office: \w+/}).waitFor();
-  await page.close();
-});
-
 test('storeys are opened by buttons, and a window of another size shows all of the scene', async () => {
   const page = await open_page(door.url);
   await page.ready();
@@ -140,7 +134,7 @@ test('storeys are opened by buttons, and a window of another size shows all of t
   await page.close();
 });
 
-test('each export is chosen with the keyboard, and has its extension', async () => {
+test('each export is chosen with the keyboard, and has its extension; what is refused is said', async () => {
   const page = await open_page(door.url);
   await page.ready();
   await page.show_panel('File');
@@ -160,13 +154,7 @@ test('each export is chosen with the keyboard, and has its extension', async () 
     assert.equal(download.suggestedFilename(), `request${extension}`);
     assert.ok(fs.statSync(await download.path()).size > 100, value);
   }
-  await page.close();
-});
-
-test('an export that the door refuses is said', async () => {
-  const page = await open_page(door.url);
-  await page.ready();
-  await page.show_panel('File');
+  // One that the door refuses is said.
   await page.tab.route(/\/v1\/export/, route => route.continue({url: route.request().url().replace(/format=\w+/, 'format=none')}));
   await page.button('Export').click();
   await page.tab.locator('#message', {hasText: 'is none of'}).waitFor();
