@@ -24,10 +24,10 @@ foreach(file bin/camwayd bin/camway ${importers} lib/systemd/system/camwayd.serv
   endif()
 endforeach()
 
-# Every link of an installed document leads to an installed file, also where only the client is.
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/client --component client
+# Every link of an installed document leads to an installed file, also where only the documents are.
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/doc --component doc
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-foreach(folder ${prefix} ${WORK_DIR}/client)
+foreach(folder ${prefix} ${WORK_DIR}/doc)
   execute_process(COMMAND ${PYTHON} -B ${CMAKE_CURRENT_LIST_DIR}/../documents/check_links.py --source ${folder} --links-only
                   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT code EQUAL 0)
