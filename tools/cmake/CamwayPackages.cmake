@@ -73,21 +73,23 @@ camway_package(daemon camwayd net SHARED DEPENDS "adduser, camway ${exact}" SUGG
   DESCRIPTION "The daemon holds scenes and answers requests for paths, by messages of LCM.
 The package has a unit of systemd, which nothing starts before you have put
 your scenes into the configuration, and a system user for it.")
-if(library IN_LIST installed)
-  include(${CMAKE_CURRENT_LIST_DIR}/CamwayLibraryPackage.cmake OPTIONAL)
-endif()
-if(client IN_LIST installed)
-  set(depends "liblcm-dev")
-  if(CAMWAY_LIBRARY_PACKAGE)
-    string(PREPEND depends "${CAMWAY_LIBRARY_PACKAGE} ${exact}, ")
-  endif()
-  camway_package(client libcamway-client-dev libdevel DEPENDS "${depends}"
-    RECOMMENDS "libsodium-dev" SUGGESTS "camway-doc"
-    SUMMARY "C++ client of Camway's daemon, and its messages"
-    DESCRIPTION "Headers, library, and files for CMake and pkg-config, to plan camera paths
+# A program finds the library whose ABI it was linked with, so the package of each is named after its ABI.
+camway_package(library libcamway${camway_cxx_abi} libs SHARED
+  SUMMARY "shared library of Camway's client, for C++"
+  DESCRIPTION "Programs that were linked with this library ask a running camwayd for paths.")
+camway_package(library_c libcamway-c${camway_c_abi_major} libs SHARED
+  SUMMARY "shared library of Camway's client, for C"
+  DESCRIPTION "Programs in C and other languages that were linked with this library ask a
+running camwayd for paths.")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS TRUE)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(libraries "libcamway${camway_cxx_abi} ${exact}, libcamway-c${camway_c_abi_major} ${exact}")
+camway_package(client libcamway-client-dev libdevel DEPENDS "${libraries}, liblcm-dev"
+  RECOMMENDS "libsodium-dev" SUGGESTS "camway-doc"
+  SUMMARY "client of Camway's daemon for C++ and C, and its messages"
+  DESCRIPTION "Headers, libraries, and files for CMake and pkg-config, to plan camera paths
 from programs by a running camwayd; and the types of its messages as .lcm
 files, for other languages.")
-endif()
 if(python IN_LIST installed)
   camway_package(python python3-camway python ALL DEPENDS "python3 (>= 3.9)"
     SUMMARY "Python client of Camway's daemon"

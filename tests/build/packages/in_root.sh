@@ -113,8 +113,12 @@ remove_and_purge() {
   step "remove, then purge"
   dpkg --remove "${names[@]}" >>dpkg.log 2>&1
   [[ -e /etc/camway/camwayd.toml ]] || fail "removing takes the configuration"
-  ! command -v camway >/dev/null || fail "camway is still there"
-  dpkg --purge "${names[@]}" >>dpkg.log 2>&1
+  [[ ! -e /usr/bin/camway ]] || fail "camway is still there"
+  local kept
+  mapfile -t kept < <(dpkg-query --show --showformat '${db:Status-Abbrev} ${Package}\n' "${names[@]}" 2>/dev/null |
+    sed -n 's/^rc *//p')
+  [[ ${kept[*]} == camwayd ]] || fail "these keep a configuration: ${kept[*]}"
+  dpkg --purge "${kept[@]}" >>dpkg.log 2>&1
   ! grep -E '^dpkg: warning' dpkg.log || fail "dpkg warns"
   ! getent passwd "$user" >/dev/null || fail "the user $user is still there"
   local left
