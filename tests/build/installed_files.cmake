@@ -18,6 +18,9 @@ foreach(file bin/camwayd bin/camway ${importers} lib/systemd/system/camwayd.serv
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/lcmtypes/README.md
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
+             share/man/man1/camway.1 share/man/man1/camway-scene.1 share/man/man5/camwayd.toml.5
+             share/man/man8/camwayd.8 share/bash-completion/completions/camway
+             share/zsh/site-functions/_camwayd share/fish/vendor_completions.d/camway.fish
              include/camway/client.h)
   if(NOT EXISTS ${prefix}/${file})
     message(SEND_ERROR "${file} is not installed")

@@ -34,6 +34,10 @@ kPackages=(
   libsqlite3-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
+  # packages of Camway: what they depend on, and the user that they make
+  dpkg-dev file adduser
+  # tests of the manual and of the completions
+  man-db groff-base zsh fish
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it

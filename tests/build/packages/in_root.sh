@@ -26,10 +26,16 @@ has() { [[ " ${names[*]} " == *" $1 "* ]]; }
 
 install_packages() {
   step "install ${names[*]}"
+  # Images for containers leave out pages and documents.
+  local all="--path-include=/usr/share/*"
   if [[ $way == --apt ]]; then
-    apt-get -qq -y install --no-install-recommends ./packages/*.deb >apt.log 2>&1 || { cat apt.log >&2; exit 1; }
+    # Beside what the packages need, what their users have: a compiler, a build system, a reader of pages.
+    {
+      apt-get -qq -y install --no-install-recommends g++ make cmake pkg-config man-db
+      apt-get -qq -y install --no-install-recommends -o DPkg::Options::="$all" ./packages/*.deb
+    } >apt.log 2>&1 || { cat apt.log >&2; exit 1; }
   else
-    dpkg --install packages/*.deb >dpkg.log 2>&1 || { cat dpkg.log >&2; exit 1; }
+    dpkg "$all" --install packages/*.deb >dpkg.log 2>&1 || { cat dpkg.log >&2; exit 1; }
   fi
   dpkg --verify "${names[@]}"
 }
