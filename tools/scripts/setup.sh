@@ -34,6 +34,8 @@ kPackages=(
   libsqlite3-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
+  # the package for Python, which the build works without, and the check of its types
+  python3-dev python3-numpy pybind11-dev mypy
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it
