@@ -38,6 +38,8 @@ kPackages=(
   dpkg-dev file adduser
   # tests of the manual and of the completions
   man-db groff-base zsh fish
+  # the package for Python, which the build works without, and the check of its types
+  python3-dev python3-numpy pybind11-dev mypy
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it
