@@ -14,6 +14,7 @@
 set -euo pipefail
 cd "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../.."
 readonly kName=release
+readonly kDebian=bookworm  # whose packages the programs are linked with
 # shellcheck source=tools/scripts/steps.sh
 source tools/scripts/steps.sh
 
@@ -41,25 +42,38 @@ pack_sources() {
   [[ -z $(git status --porcelain --untracked-files=no) ]] || say "what is not committed is left out"
   mkdir -p "$out"
   rm -f "$out"/*
-  git -c tar.umask=0022 archive --format=tar --prefix="camway-$version/" HEAD | gzip -9 -n >"$out/camway-$version.tar.gz"
+  git -c tar.umask=0022 archive --format=tar --prefix="camway-$version/" HEAD | gzip -9 -n \
+    >"$out/camway-$version.tar.gz"
 }
 
-# build_packages FOLDER OUT: of the tarball, so that it is complete.
+# quietly LOG COMMAND...: shows what the command says only if it fails.
+quietly() {
+  local log=$1
+  shift
+  "$@" >"$log" 2>&1 || { cat "$log"; return 1; }
+}
+
+has_page() {
+  [[ $(<build/release/tools/view/page/embed/made/parts.json) != '[]' ]] || { say "the page was not built"; return 1; }
+}
+
+# build_packages FOLDER OUT: of the tarball, so that it is complete. `step` turns `set -e` off, so each
+# command is tested.
 build_packages() {
-  local sources=$1/camway-$version to
+  local sources=$1/camway-$version to packed
   mkdir -p "$1" "$2"
   to=$(realpath "$2")
-  tar -x -z -f "$out/camway-$version.tar.gz" -C "$1"
+  tar -x -z -f "$out/camway-$version.tar.gz" -C "$1" && mkdir -p "$sources/build" || return
   (
-    cd "$sources"
-    mkdir -p build
-    cmake --preset release -DCAMWAY_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr >build/configure.log || { cat build/configure.log; exit 1; }
-    cmake --build --preset release --parallel "$(build_jobs)" | count_in_tenths
-    [[ $(<build/release/tools/view/page/embed/made/parts.json) != '[]' ]] || { say "the page was not built"; exit 1; }
-    cpack --config build/release/CPackConfig.cmake -B build/packages >build/cpack.log 2>&1 || { cat build/cpack.log; exit 1; }
-  )
-  mv "$sources"/build/packages/*.deb "$to"
-  dpkg-deb --fsys-tarfile "$to"/camway_*.deb | tar -x -O ./usr/share/doc/camway/sbom.spdx.json >"$to/camway-$version.spdx.json"
+    cd "$sources" &&
+      quietly build/configure.log cmake --preset release -DCAMWAY_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr &&
+      CCACHE_BASEDIR=$PWD cmake --build --preset release --parallel "$(build_jobs)" | count_in_tenths &&
+      has_page &&
+      quietly build/cpack.log cpack --config build/release/CPackConfig.cmake -B build/packages
+  ) || return
+  mv "$sources"/build/packages/*.deb "$to" || return
+  packed=$(echo "$to"/camway_*.deb)
+  dpkg-deb --fsys-tarfile "$packed" | tar -x -O ./usr/share/doc/camway/sbom.spdx.json >"$to/camway-$version.spdx.json"
 }
 
 write_checksums() {
@@ -78,9 +92,9 @@ print_sizes() {
 build_again() {
   local again
   again=$(mktemp -d)
-  CCACHE_DISABLE=1 build_packages "$again/elsewhere" "$again/out"
-  (cd "$out" && sha256sum --quiet --ignore-missing -c SHA256SUMS && grep -v '\.tar\.gz$' SHA256SUMS) >"$again/sums"
-  (cd "$again/out" && sha256sum --quiet -c "$again/sums")
+  CCACHE_DISABLE=1 build_packages "$again/elsewhere" "$again/out" || return
+  grep -v '\.tar\.gz$' "$out/SHA256SUMS" >"$again/sums"
+  (cd "$again/out" && sha256sum -c "$again/sums") || return
   rm -rf "$again"
 }
 
@@ -92,9 +106,8 @@ run_lintian() {
 install_in_fresh_debian() {
   local work
   work=$(mktemp -d)
-  debootstrap --variant=minbase "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$work/debian" >"$work/log" 2>&1 ||
-    { tail "$work/log"; return 1; }
-  tests/build/packages_test.sh --packages "$out" --work "$work/test" --root "$work/debian" --apt
+  quietly "$work/log" debootstrap --variant=minbase "$kDebian" "$work/debian" || return
+  tests/build/packages_test.sh --packages "$out" --work "$work/test" --root "$work/debian" --apt || return
   rm -rf "$work"
 }
 
@@ -107,7 +120,7 @@ fi
 step "Sources" pack_sources
 rm -rf "$folder"
 step "Build and packages" build_packages "$folder" "$out"
-rm -rf "$folder" $made
+rm -rf "$folder" "${made:-$folder}"
 step "Checksums" write_checksums
 print_sizes
 if $is_check; then
