@@ -31,8 +31,8 @@ done
 
 pack() {
   # gzip packs a development build in a third of the time of xz.
-  cpack --config "$build/CPackConfig.cmake" -B "$work/packed" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$work/cpack.log" 2>&1 ||
-    { cat "$work/cpack.log"; exit 1; }
+  cpack --config "$build/CPackConfig.cmake" -B "$work/packed" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip \
+    >"$work/cpack.log" 2>&1 || { cat "$work/cpack.log"; exit 1; }
   mv "$work"/packed/*.deb "$work/shared/packages"
   rm -rf "$work/packed"
 }
@@ -50,8 +50,8 @@ prepare() {
 # all packages.
 is_bookkeeping() {
   case $1 in
-    ./var/lib/dpkg/* | ./var/log/* | ./var/cache/* | ./var/lib/apt/* | ./etc/ld.so.cache | ./etc/*- | ./var/lib/systemd/* | \
-      ./run/* | ./tmp/* | ./etc/.pwd.lock | ./mnt/* | ./dev/* | ./etc/resolv.conf) return 0 ;;
+    ./var/lib/dpkg/* | ./var/lib/apt/* | ./var/lib/systemd/deb-systemd-helper* | ./var/log/*) return 0 ;;
+    ./var/cache/* | ./etc/ld.so.cache | ./etc/*- | ./etc/.pwd.lock | ./run/* | ./mnt/*) return 0 ;;
   esac
   return 1
 }

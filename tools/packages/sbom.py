@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Writes a bill of materials (SPDX 2.3, JSON) of the built programs, from what they are really made of: the
-shared libraries that the loader finds, the static libraries and the headers that the build read, and the packages of npm
-in the page of `camway view`.
+shared libraries that the loader finds, the static libraries and the headers that the build read, and the packages
+of npm in the page of `camway view`.
 
     sbom.py --build DIR --version V --out FILE PACKAGE=FILE[,FILE...]...
 
@@ -68,8 +68,8 @@ def owners(files):
     names = {}
     for file in files:
         for name in {file, os.path.realpath(file)}:
-            names.update({name: file, name.replace("/usr/lib/", "/lib/"): file, re.sub("^/lib/", "/usr/lib/", name): file}
-                         if "/include/" not in name else {name: file})
+            for alias in (name, re.sub("^/lib/", "/usr/lib/", name), re.sub("^/usr/lib/", "/lib/", name)):
+                names[alias] = file
     found = {}
     for line in output("dpkg", "-S", *sorted(names), check=False).splitlines():
         packages, _, name = line.partition(": ")
@@ -81,7 +81,8 @@ def owners(files):
 def debian_package(name):
     """The entry of a Debian package."""
     form = "${Version}\t${source:Package}\t${source:Version}\t${Architecture}\n"
-    version, source, source_version, architecture = output("dpkg-query", "-W", "-f", form, name).split("\n")[0].split("\t")
+    fields = output("dpkg-query", "-W", "-f", form, name).split("\n")[0].split("\t")
+    version, source, source_version, architecture = fields
     return entry(f"deb-{name}", name, version, LICENCES.get(source, "NOASSERTION"),
                  f"pkg:deb/debian/{name}@{version}?arch={architecture}",
                  f"built from the Debian source package {source} {source_version}")

@@ -52,7 +52,10 @@ use_tools() {
 }
 
 show_manual() {
-  command -v man >/dev/null && command -v groff >/dev/null || { echo "no man here: its pages are not shown"; return; }
+  if ! command -v man >/dev/null || ! command -v groff >/dev/null; then
+    echo "no man here: its pages are not shown"
+    return
+  fi
   step "show the manual"
   local page said
   for page in "1 camway" "1 camway-plan" "1 camway-scene" "8 camwayd" "5 camwayd.toml" "8 camway-import"; do
@@ -74,11 +77,12 @@ complete_words() {
 start_daemon() {
   step "start the daemon as $user"
   getent passwd "$user" >/dev/null || fail "there is no user $user"
-  [[ -z $(find /etc/systemd/system -name 'camwayd*' 2>/dev/null) ]] || fail "the daemon is enabled without a configuration"
+  [[ -z $(find /etc/systemd/system -name 'camwayd*' 2>/dev/null) ]] || fail "the package enables the daemon"
   # What systemd makes for CacheDirectory= and StateDirectory=.
   install -d -o "$user" -g "$user" -m 700 /var/cache/camway /var/lib/camway
-  local command
-  command=$(sed -n 's/^ExecStart="\(.*\)" /\1 /p' "$(find /lib/systemd /usr/lib/systemd -name camwayd.service | head -1)")
+  local command unit
+  unit=$(find /lib/systemd /usr/lib/systemd -name camwayd.service | head -1)
+  command=$(sed -n 's/^ExecStart="\(.*\)" /\1 /p' "$unit")
   [[ $command == "/usr/bin/camwayd --config /etc/camway/camwayd.toml" ]] || fail "the unit starts '$command'"
   # shellcheck disable=SC2086
   CAMWAY_CACHE_DIR=/var/cache/camway setpriv --reuid "$user" --regid "$user" --clear-groups \
@@ -103,13 +107,16 @@ stop_daemon() {
 compile_client() {
   command -v c++ >/dev/null || { echo "no compiler here: no client is compiled"; return; }
   step "compile a client by CMake and by pkg-config"
-  cmake -S user -B by_cmake >cmake.log && cmake --build by_cmake >>cmake.log || { cat cmake.log >&2; exit 1; }
+  if ! { cmake -S user -B by_cmake && cmake --build by_cmake; } >cmake.log 2>&1; then
+    cat cmake.log >&2
+    exit 1
+  fi
   by_cmake/user
   if pkg-config --exists camway-client; then
     # shellcheck disable=SC2046
     c++ -std=c++17 user/user.cpp -o by_pkg_config $(pkg-config --cflags --libs camway-client)
     ./by_pkg_config
-    ! has libcamway0.1 || readelf -d by_pkg_config | grep -q 'libcamway\.so\.0' || fail "it is not linked with the shared library"
+    readelf -d by_pkg_config | grep -q 'libcamway\.so\.0' || fail "it does not use the shared library"
   fi
   lcm-gen --version >/dev/null 2>&1 || return 0
   lcm-gen --python --ppath types /usr/share/camway/lcmtypes/*.lcm
@@ -123,14 +130,13 @@ remove_and_purge() {
   local kept
   mapfile -t kept < <(dpkg-query --show --showformat '${db:Status-Abbrev} ${Package}\n' "${names[@]}" 2>/dev/null |
     sed -n 's/^rc *//p')
-  [[ ${kept[*]} == camwayd ]] || fail "these keep a configuration: ${kept[*]}"
+  [[ " ${kept[*]} " == *" camwayd "* ]] || fail "dpkg forgot the configuration of camwayd"
   dpkg --purge "${kept[@]}" >>dpkg.log 2>&1
   ! grep -E '^dpkg: warning' dpkg.log || fail "dpkg warns"
   ! getent passwd "$user" >/dev/null || fail "the user $user is still there"
   local left
-  left=$(find / -xdev \( -path "$PWD" -o -path /proc -o -path /sys \) -prune -o \
-    \( -iname '*camway*' -not -path '/var/lib/dpkg/*' -not -path '/var/log/*' -not -path '*/lost+found/*' \) -newer start \
-    -print 2>/dev/null | head)
+  left=$(find / -xdev \( -path "$PWD" -o -path /proc -o -path /sys -o -path /var/lib/dpkg -o -path /var/log \) \
+    -prune -o -iname '*camway*' -newer start -print 2>/dev/null | head)
   [[ -z $left ]] || fail "a purge leaves $left"
 }
 
