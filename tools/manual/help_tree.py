@@ -41,7 +41,7 @@ class Option:
     @property
     def short_description(self):
         """Its first clause, for lists."""
-        return re.split(r"[;:.(\[] |; | \(| \[|\. ", self.description)[0].strip()
+        return re.split(r"[;:.] | [(\[]", self.description)[0].strip()
 
 
 @dataclasses.dataclass

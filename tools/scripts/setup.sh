@@ -34,7 +34,7 @@ kPackages=(
   libsqlite3-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
-  # packages of Camway: what they depend on, and the user that they make
+  # to pack Camway: finds the libraries that a package depends on; and makes the user of the daemon
   dpkg-dev file adduser
   # tests of the manual and of the completions
   man-db groff-base zsh fish

@@ -31,7 +31,7 @@ install_packages() {
   if [[ $way == --apt ]]; then
     # Beside what the packages need, what their users have: a compiler, a build system, a reader of pages.
     {
-      apt-get -qq -y install --no-install-recommends g++ make cmake pkg-config man-db
+      apt-get -qq -y install --no-install-recommends g++ make cmake pkg-config man-db python3
       apt-get -qq -y install --no-install-recommends -o DPkg::Options::="$all" ./packages/*.deb
     } >apt.log 2>&1 || { cat apt.log >&2; exit 1; }
   else
