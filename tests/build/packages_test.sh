@@ -6,8 +6,8 @@
 #
 #   packages_test.sh --build DIR --work DIR [--root DIR --apt] [--packages DIR]
 #
-# The root is an overlay of this machine's, or of DIR. Exit code 77: namespaces or overlays are not allowed
-# here, or this is not root, so that a daemon could not become its user.
+# The root is an overlay of this machine's, or of DIR. Exit code 77: this is not Debian, namespaces or overlays
+# are not allowed here, or this is not root, so that a daemon could not become its user.
 set -euo pipefail
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 readonly here
@@ -87,6 +87,10 @@ run_inside() {
 }
 
 if ! $inside; then
+  if ! command -v dpkg-shlibdeps >/dev/null || ! command -v file >/dev/null; then
+    echo "not run: this needs dpkg-dev and file" >&2
+    exit 77
+  fi
   if [[ $EUID -ne 0 ]] || ! unshare --mount true 2>/dev/null; then
     echo "not run: this needs root and namespaces of mounts" >&2
     exit 77
