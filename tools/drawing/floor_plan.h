@@ -10,6 +10,7 @@
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
 #include "tools/drawing/floor_section.h"
+#include "tools/drawing/palette.h"
 
 namespace camway::draw {
 
@@ -29,6 +30,12 @@ struct TimeRange {
   double end_s = 0.0;
 };
 
+/// Names of the two paths of a picture in its legend.
+struct PathNames {
+  std::string before{names::kBefore};
+  std::string after{names::kAfter};
+};
+
 /// The content of a picture: the keyframes, the path with its collisions, and the corrected path.
 struct FloorPlan {
   std::string title;
@@ -43,6 +50,7 @@ struct FloorPlan {
   std::vector<collision::CollisionInterval> remaining_collisions;  ///< collisions of `after`
   std::vector<TimeRange> corrected = {};  ///< stretches of `after` that a correction changed
   std::optional<double> cut_height_m;     ///< height of the section; default: each storey's own
+  PathNames path_names = {};
 };
 
 /// Returns the height for the section: the median height of the keyframes, or that of another

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "daemon/base/digest.h"
 #include "daemon/messages/text.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
@@ -16,6 +17,16 @@ namespace {
 
 using Key = std::pair<std::string, std::int64_t>;  // client and request id
 
+/// Returns the digest of a request without its ids. Changes them.
+std::string content_digest_of(plan_request_t& whole) {
+  whole.client_id.clear();
+  whole.request_id = 0;
+  const wire::Bytes content = wire::encode(whole);
+  base::Digest digest;
+  digest.add(content.data(), content.size());
+  return digest.text();
+}
+
 class SessionBuilder {
  public:
   SessionBuilder(const std::string& prefix, const wire::MessageKeys* keys)
@@ -24,6 +35,11 @@ class SessionBuilder {
         response_channels_(wire::Channels{prefix}.plan_response("")) {}
 
   void add(LogEvent event) {
+    if (is_first_) session_.begin_utime = event.utime;
+    is_first_ = false;
+    // As doubles the difference cannot overflow.
+    received_s_ = (static_cast<double>(event.utime) - static_cast<double>(session_.begin_utime)) /
+                  kMicroseconds;
     const bool request = event.channel == request_channel_;
     if (!request && !event.channel.starts_with(response_channels_)) return;
     if (open_event(keys_, event)) {
@@ -77,8 +93,10 @@ class SessionBuilder {
     base::Result<planning::PlanRequest> converted = messages::from_wire(whole);
     recorded.request = std::move(converted.value);
     recorded.error = std::move(converted.error);
+    recorded.received_s = received_s_;
     whole.utime = 0;  // does not count as content
     wire::Bytes content = wire::encode(whole);
+    recorded.content_digest = content_digest_of(whole);
     const auto [position, is_new] =
         index_.try_emplace({recorded.ids.client_id, recorded.ids.request_id}, contents_.size());
     if (is_new) {
@@ -101,7 +119,11 @@ class SessionBuilder {
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);
   }
 
+  static constexpr double kMicroseconds = 1e6;
+
   const wire::MessageKeys* keys_;
+  bool is_first_ = true;
+  double received_s_ = 0.0;  ///< time of the event that is added, from the first one
   std::string request_channel_;
   std::string response_channels_;
   wire::PageAssembly<plan_request_t> request_pages_;

@@ -32,11 +32,17 @@ struct RecordedRequest {
   std::string error;
   std::optional<RecordedAnswer> answer;
   std::size_t sent = 0;  ///< number of times that it came completely
+  /// Time at which it first came completely, from the first event of the log. The times of a log
+  /// are not trusted: it may be any number. [Units: seconds]
+  double received_s = 0.0;
+  /// Digest of the request without its ids and its time of sending.
+  std::string content_digest;
 };
 
 /// The planning requests of a log, in the order in which they first came completely.
 struct Session {
   LogSummary log;
+  std::int64_t begin_utime = 0;  ///< time of the first event, microseconds since 1970
   std::vector<RecordedRequest> requests;
   std::uint64_t malformed = 0;  ///< messages on Camway's channels that cannot be read
   /// Malformed messages with another fingerprint: recorded with other versions of the types.
@@ -45,6 +51,7 @@ struct Session {
   std::uint64_t incomplete = 0;  ///< requests or answers with a missing page
   std::uint64_t conflicts = 0;   ///< requests left out, since another request has the same id
   std::uint64_t unasked = 0;     ///< answers to requests that are not in the log
+  std::uint64_t unwanted = 0;    ///< requests that a selection removed (`select`)
 };
 
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a
