@@ -146,19 +146,20 @@ base::Result<int> run_program(const std::vector<std::string>& command,
 }
 
 ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys) {
-  const std::optional<Session> session = open_session(flags.log, flags, keys);
-  if (!session) return ExitCode::kInvalidInput;
+  const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys);
+  if (!opened) return ExitCode::kInvalidInput;
+  const Session& session = opened->session;
   if (const std::string fault = why_unwritable(flags.reports); !fault.empty()) {
     return invalid_replay(fault);
   }
-  const std::unique_ptr<ReplayScenes> scenes = open_scenes_of(*session, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
   if (!scenes) return ExitCode::kInvalidInput;
   // The requests with the answers of the other build.
-  std::vector<RecordedRequest> requests = session->requests;
+  std::vector<RecordedRequest> requests = session.requests;
   std::string fault = take_answers_of_build(flags, requests);
   if (!fault.empty()) return invalid_replay(fault);
   std::vector<ComparedRequest> compared;
-  const std::vector<ReplayedRequest> replayed = replay(*session, *scenes, flags.run);
+  const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
   for (std::size_t i = 0; i < replayed.size(); ++i) {
     ComparedRequest& item = compared.emplace_back();
     item.recorded = &requests[i];
@@ -173,10 +174,10 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   }
   ReportHead head{
       .title = flags.log, .then = "the other build", .now = "this build", .times = flags.times()};
-  head.notes = notes_about(*session);
+  head.notes = notes_about(session);
   head.thresholds = flags.run.thresholds;
   fault = write_reports(head, compared, scene_of(*scenes), flags.reports);
-  const ExitCode code = code_of(compared, flags.failing, !session->log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

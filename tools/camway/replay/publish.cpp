@@ -24,6 +24,7 @@
 #include "lcmtypes/wire/local_traffic.h"
 #include "tools/camway/replay/event_log.h"
 #include "tools/camway/replay/signed_event.h"
+#include "tools/camway/session/session_files.h"
 
 namespace camway::tools {
 namespace {
@@ -154,15 +155,20 @@ bool is_wanted(const LogEvent& event, const PublishOptions& options) {
 LoggedRequests read_requests(const std::filesystem::path& log, const Publisher& publisher,
                              const PublishOptions& options, const wire::MessageKeys* keys) {
   LoggedRequests requests;
-  LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
-    if (!publisher.is_request(event)) return;
-    if (open_event(keys, event)) {
-      ++requests.distrusted;
-    } else if (is_wanted(event, options)) {
-      requests.events.push_back(std::move(event));
-    }
-  });
-  requests.damage = std::move(summary.damage);
+  const base::Result<SessionFiles> files = SessionFiles::open(log);
+  if (!files) requests.damage = files.error;
+  if (!files) return requests;
+  for (const std::filesystem::path& file : files->logs()) {
+    LogSummary summary = read_event_log(file, [&](LogEvent&& event) {
+      if (!publisher.is_request(event)) return;
+      if (open_event(keys, event)) {
+        ++requests.distrusted;
+      } else if (is_wanted(event, options)) {
+        requests.events.push_back(std::move(event));
+      }
+    });
+    if (requests.damage.empty()) requests.damage = std::move(summary.damage);
+  }
   return requests;
 }
 

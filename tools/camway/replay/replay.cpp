@@ -20,10 +20,10 @@ ExitCode publish_wanted(const ReplayFlags& flags,
                         const std::shared_ptr<const wire::MessageKeys>& keys) {
   PublishOptions options = flags.publishing;
   if (!flags.selection.is_all()) {
-    const std::optional<Session> session = open_session(flags.log, flags, keys.get());
-    if (!session) return ExitCode::kInvalidInput;
+    const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys.get());
+    if (!opened) return ExitCode::kInvalidInput;
     options.wanted.emplace();
-    for (const RecordedRequest& request : session->requests) {
+    for (const RecordedRequest& request : opened->session.requests) {
       options.wanted->emplace(request.ids.client_id, request.ids.request_id);
     }
   }
@@ -258,7 +258,8 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
-  command->add_option("LOG", flags->log, "Log that lcm-logger recorded");
+  command->add_option("LOG", flags->log,
+                      "Log of lcm-logger, folder of a daemon's recordings, or packed session");
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
   command

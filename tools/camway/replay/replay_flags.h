@@ -14,6 +14,7 @@
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
 #include "tools/camway/replay/selection.h"
+#include "tools/camway/session/session_files.h"
 
 namespace camway::tools {
 
@@ -41,19 +42,27 @@ struct ReplayFlags {
 /// Prints the error and returns `kInvalidInput`.
 ExitCode invalid_replay(std::string_view message);
 
-/// Reads the wanted requests of a log. Prints the damage of the log, and why it holds none, if so;
-/// then returns nothing. `keys` may be null.
-std::optional<Session> open_session(const std::string& log, const ReplayFlags& flags,
-                                    const wire::MessageKeys* keys);
+/// A session with its files, which may be unpacked ones.
+struct OpenedSession {
+  SessionFiles files;
+  Session session;
+};
+
+/// Reads the wanted requests of a log, a folder of recordings, or a packed session. Prints damage,
+/// and why there are no requests, if so; then returns nothing. `keys` may be null.
+std::optional<OpenedSession> open_session(const std::string& log, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys);
 
 /// Returns the notes of a report about a session, that on unwanted requests included.
 std::vector<std::string> notes_about(const Session& session, const std::string& whose = {});
 
-/// Opens the scenes of `--scene`. On an error, prints it and returns null.
-std::unique_ptr<ReplayScenes> open_scenes(const std::vector<std::string>& arguments);
+/// Opens the scenes of `--scene`, which go before what was recorded, and those of the session. On
+/// an error, prints it and returns null. `opened` must outlive the result.
+std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags);
 
 /// Opens them, and checks that they are all that the session needs.
-std::unique_ptr<ReplayScenes> open_scenes_of(const Session& session, const ReplayFlags& flags);
+std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
+                                                 const ReplayFlags& flags);
 
 /// Returns the scenes as pictures take them. `scenes` must outlive the result.
 SceneOf scene_of(ReplayScenes& scenes);

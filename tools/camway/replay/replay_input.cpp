@@ -7,6 +7,7 @@
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/replay_flags.h"
+#include "tools/camway/replay/session_scenes.h"
 
 namespace camway::tools {
 namespace {
@@ -60,9 +61,14 @@ ExitCode invalid_replay(std::string_view message) {
   return ExitCode::kInvalidInput;
 }
 
-std::optional<Session> open_session(const std::string& log, const ReplayFlags& flags,
-                                    const wire::MessageKeys* keys) {
-  Session session = read_session(log, flags.publishing.prefix, keys);
+std::optional<OpenedSession> open_session(const std::string& log, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys) {
+  base::Result<SessionFiles> files = SessionFiles::open(log);
+  if (!files) {
+    print_error(files.error);
+    return std::nullopt;
+  }
+  Session session = read_session(files->logs(), flags.publishing.prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty()) {
     print_error(why_empty(session, log, flags));
@@ -74,7 +80,7 @@ std::optional<Session> open_session(const std::string& log, const ReplayFlags& f
     print_error(fmt::format("{}: none of its {} requests is selected", log, read));
     return std::nullopt;
   }
-  return session;
+  return OpenedSession{*std::move(files.value), std::move(session)};
 }
 
 std::vector<std::string> notes_about(const Session& session, const std::string& whose) {
@@ -85,16 +91,22 @@ std::vector<std::string> notes_about(const Session& session, const std::string& 
   return notes;
 }
 
-std::unique_ptr<ReplayScenes> open_scenes(const std::vector<std::string>& arguments) {
-  std::optional<Scenes> named = load_scenes(arguments);
+std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags) {
+  std::optional<Scenes> named = load_scenes(flags.scenes);
   if (!named) return nullptr;
-  return std::make_unique<NamedScenes>(*std::move(named));
+  auto scenes = std::make_unique<SceneChain>();
+  scenes->add(std::make_unique<NamedScenes>(*std::move(named)));
+  const auto blobs = blob_folders_of(opened.files.logs());
+  scenes->add(std::make_unique<SessionScenes>(opened.session, blobs));
+  scenes->add(std::make_unique<DigestScenes>(opened.session, blobs));
+  return scenes;
 }
 
-std::unique_ptr<ReplayScenes> open_scenes_of(const Session& session, const ReplayFlags& flags) {
-  std::unique_ptr<ReplayScenes> scenes = open_scenes(flags.scenes);
+std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
+                                                 const ReplayFlags& flags) {
+  std::unique_ptr<ReplayScenes> scenes = open_scenes(opened, flags);
   if (!scenes) return nullptr;
-  const std::vector<std::string> missing = missing_scenes(session, *scenes);
+  const std::vector<std::string> missing = missing_scenes(opened.session, *scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
                             wire::printable(name), wire::printable(name)));

@@ -43,23 +43,24 @@ std::string write_responses(const ReplayFlags& flags,
 }  // namespace
 
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
-  const std::optional<Session> session = open_session(flags.log, flags, keys);
-  if (!session) return ExitCode::kInvalidInput;
+  const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys);
+  if (!opened) return ExitCode::kInvalidInput;
+  const Session& session = opened->session;
   std::string fault = make_responses_dir(flags.responses_dir);
   if (fault.empty()) fault = why_unwritable(flags.reports);
   if (!fault.empty()) return invalid_replay(fault);
-  const std::unique_ptr<ReplayScenes> scenes = open_scenes_of(*session, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
   if (!scenes) return ExitCode::kInvalidInput;
-  std::vector<ReplayedRequest> replayed = replay(*session, *scenes, flags.run);
+  std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
   if (!flags.responses_dir.empty()) fault = write_responses(flags, replayed);
   std::vector<ComparedRequest> compared;
   for (ReplayedRequest& each : replayed) compared.push_back(std::move(each.compared));
   ReportHead head{.title = flags.log, .times = flags.times()};
-  head.notes = notes_about(*session);
+  head.notes = notes_about(session);
   head.thresholds = flags.run.thresholds;
   const std::string unwritten = write_reports(head, compared, scene_of(*scenes), flags.reports);
   if (fault.empty()) fault = unwritten;
-  const ExitCode code = code_of(compared, flags.failing, !session->log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/replay_scenes.h"
 
+#include <algorithm>
 #include <set>
 
 namespace camway::tools {
@@ -23,6 +24,17 @@ std::vector<std::string> missing_scenes(const Session& session, const ReplayScen
 FoundScene NamedScenes::snapshot_of(const RecordedRequest& request) {
   const auto found = scenes_.find(request.scene);
   return {found == scenes_.end() ? nullptr : found->second, {}};
+}
+
+FoundScene SceneChain::snapshot_of(const RecordedRequest& request) {
+  for (const auto& scenes : all_) {
+    if (scenes->knows(request.scene)) return scenes->snapshot_of(request);
+  }
+  return {};
+}
+
+bool SceneChain::knows(const std::string& name) const {
+  return std::ranges::any_of(all_, [&](const auto& scenes) { return scenes->knows(name); });
 }
 
 }  // namespace camway::tools

@@ -49,6 +49,18 @@ class NamedScenes final : public ReplayScenes {
   const Scenes scenes_;
 };
 
+/// Asks several sources, the first that knows a scene of the name.
+class SceneChain final : public ReplayScenes {
+ public:
+  void add(std::unique_ptr<ReplayScenes> scenes) { all_.push_back(std::move(scenes)); }
+
+  [[nodiscard]] FoundScene snapshot_of(const RecordedRequest& request) override;
+  [[nodiscard]] bool knows(const std::string& name) const override;
+
+ private:
+  std::vector<std::unique_ptr<ReplayScenes>> all_;
+};
+
 /// Whether the daemon answered that it has no such scene.
 bool scene_was_unknown(const RecordedRequest& request);
 

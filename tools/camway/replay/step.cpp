@@ -77,15 +77,16 @@ ExitCode replay_by_steps(const ReplayFlags& flags, const wire::MessageKeys* keys
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0) {
     return invalid_replay("--step: asks after each request, which needs a terminal");
   }
-  const std::optional<Session> session = open_session(flags.log, flags, keys);
-  if (!session) return ExitCode::kInvalidInput;
-  const std::unique_ptr<ReplayScenes> scenes = open_scenes_of(*session, flags);
+  const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys);
+  if (!opened) return ExitCode::kInvalidInput;
+  const Session& session = opened->session;
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
   if (!scenes) return ExitCode::kInvalidInput;
   const StepDesk desk{std::cin, std::cout, [](const std::string& file, const std::string& svg) {
                         return write_file(file, svg);
                       }};
-  const auto seen = step_through(*session, *scenes, flags.run, desk);
-  return code_of(seen, flags.failing, !session->log.damage.empty());
+  const auto seen = step_through(session, *scenes, flags.run, desk);
+  return code_of(seen, flags.failing, !session.log.damage.empty());
 }
 
 }  // namespace camway::tools

@@ -61,6 +61,11 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
       "messages left out: of another version of the wire types than this camway's");
   add(session.distrusted, "messages left out: their signature is missing or not good");
   add(session.unasked, "answers to requests that are not in the log");
+  add(session.damaged_events, "events about the recorded session cannot be read");
+  for (const record::Gap& gap : session.gaps) {
+    notes.push_back(fmt::format("{}the recording lacks {} messages and {} changes of scenes: {}",
+                                whose, gap.messages, gap.changes, gap.reason));
+  }
   if (!session.log.damage.empty()) {
     notes.push_back(fmt::format("{}the log is damaged: {} good events were used, {} of {} bytes",
                                 whose, session.log.events, session.log.bytes_used,

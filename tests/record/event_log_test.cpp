@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/event_log.h"
+#include "daemon/record/event_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,11 @@
 #include "tests/support/random.h"
 #include "tests/tools/camway/replay/log_builder.h"
 
-namespace camway::tools {
+namespace camway::record {
 namespace {
 
+using tools::LogBuilder;
+using tools::TemporaryFolder;
 using ::testing::HasSubstr;
 
 std::vector<std::uint8_t> any_data(testing::Random& random, std::size_t size) {
@@ -145,4 +147,4 @@ TEST(EventLog, SaysThatAFileIsMissingOrNone) {
 }
 
 }  // namespace
-}  // namespace camway::tools
+}  // namespace camway::record
