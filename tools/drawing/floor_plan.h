@@ -11,6 +11,7 @@
 #include "daemon/motion/path/path.h"
 #include "tools/drawing/barrier.h"
 #include "tools/drawing/floor_section.h"
+#include "tools/drawing/palette.h"
 
 namespace camway::draw {
 
@@ -30,6 +31,12 @@ struct TimeRange {
   double end_s = 0.0;
 };
 
+/// Names of the two paths of a picture in its legend.
+struct PathNames {
+  std::string before{names::kBefore};
+  std::string after{names::kAfter};
+};
+
 /// The content of a picture: the keyframes, the path with its collisions, and the corrected path.
 struct FloorPlan {
   std::string title;
@@ -45,6 +52,7 @@ struct FloorPlan {
   std::vector<TimeRange> corrected = {};  ///< stretches of `after` that a correction changed
   std::optional<Barrier> barrier = {};    ///< where there is no path
   std::optional<double> cut_height_m;     ///< height of the section; default: each storey's own
+  PathNames path_names = {};
 };
 
 /// Returns the height for the section: the median height of the keyframes, or that of another

@@ -78,8 +78,8 @@ std::vector<LegendEntry> legend_of(const FloorPlan& plan, bool has_several_store
       keyframe_entry(false, std::string(names::kGiven) + ", from 0"),
       keyframe_entry(true, std::string(names::kInserted)),
       quad_entry(palette::kGiven, "near quadrilateral"),
-      line_entry(&stroke_before, std::string(names::kBefore)),
-      line_entry(&stroke_after, std::string(names::kAfter)),
+      line_entry(&stroke_before, plan.path_names.before),
+      line_entry(&stroke_after, plan.path_names.after),
       corner_entry(),
   };
   if (!plan.corrected.empty()) {
