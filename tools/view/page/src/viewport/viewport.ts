@@ -300,6 +300,9 @@ export class Viewport {
     await this.sceneView.show(now.scene, this.frame);
     this.updateSection();
     this.select(this.store.now);
+    // An object that was selected before its mesh was there has handles now.
+    this.dirty.content = true;
+    this.stage.invalidate();
   }
 
   /** Shows a request that was opened, once it is known in which scene. */
