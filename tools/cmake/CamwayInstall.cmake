@@ -21,6 +21,8 @@ install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md LICENSE SEC
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+install(DIRECTORY client/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/python COMPONENT client
+        FILES_MATCHING PATTERN "*.py")
 foreach(folder daemon/paper lcmtypes tests/bench)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT client)
 endforeach()

@@ -45,8 +45,8 @@ plan.plot(before_m[collides, 0], before_m[collides, 2], ".", color="tab:red", la
 plan.plot(after_m[:, 0], after_m[:, 2], color="tab:blue", label="corrected")
 plan.set(xlabel="x, m", ylabel="z, m", aspect="equal", title=answer.message[:80])
 plan.legend()
-curve.step([each.t_begin_s for each in answer.clearance_profile], [each.clearance_m for each in answer.clearance_profile],
-           where="post")
+profile = answer.clearance_profile
+curve.step([each.t_begin_s for each in profile], [each.clearance_m for each in profile], where="post")
 curve.set(xlabel="time, s", ylabel="clearance, m")
 figure.savefig(picture)
 print(f"wrote {picture}")

@@ -8,7 +8,8 @@ import camway
 
 async def put_box(client: camway.Client, position_m: tuple[float, float, float]) -> None:
     # A call that waits must not stop the other coroutines.
-    await asyncio.to_thread(client.put_object, "office", "box", camway.SceneBox((0.4, 1.0, 0.4)), camway.Pose(position_m))
+    box = camway.SceneBox((0.4, 1.0, 0.4))
+    await asyncio.to_thread(client.put_object, "office", "box", box, camway.Pose(position_m))
 
 
 async def main() -> None:

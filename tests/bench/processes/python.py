@@ -71,7 +71,8 @@ def main():
                 medians = statistics.median(mine), statistics.median(theirs)
                 rows.append({"request": name, "python_ms": medians[0], "cpp_ms": medians[1],
                              "more_ms": medians[0] - medians[1]})
-                print("{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms".format(**rows[-1]))
+                line = "{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms"
+                print(line.format(**rows[-1]))
     finally:
         daemon.terminate()
         daemon.wait()

@@ -35,8 +35,8 @@ def request_of(name, scene="office", **members):
     return request
 
 
-def long_request():
-    request = request_of("office-wall-tour", deadline_s=30.0, clearance_m=0.05, max_shrink=0.5, objective="shortest")
+def long_request(deadline_s=30.0):
+    request = request_of("office-wall-tour", deadline_s=deadline_s, clearance_m=0.05, max_shrink=0.5, objective="shortest")
     request.camera = camway.Camera(1.7, 1.5, 0.35)
     request.keyframes = (request.keyframes + request.keyframes[-2:0:-1]) * 4
     return request
@@ -49,7 +49,7 @@ class ClientTest(unittest.TestCase):
     def test_plans_have_the_bits_of_planning_here(self):
         office = camway.Scene.load(support.SCENES / "office.obj")
         rng = support.generator(self)
-        documents = [support.request_document("office-graze-column"), support.request_document("office-impossible-safe")]
+        documents = [support.request_document(name) for name in ("office-graze-column", "office-impossible-safe")]
         for document in documents + [support.random_document(rng) for _ in range(3)]:
             answers = []
             for plan in (lambda request: self.client.plan(request), lambda request: camway.plan(office, request)):
@@ -79,7 +79,8 @@ class ClientTest(unittest.TestCase):
         with self.assertRaises(camway.NoMap) as raised:
             self.client.load_scene("blank")
             self.client.occupancy("blank", points_m=[[0, 0, 0]])
-        self.assertIn(str(raised.exception), support.run_camway("occupancy", "--daemon", "blank", "--point", "0,0,0")[1])
+        _, said = support.run_camway("occupancy", "--daemon", "blank", "--point", "0,0,0")
+        self.assertIn(str(raised.exception), said)
         with self.assertRaisesRegex(camway.InvalidRequest, "^points_m: are none$"):
             self.client.insert_scan("office", "map", [], (0, 0, 0))
         with self.assertRaisesRegex(camway.InvalidRequest, "prefix"):
@@ -126,7 +127,11 @@ class ClientTest(unittest.TestCase):
         seen = []
         request = long_request()
         request.progress_period_s = 0.1
-        pending = self.client.plan_async(request, on_progress=lambda now: seen.append((now.stage, threading.get_ident())))
+
+        def note(now):
+            seen.append((now.stage, threading.get_ident()))
+
+        pending = self.client.plan_async(request, on_progress=note)
         while len(seen) < 2:
             time.sleep(0.02)
         pending.cancel()
@@ -233,7 +238,8 @@ class WatchTest(unittest.TestCase):
         made = self.client.load_scene("hall", camway.SceneMesh.from_arrays(
             [[0, 0, 0], [9, 0, 0], [9, 0, 9], [0, 0, 9]], [[0, 1, 2], [0, 2, 3]]))
         self.revision = made.scene.revision
-        self.request = camway.Request("hall", keyframes=[camway.Keyframe(0.0, (1, 1.5, 4)), camway.Keyframe(5.0, (8, 1.5, 4))])
+        keyframes = [camway.Keyframe(0.0, (1, 1.5, 4)), camway.Keyframe(5.0, (8, 1.5, 4))]
+        self.request = camway.Request("hall", keyframes=keyframes)
 
     def test_a_watch_is_iterated_over(self):
         kinds = []
@@ -288,8 +294,8 @@ class EndTest(unittest.TestCase):
 
     def test_pending_calls_end_with_their_client(self):
         client = camway.Client()
-        pending = [client.plan_async(long_request()) for _ in range(3)]
-        watch = client.watch(long_request())
+        pending = [client.plan_async(long_request(1.0)) for _ in range(3)]
+        watch = client.watch(long_request(1.0))
         client.close()
         for each in pending:
             with self.assertRaisesRegex(camway.NoAnswer, "the client was destroyed"):
@@ -299,7 +305,7 @@ class EndTest(unittest.TestCase):
     def test_a_client_that_nobody_holds_is_destroyed(self):
         client = camway.Client()
         native = weakref.ref(client._native)
-        pending = client.plan_async(long_request())
+        pending = client.plan_async(long_request(1.0))
         client.watch(request_of("office-graze-column"))
         del client
         gc.collect()
@@ -318,14 +324,14 @@ class EndTest(unittest.TestCase):
 
     def test_a_process_ends_with_calls_pending(self):
         code = ("import camway, client_test; c = camway.Client(); "
-                "p = [c.plan_async(client_test.long_request(), on_progress=print) for _ in range(3)]; "
-                "w = c.watch(client_test.long_request(), print); "
+                "p = c.plan_async(client_test.long_request(1.0), on_progress=print); "
+                "w = c.watch(client_test.long_request(1.0), print); "
                 "s = lambda: [c.status(30) for _ in range(99)]; l = lambda: [c.list_scenes() for _ in range(9999)]; "
                 "[__import__('threading').Thread(target=t, daemon=True).start() for t in (s, l, l)]; "
                 "__import__('time').sleep(float(__import__('sys').argv[1]))")
         for wait_s in (0.0, 0.1, 0.3):
-            done = subprocess.run([sys.executable, "-B", "-c", code, str(wait_s)], cwd=os.path.dirname(__file__), timeout=60,
-                                  stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, check=False)
+            done = subprocess.run([sys.executable, "-B", "-c", code, str(wait_s)], cwd=os.path.dirname(__file__),
+                                  timeout=60, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_forked_process_says_that_it_needs_a_client_of_its_own(self):
@@ -334,13 +340,13 @@ class EndTest(unittest.TestCase):
         if child == 0:
             code = 1
             try:
-                client.list_scenes()
-            except camway.Error as error:
-                code = 0 if "forked" in str(error) else 2
-            client.close()
-            with camway.Client() as own:
-                code += 0 if own.plan(request_of("office-graze-column")).ok else 4
-            os._exit(code)
+                with self.assertRaisesRegex(camway.Error, "forked"):
+                    client.list_scenes()
+                client.close()
+                with camway.Client() as own:
+                    code = 0 if own.plan(request_of("office-graze-column")).ok else 2
+            finally:
+                os._exit(code)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
         self.assertTrue(client.plan(request_of("office-graze-column")).ok)
         client.close()

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """The examples run, and print what they are for."""
-import os
 import pathlib
 import subprocess
 import sys
@@ -20,8 +19,8 @@ def setUpModule():
 class ExamplesTest(unittest.TestCase):
     def run_example(self, name, *arguments):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, "-B", "-W", "error", _EXAMPLES / name, *map(str, arguments)], cwd=folder,
-                                  text=True, capture_output=True, timeout=60, check=False, env=os.environ)
+            command = [sys.executable, "-B", "-W", "error", _EXAMPLES / name, *map(str, arguments)]
+            done = subprocess.run(command, cwd=folder, text=True, capture_output=True, timeout=60, check=False)
             self.assertIn(done.returncode, (0, 3), done.stderr)
             self.assertEqual(done.stderr, "")
             return done.stdout, sorted(pathlib.Path(folder).iterdir())
@@ -35,13 +34,14 @@ class ExamplesTest(unittest.TestCase):
 
     def test_scenes(self):
         text, _ = self.run_example("scenes.py")
-        for line in ("crate: box, 12 triangles", "occupied: [ True False]", "1 collision at first", "no collision to correct",
-                     "revision 3: move crate"):
+        for line in ("crate: box, 12 triangles", "occupied: [ True False]", "1 collision at first",
+                     "no collision to correct", "revision 3: move crate"):
             self.assertIn(line, text)
 
     def test_watch(self):
         text, _ = self.run_example("watch.py")
-        self.assertRegex(text, r"(?s)^revision 1: .*proved.*\nrevision 2: the path collides at .*\nrevision 2: .*proved")
+        for line in (r"^revision 1: .*proved", "\nrevision 2: the path collides at ", "\nrevision 2: .*proved"):
+            self.assertRegex(text, line)
 
     def test_plot(self):
         text, files = self.run_example("plot.py", _REQUESTS / "office-graze-slalom.json", "path.svg")

@@ -70,11 +70,13 @@ class PlanTest(unittest.TestCase):
         plate = camway.Scene.from_arrays(vertices, [[0, 1, 2], [0, 2, 3]], name="plate")
         self.assertEqual(plate.info.num_triangles, 2)
         self.assertEqual(plate.info.bounds_max_m, (4.0, 0.0, 4.0))
-        request = camway.Request(keyframes=[camway.Keyframe(position_m=(1, 1, 1)), camway.Keyframe(position_m=(3, -1, 3))])
+        request = camway.Request(keyframes=[camway.Keyframe(position_m=(1, 1, 1)),
+                                            camway.Keyframe(position_m=(3, -1, 3))])
         answer = camway.plan(plate, request)
         self.assertEqual(answer.status, "ok")
         self.assertGreater(len(answer.collisions), 0)
-        for vertices_m, triangles in (([[0, 0, np.nan]] * 3, [[0, 1, 2]]), ([[0, 0, 0]], [[0, 1, 2]]), ([[0, 0, 0]], [])):
+        triangle, origin = [[0, 1, 2]], [[0.0, 0.0, 0.0]]
+        for vertices_m, triangles in (([[0, 0, np.nan]] * 3, triangle), (origin, triangle), (origin, [])):
             with self.assertRaises(ValueError):
                 camway.Scene.from_arrays(vertices_m, triangles)
 

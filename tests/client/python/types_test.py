@@ -45,8 +45,9 @@ class StubsTest(unittest.TestCase):
 
     def compare(self, body, there):
         written = {node.name: node for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
-        names = {name for name, value in vars(there).items() if callable(value) or isinstance(value, (property, staticmethod))
-                 if not name.startswith("_") or name in _OPERATORS & set(written)}
+        names = {name for name, value in vars(there).items()
+                 if (callable(value) or isinstance(value, (property, staticmethod)))
+                 and (not name.startswith("_") or name in _OPERATORS & set(written))}
         self.assertEqual(set(written), names | (set(written) & {"__init__"}), there)
         for name, node in written.items():
             if isinstance(node, ast.ClassDef):
