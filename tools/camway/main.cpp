@@ -10,6 +10,7 @@
 
 #include "daemon/base/standard_streams.h"
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/cli_support/help_tree.h"
 #include "daemon/version/build_info.h"
 #include "tools/camway/common/commands.h"
 
@@ -64,6 +65,10 @@ int run(int argc, char** argv) {
           "the answer is no (plan, check, occupancy, load, replay, doctor and watch say of what)",
           /*asks_daemon=*/true));
   add_commands(app, argc > 1 ? argv[1] : "", exit_code);
+  if (camway::cli_support::asks_for_help_tree(argc, argv)) {
+    std::fputs(camway::cli_support::help_tree(app).c_str(), stdout);
+    return 0;
+  }
   camway::cli_support::refuse_missing_values(app);
   try {
     app.parse(argc, argv);

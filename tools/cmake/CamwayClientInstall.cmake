@@ -63,8 +63,10 @@ target_link_libraries(camway_authentication_installed INTERFACE LCM::lcm PkgConf
 # Sets of their own, as a package may have the one without the other.
 install(TARGETS camway_client_installed EXPORT camway-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
-install(TARGETS camway_client_shared camway_c_shared EXPORT camway-shared-targets
+install(TARGETS camway_client_shared EXPORT camway-shared-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT client)
+install(TARGETS camway_c_shared EXPORT camway-shared-targets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library_c NAMELINK_COMPONENT client)
 install(TARGETS camway_authentication_installed EXPORT camway-authentication-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
 foreach(set camway camway-shared camway-authentication)

@@ -3,30 +3,32 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-install(TARGETS camwayd camway-import camway)
+# A component is a package, too (CamwayPackages.cmake).
+install(TARGETS camway camway-import COMPONENT tools)
+install(TARGETS camwayd COMPONENT daemon)
 if(CAMWAY_WITH_INVENTOR)
-  install(TARGETS camway-import-inventor)
+  install(TARGETS camway-import-inventor COMPONENT formats)
 endif()
 if(CAMWAY_WITH_CAD)
-  install(TARGETS camway-import-cad)
+  install(TARGETS camway-import-cad COMPONENT formats)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes)
-install(FILES ${CAMWAY_BLENDER_ZIP} DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/blender)
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes COMPONENT tools)
+install(FILES ${CAMWAY_BLENDER_ZIP} DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/blender COMPONENT tools)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
                ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)
-install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)
+install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake COMPONENT daemon)
 # The documents keep the folders that they have in the repository, so that the links between them work.
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md LICENSE SECURITY.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
 install(DIRECTORY client/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client COMPONENT client)
 install(FILES client/abi/symbols.txt client/abi/layouts.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/abi
         COMPONENT client)
 install(FILES lcmtypes/fingerprints.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/lcmtypes COMPONENT client)
 foreach(folder daemon/paper lcmtypes tests/bench)
-  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT client)
+  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
 endforeach()
 
 include(${CMAKE_CURRENT_LIST_DIR}/CamwayClientInstall.cmake)
@@ -45,3 +47,5 @@ install(FILES ${PROJECT_BINARY_DIR}/camwayConfig.cmake
               ${PROJECT_BINARY_DIR}/camwayConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindLCM.cmake
         DESTINATION ${camway_package_dir} COMPONENT client)
+
+include(CamwayPackages)

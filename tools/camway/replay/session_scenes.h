@@ -53,8 +53,8 @@ class DigestScenes final : public ReplayScenes {
   std::vector<std::filesystem::path> blob_folders_;
   std::set<std::string> names_;
   std::map<std::string, const record::SceneUpdate*> updates_;  ///< by digest
-  std::mutex mutex_;  ///< guards `found_`
-  std::map<std::string, FoundScene> found_;  ///< by digest
+  std::mutex mutex_;                                           ///< guards `found_`
+  std::map<std::string, FoundScene> found_;                    ///< by digest
 };
 
 }  // namespace camway::tools
