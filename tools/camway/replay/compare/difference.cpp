@@ -254,13 +254,13 @@ Difference difference_of_sizes(const Message& then, const Message& now) {
   return found;
 }
 
-enum class TimesOfMembers { kCompared, kLeftOut };
+enum class TimesOfMembers { kCompared, kSkipped };
 
 /// Compares what a stage leaves. The times of a slowed path follow from its slowing, so stages
 /// before that can leave them out.
 Difference difference_in(Stage stage, TimesOfMembers times, const Message& then, const Message& now,
                          const PlanResult& result) {
-  const bool without_times = times == TimesOfMembers::kLeftOut;
+  const bool without_times = times == TimesOfMembers::kSkipped;
   Difference found;
   if (stage == Stage::kRequest && (is_refusal(then.status) || is_refusal(now.status))) {
     found = difference_of_status(then, now, result);
@@ -292,7 +292,7 @@ Difference first_stage_difference(const Message& then, const Message& now,
   for (std::size_t i = 0; i < names_of(Stage{}).size() && found.has_same_bits(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const auto times =
-        is_slowed && stage < Stage::kTiming ? TimesOfMembers::kLeftOut : TimesOfMembers::kCompared;
+        is_slowed && stage < Stage::kTiming ? TimesOfMembers::kSkipped : TimesOfMembers::kCompared;
     found = stage == Stage::kTiming ? difference_of_slowing(then, now, result)
                                     : difference_in(stage, times, then, now, result);
     found.stage = stage;
