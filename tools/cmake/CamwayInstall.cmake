@@ -27,7 +27,7 @@ install(DIRECTORY client/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client COM
 install(FILES client/abi/symbols.txt client/abi/layouts.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/abi
         COMPONENT client)
 install(FILES lcmtypes/fingerprints.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/lcmtypes COMPONENT client)
-install(DIRECTORY client/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/python COMPONENT client
+install(DIRECTORY client/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/python COMPONENT doc
         FILES_MATCHING PATTERN "*.py")
 foreach(folder daemon/paper lcmtypes tests/bench)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
