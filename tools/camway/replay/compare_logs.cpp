@@ -13,7 +13,7 @@ ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys) {
     return invalid_replay(fault);
   }
   // Only pictures show scenes.
-  const std::unique_ptr<ReplayScenes> scenes = open_scenes(*then, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_scenes(*then, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;
   ReportHead head{.title = flags.baseline + " and " + flags.against,
                   .then = "baseline",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/session.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <utility>
 
