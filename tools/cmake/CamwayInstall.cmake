@@ -27,6 +27,8 @@ install(DIRECTORY client/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client COM
 install(FILES client/abi/symbols.txt client/abi/layouts.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/abi
         COMPONENT doc)
 install(FILES lcmtypes/fingerprints.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/lcmtypes COMPONENT doc)
+install(DIRECTORY client/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/python COMPONENT doc
+        FILES_MATCHING PATTERN "*.py")
 foreach(folder daemon/paper lcmtypes tests/bench)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
 endforeach()
