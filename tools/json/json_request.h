@@ -44,6 +44,11 @@ struct RequestFile : planning::PlanRequest {
 /// times. Keyframes count from 0 in errors.
 void read_value(const Field& root, RequestFile& request);
 
+/// Returns a request as JSON text, which reads back to the same request; an angle may be off by a
+/// rounding. Options that have their default are left out. JSON cannot hold NaN or infinity: the
+/// error names the field that has one.
+base::Result<std::string> write_plan_request(const planning::PlanRequest& request);
+
 /// Reads the members `scale`, `up`, `unknown` and `voxel_m` of an object, each of which it may
 /// lack. Ignores others.
 void read_value(const Field& field, SceneReading& reading);

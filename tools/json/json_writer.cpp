@@ -11,9 +11,11 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/collision/obstacles.h"
+#include "daemon/planning/request/body_members.h"
 #include "daemon/planning/result/result_members.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_angle.h"
+#include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
 
 namespace camway::tools {
@@ -64,6 +66,20 @@ class JsonWriter {
   template <class Struct, class List>
   void optional(FileName name, const std::optional<Struct>& member, const List& list) {
     group(may_lack(name, member.has_value()), -1, [&](JsonWriter& io) { list(io, *member); });
+  }
+
+  /// Writes a list of objects, each on a line, whose members `write(io, element)` writes.
+  template <class List, class Write>
+  void list(FileName name, const List& elements, const Write& write) {
+    begin(name);
+    path_.emplace_back("[]");
+    const char* separator = "[\n    ";
+    for (const auto& element : elements) {
+      out_ += std::exchange(separator, ",\n    ");
+      object(-1, [&] { write(*this, element); });
+    }
+    out_ += elements.empty() ? "[]" : "\n  ]";
+    path_.resize(path_.size() - 2);
   }
 
   /// Returns the first member that could not be written, and why: "keyframes[].position: is not
@@ -165,7 +181,77 @@ class JsonWriter {
   bool is_first_ = true;
 };
 
+/// Returns a visitor of a table that writes each member.
+auto each_to(JsonWriter& io) {
+  return [&io](const planning::FieldSpec& spec, const auto& member) { io(spec, member); };
+}
+
+/// Writes the options that differ from the default.
+void write_options(JsonWriter& io, const planning::PlanOptions& options) {
+  const planning::PlanOptions usual;
+  const auto write = [&]<class Member>(const planning::FieldSpec& spec, const Member& member,
+                                       const Member& blank) {
+    if (member == blank) return;
+    if constexpr (std::same_as<Member, correction::OrientationPolicy>) {
+      io.group(spec, -1, [&](JsonWriter& object) {
+        planning::visit_used(
+            [&](const planning::FieldSpec& inner, const auto& value) {
+              if constexpr (requires { value.has_value(); }) {
+                if (value) object(inner, *value);
+              } else {
+                object(inner, value);
+              }
+            },
+            member);
+      });
+    } else if constexpr (std::same_as<Member, correction::MotionLimits>) {
+      io.group(spec, -1, [&](JsonWriter& object) {
+        const auto limit = [&](const planning::FieldSpec& inner, const auto& value,
+                               const auto& none) {
+          if (value != none) object(inner, value);
+        };
+        planning::visit_table(limit, member, blank);
+      });
+    } else {
+      io(spec, member);
+    }
+  };
+  io.group(planning::may_lack("options", options != usual), -1,
+           [&](JsonWriter&) { planning::visit_table(write, options, usual); });
+}
+
+void write_body(JsonWriter& io, const motion::BodyShape& body) {
+  io.group("body", -1, [&](JsonWriter& object) {
+    object("type", planning::kShapeNames[body.index()]);
+    std::visit([&](const auto& shape) { planning::visit_shape(each_to(object), shape); }, body);
+  });
+}
+
 }  // namespace
+
+base::Result<std::string> write_plan_request(const planning::PlanRequest& request) {
+  std::string out;
+  JsonWriter io(out);
+  io.object(2, [&] {
+    io(may_lack("scene", !request.scene.empty()), request.scene);
+    const motion::Camera* const moving = planning::moving_camera(request);
+    const motion::Camera& camera = moving == nullptr ? request.camera : *moving;
+    io.group(may_lack("camera", moving != nullptr || camera.near_m > 0.0), -1,
+             [&](JsonWriter& object) { planning::visit_table(each_to(object), camera); });
+    if (moving == nullptr) write_body(io, *request.body);
+    io.list("keyframes", request.keyframes, [&](JsonWriter& object, const motion::Keyframe& each) {
+      object(may_lack("time", request.has_times), each.time_s);
+      object("position", each.pose.position);
+      object("orientation", each.pose.orientation);
+      object(may_lack("image", !each.image.isZero(0.0)), each.image);
+    });
+    if (request.frame) io("frame", *request.frame);
+    write_options(io, request.options);
+  });
+  out += '\n';
+  if (!io.error().empty()) return base::Failure{io.error()};
+  return out;
+}
 
 base::Result<std::string> write_plan_response(const planning::PlanResult& result,
                                               const ResponseFormat& format) {

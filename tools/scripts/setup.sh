@@ -36,6 +36,12 @@ kPackages=(
   libarchive-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
+  # to pack Camway: finds the libraries that a package depends on; and makes the user of the daemon
+  dpkg-dev file adduser
+  # tests of the manual and of the completions
+  man-db groff-base zsh fish
+  # the package for Python, which the build works without, and the check of its types
+  python3-dev python3-numpy pybind11-dev mypy
   # tests
   libgtest-dev libgmock-dev
   # the server of the messages, and certificates for it

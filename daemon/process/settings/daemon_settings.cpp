@@ -118,6 +118,19 @@ std::string Setting::text() const {
       target);
 }
 
+std::vector<std::string_view> Setting::choices() const {
+  return std::visit(
+      [](const auto* value) -> std::vector<std::string_view> {
+        if constexpr (std::is_enum_v<std::decay_t<decltype(*value)>>) {
+          const auto words = words_for(*value);
+          return {words.begin(), words.end()};
+        } else {
+          return {};
+        }
+      },
+      target);
+}
+
 std::string Setting::set(std::string_view value) const {
   if (const auto* const level = std::get_if<service::LogLevel*>(&target))
     return choose(**level, value);

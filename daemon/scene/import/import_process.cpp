@@ -16,10 +16,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "daemon/base/file_descriptor.h"
 #include "daemon/base/result.h"
@@ -76,7 +78,23 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
+/// The folder of `set_import_program_folder`.
+struct ProgramFolder {
+  std::mutex mutex;
+  fs::path path;
+};
+ProgramFolder& program_folder() {
+  static ProgramFolder folder;
+  return folder;
+}
+fs::path program_folder_path() {
+  const std::scoped_lock lock(program_folder().mutex);
+  return program_folder().path;
+}
+
 std::optional<fs::path> find_program(const char* name) {
+  const fs::path first = program_folder_path();
+  if (!first.empty() && is_program(first / name)) return first / name;
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   if (!error && is_program(self.parent_path() / name)) return self.parent_path() / name;
@@ -210,6 +228,11 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
 
 }  // namespace
 
+void set_import_program_folder(fs::path folder) {
+  const std::scoped_lock lock(program_folder().mutex);
+  program_folder().path = std::move(folder);
+}
+
 ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_limit_bytes,
                                        double time_limit_s, const std::stop_token& stop,
                                        ImportTask task) {
@@ -217,8 +240,12 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
   if (!name) return {End::kNotStarted, {}, name.error};
   const std::optional<fs::path> program = find_program(*name);
   if (!program) {
-    return {
-        End::kNotStarted, {}, std::string(*name) + " is neither beside this program nor on PATH"};
+    const fs::path first = program_folder_path();
+    return {End::kNotStarted,
+            {},
+            std::string(*name) + " is neither " +
+                (first.empty() ? "" : "in " + first.string() + ", ") +
+                "beside this program nor on PATH"};
   }
   const base::FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};

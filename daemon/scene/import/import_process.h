@@ -27,9 +27,14 @@ struct ImportProcessResult {
 /// The content that the import process reads.
 enum class ImportTask { kMesh, kCameras };
 
+/// Has `run_import_process` look for its programs in `folder` first. For libraries within programs
+/// of others, such as an interpreter, beside which there is none. Thread-safe.
+void set_import_program_folder(std::filesystem::path folder);
+
 /// Runs `camway-import`, for Open Inventor and VRML `camway-import-inventor`, or for STEP and IGES
-/// `camway-import-cad`, on `file` and waits for it. Looks for the program beside the running
-/// executable, then in the absolute directories of PATH. The process inherits nothing: no standard
+/// `camway-import-cad`, on `file` and waits for it. Looks for the program in the folder of
+/// `set_import_program_folder`, beside the running executable, then in the absolute directories of
+/// PATH. The process inherits nothing: no standard
 /// streams, no descriptors but that of its output, no environment, default signals. It is killed
 /// when this process ends, and confines itself before it opens the file (`import_confinement.h`). A
 /// stop ends it within milliseconds.

@@ -19,6 +19,16 @@ namespace {
 
 using Key = std::pair<std::string, std::int64_t>;  // client and request id
 
+/// Returns the digest of a request without its ids. Changes them.
+std::string content_digest_of(plan_request_t& whole) {
+  whole.client_id.clear();
+  whole.request_id = 0;
+  const wire::Bytes content = wire::encode(whole);
+  base::Digest digest;
+  digest.add(content.data(), content.size());
+  return digest.text();
+}
+
 class SessionBuilder {
  public:
   SessionBuilder(const std::string& prefix, const wire::MessageKeys* keys)
@@ -37,6 +47,11 @@ class SessionBuilder {
   void begin_file() { recording_.clear(); }
 
   void add(LogEvent event) {
+    if (is_first_) session_.begin_utime = event.utime;
+    is_first_ = false;
+    // As doubles the difference cannot overflow.
+    received_s_ = (static_cast<double>(event.utime) - static_cast<double>(session_.begin_utime)) /
+                  kMicroseconds;
     if (event.channel == session_channel_) return add_session_event(event);
     if (event.channel == scene_channel_) return static_cast<void>(++session_.scene_requests);
     const bool request = event.channel == request_channel_;
@@ -105,11 +120,13 @@ class SessionBuilder {
     base::Result<planning::PlanRequest> converted = messages::from_wire(whole);
     recorded.request = std::move(converted.value);
     recorded.error = std::move(converted.error);
+    recorded.received_s = received_s_;
     whole.utime = 0;  // does not count as content
-    base::Digest content_digest;
+    base::Digest all;
     const wire::Bytes bytes = wire::encode(whole);
-    content_digest.add(bytes.data(), bytes.size());
-    const base::Digest::Bytes content = content_digest.bytes();
+    all.add(bytes.data(), bytes.size());
+    const base::Digest::Bytes content = all.bytes();
+    recorded.content_digest = content_digest_of(whole);
     const auto [position, is_new] =
         index_.try_emplace({recorded.ids.client_id, recorded.ids.request_id}, contents_.size());
     if (is_new) {
@@ -127,6 +144,7 @@ class SessionBuilder {
     RecordedAnswer answer;
     answer.status = messages::status_name(whole.status);
     answer.scene_digest = whole.scene_digest;
+    answer.received_s = received_s_;
     answer.scene_revision = static_cast<std::uint64_t>(whole.scene_revision);
     answer.session = recording_;
     const bool is_result = base::value_of<planning::Status>(whole.status).has_value();
@@ -134,7 +152,11 @@ class SessionBuilder {
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);
   }
 
+  static constexpr double kMicroseconds = 1e6;
+
   const wire::MessageKeys* keys_;
+  bool is_first_ = true;
+  double received_s_ = 0.0;  ///< time of the event that is added, from the first one
   std::string request_channel_;
   std::string response_channels_;
   std::string scene_channel_;
@@ -149,20 +171,6 @@ class SessionBuilder {
 };
 
 }  // namespace
-
-std::string notes_on(const Session& session) {
-  std::string notes;
-  for (const record::Gap& gap : session.gaps) {
-    const double seconds = static_cast<double>(gap.to_utime - gap.from_utime) * 1e-6;
-    notes += fmt::format(
-        "note: the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}\n",
-        gap.messages, gap.changes, seconds, wire::printable(gap.reason));
-  }
-  if (session.damaged_events > 0) {
-    notes += fmt::format("note: {} events of the recording are damaged\n", session.damaged_events);
-  }
-  return notes;
-}
 
 Session read_session(const std::filesystem::path& log, const std::string& prefix,
                      const wire::MessageKeys* keys) {

@@ -22,6 +22,7 @@ struct RecordedAnswer {
   /// that is one.
   std::optional<plan_response_t> result;
   std::string scene_digest;          ///< digest of the scene of the answer; may be empty
+  double received_s = 0.0;           ///< as of the request
   std::uint64_t scene_revision = 0;  ///< revision of that scene; 0 if there is none
   /// Recording in which it stands (`record::FileBegin::session`); empty for a plain log.
   std::string session;
@@ -36,6 +37,11 @@ struct RecordedRequest {
   std::string error;
   std::optional<RecordedAnswer> answer;
   std::size_t sent = 0;  ///< number of times that it came completely
+  /// Time at which it first came completely, from the first event of the log. The times of a log
+  /// are not trusted: it may be any number. [Units: seconds]
+  double received_s = 0.0;
+  /// Digest of the request without its ids and its time of sending.
+  std::string content_digest;
 };
 
 /// A change of a scene in a recording.
@@ -47,6 +53,7 @@ struct RecordedUpdate {
 /// The planning requests of a log, in the order in which they first came completely.
 struct Session {
   LogSummary log;
+  std::int64_t begin_utime = 0;  ///< time of the first event that is read, microseconds since 1970
   std::vector<RecordedRequest> requests;
   std::uint64_t malformed = 0;  ///< messages on Camway's channels that cannot be read
   /// Malformed messages with another fingerprint: recorded with other versions of the types.
@@ -55,6 +62,7 @@ struct Session {
   std::uint64_t incomplete = 0;  ///< requests or answers with a missing page
   std::uint64_t conflicts = 0;   ///< requests left out, since another request has the same id
   std::uint64_t unasked = 0;     ///< answers to requests that are not in the log
+  std::uint64_t unwanted = 0;    ///< requests that a selection removed (`select`)
 
   // The next members are of recordings of a daemon. A plain log has none of this.
   std::vector<record::FileBegin> parts;
@@ -65,9 +73,6 @@ struct Session {
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
   std::uint64_t scene_requests = 0;
 };
-
-/// Returns a line for each thing that is missing in a recording; empty if nothing is.
-std::string notes_on(const Session& session);
 
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a
 /// request has several answers, the first that is a result of planning counts. With `keys`, only
