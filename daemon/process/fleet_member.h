@@ -33,10 +33,11 @@ class FleetMember {
 
   /// Brings the changes of other processes into `store` as long as the returned object lives.
   /// Requires that the state was loaded into the store, and that both outlive it. `advanced` is as
-  /// in `SceneFollower`. A front logs each of these changes, within `limits`.
+  /// in `SceneFollower`. A front logs each of these changes, within `limits`, and then calls
+  /// `changed`.
   [[nodiscard]] std::unique_ptr<scene::SceneFollower> follow(
       scene::SceneStore& store, const service::LimitedLog::Limits& limits,
-      scene::SceneFollower::Advanced advanced = {});
+      scene::SceneFollower::Advanced advanced = {}, scene::SceneFollower::Changed changed = {});
 
  private:
   FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,

@@ -18,16 +18,19 @@ foreach(file bin/camwayd bin/camway ${importers} lib/systemd/system/camwayd.serv
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/lcmtypes/README.md
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
+             share/man/man1/camway.1 share/man/man1/camway-scene.1 share/man/man5/camwayd.toml.5
+             share/man/man8/camwayd.8 share/bash-completion/completions/camway
+             share/zsh/site-functions/_camwayd share/fish/vendor_completions.d/camway.fish
              include/camway/client.h)
   if(NOT EXISTS ${prefix}/${file})
     message(SEND_ERROR "${file} is not installed")
   endif()
 endforeach()
 
-# Every link of an installed document leads to an installed file, also where only the client is.
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/client --component client
+# Every link of an installed document leads to an installed file, also where only the documents are.
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/doc --component doc
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-foreach(folder ${prefix} ${WORK_DIR}/client)
+foreach(folder ${prefix} ${WORK_DIR}/doc)
   execute_process(COMMAND ${PYTHON} -B ${CMAKE_CURRENT_LIST_DIR}/../documents/check_links.py --source ${folder} --links-only
                   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT code EQUAL 0)

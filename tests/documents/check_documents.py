@@ -7,7 +7,7 @@
 Commands ("$ ...") have to succeed and to print what is shown below them, where "..." stands for
 anything; a `camwayd` and a `camway view` stay until the next one or the document's end. Requests are planned, other
 JSON is parsed; JavaScript is run by node, if it is there; Python is run behind the document's earlier Python; C++ is compiled against the
-client; TOML is read by `camwayd --check-config`. What is not run bears a mark that says why
+client; C is compiled, linked with the library and run; TOML is read by `camwayd --check-config`. What is not run bears a mark that says why
 (blocks.py); a block of any other kind without one is a failure. Exit codes: 0, or 1 for failures.
 """
 import argparse
@@ -50,7 +50,7 @@ class Documents:
             return
         self.count += 1
         checks = {"shell": self.check_shell, "json": self.check_json, "cpp": self.check_cpp,
-                  "toml": self.check_toml, "javascript": self.check_javascript}
+                  "toml": self.check_toml, "javascript": self.check_javascript, "c": self.check_c}
         if "run first" in block.marks:
             self.expect_success(session, block, block.marks["run first"])
         if block.kind() == "python":
@@ -83,6 +83,13 @@ class Documents:
         file = session.write("block.cpp", block.text)
         self.expect_success(session, block,
                             f"c++ -std=c++17 -fsyntax-only -I'{self.source}/client/include' '{file}'")
+
+    def check_c(self, session, block):
+        file = session.write("block.c", block.text)
+        libraries = self.programs.parent
+        self.expect_success(session, block,
+                            f"cc -std=c11 -Wall -Wextra -Wpedantic -Werror -I'{self.source}/client/include' '{file}' "
+                            f"-o block -L'{libraries}' -lcamway_c -Wl,-rpath,'{libraries}' && ./block")
 
     def check_javascript(self, session, block):
         if shutil.which("node") is None:

@@ -64,6 +64,12 @@ class PlantedTest(unittest.TestCase):
         self.assert_passes("```cpp\n#include <camway/client.h>\ncamway::Client* client;\n```\n")
         self.assert_fails("    #include <camway/client.h>\n    camway::Nothing n;\n", "exit code 1")
 
+    def test_c_has_to_compile_and_to_succeed(self):
+        program = "```c\n#include <camway/camway.h>\nint main(void) { return camway_abi_version() < 1000; }\n```\n"
+        self.assert_passes(program)
+        self.assert_fails(program.replace("<", ">"), "exit code 1")
+        self.assert_fails(program.replace("version()", "version(1)"), "exit code 1")
+
     def test_configurations_have_to_be_good(self):
         self.assert_passes("```toml\n[log]\nlevel = \"info\"\n```\n")
         self.assert_fails("```toml\n[log]\nlevels = \"info\"\n```\n", "levels")

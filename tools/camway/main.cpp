@@ -10,6 +10,7 @@
 
 #include "daemon/base/standard_streams.h"
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/cli_support/help_tree.h"
 #include "daemon/version/build_info.h"
 #include "tools/camway/common/commands.h"
 
@@ -20,7 +21,7 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 17> kCommands{{
+constexpr auto kCommands = std::to_array<Command>({
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
@@ -30,6 +31,7 @@ constexpr std::array<Command, 17> kCommands{{
     {"occupancy", camway::tools::add_occupancy_command},
     {"load", camway::tools::add_load_command},
     {"replay", camway::tools::add_replay_command},
+    {"session", camway::tools::add_session_command},
     {"scene", camway::tools::add_scene_command},
     {"draw", camway::tools::add_draw_command},
     {"cache", camway::tools::add_cache_command},
@@ -38,7 +40,7 @@ constexpr std::array<Command, 17> kCommands{{
     {"doctor", camway::tools::add_doctor_command},
     {"watch", camway::tools::add_watch_command},
     {"view", camway::tools::add_view_command},
-}};
+});
 
 /// Adds the command of that name; all commands if there is none, for the help and for errors. The
 /// flags of all commands take longer to declare than many a plan.
@@ -63,6 +65,10 @@ int run(int argc, char** argv) {
           "the answer is no (plan, check, occupancy, load, replay, doctor and watch say of what)",
           /*asks_daemon=*/true));
   add_commands(app, argc > 1 ? argv[1] : "", exit_code);
+  if (camway::cli_support::asks_for_help_tree(argc, argv)) {
+    std::fputs(camway::cli_support::help_tree(app).c_str(), stdout);
+    return 0;
+  }
   camway::cli_support::refuse_missing_values(app);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,11 @@ add_library(camway_flags INTERFACE)
 target_compile_options(camway_flags INTERFACE -ffp-contract=off)
 target_include_directories(camway_flags INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+# A release holds only functions that something calls, and no path of the machine that built it: two builds
+# of the same sources in two folders have the same bytes. Others keep both, for debuggers.
+target_compile_options(camway_flags INTERFACE
+  "$<$<CONFIG:Release>:-ffunction-sections;-fdata-sections;-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>")
+target_link_options(camway_flags INTERFACE "$<$<CONFIG:Release>:LINKER:--gc-sections,-z,relro,-z,now>")
 if(CAMWAY_SANITIZE)
   # Without vptr: GCC 12 checks a wrong address where a member function is called through a pointer,
   # as LCM's C++ header does, and reports or crashes on correct code.

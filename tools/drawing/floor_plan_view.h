@@ -14,8 +14,8 @@ namespace camway::draw {
 /// A frame and the part of the plan that is drawn in it.
 struct View {
   Frame frame;
-  PlanPoint center;
-  double px_per_m;
+  PlanPoint center = PlanPoint::Zero();
+  double px_per_m = 1.0;
 
   [[nodiscard]] PlanPoint to_px(const PlanPoint& p) const {
     const PlanPoint middle(frame.x + frame.width / 2, frame.y + frame.height / 2);

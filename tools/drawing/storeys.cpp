@@ -282,18 +282,18 @@ std::vector<double> filled(const std::vector<std::optional<double>>& floors) {
   std::vector<double> all(floors.size(), 0.0);
   constexpr auto kFar = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> distance(floors.size(), kFar);
-  const auto pass = [&](std::size_t i, std::optional<std::size_t>& last) {
+  std::size_t last = kFar;
+  const auto pass = [&](std::size_t i) {
     if (floors[i]) last = i;
-    if (!last) return;
-    const std::size_t steps = i > *last ? i - *last : *last - i;
+    if (last == kFar) return;
+    const std::size_t steps = i > last ? i - last : last - i;
     if (steps >= distance[i]) return;
     distance[i] = steps;
-    all[i] = *floors[*last];
+    all[i] = *floors[last];
   };
-  std::optional<std::size_t> last;
-  for (std::size_t i = 0; i < floors.size(); ++i) pass(i, last);
-  last.reset();
-  for (std::size_t i = floors.size(); i-- > 0;) pass(i, last);
+  for (std::size_t i = 0; i < floors.size(); ++i) pass(i);
+  last = kFar;
+  for (std::size_t i = floors.size(); i-- > 0;) pass(i);
   return all;
 }
 

@@ -32,8 +32,14 @@ kPackages=(
   libsodium-dev
   # scenes that outlive the daemon
   libsqlite3-dev
+  # recorded sessions in one file
+  libarchive-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
+  # to pack Camway: finds the libraries that a package depends on; and makes the user of the daemon
+  dpkg-dev file adduser
+  # tests of the manual and of the completions
+  man-db groff-base zsh fish
   # the package for Python, which the build works without, and the check of its types
   python3-dev python3-numpy pybind11-dev mypy
   # tests

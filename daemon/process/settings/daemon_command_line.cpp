@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/cli_support/help_tree.h"
 #include "daemon/process/settings/config_file.h"
 #include "daemon/process/settings/daemon_faults.h"
 #include "daemon/process/settings/daemon_settings.h"
@@ -61,6 +62,15 @@ void declare_switch(CLI::App& app, const std::string& flag, std::string_view key
   app.add_flag_callback(flag, turn_on, meaning);
 }
 
+/// Returns the form of a setting's value as the help shows it.
+std::string form_of(const Setting& setting) {
+  if (setting.path == Setting::Path::kFile) return "PATH";
+  if (setting.path == Setting::Path::kFolders) return "FOLDER";
+  if (!setting.is_text()) return "NUMBER";
+  const std::vector<std::string_view> choices = setting.choices();
+  return choices.empty() ? "WORD" : fmt::format("WORD:{}", fmt::join(choices, "|"));
+}
+
 /// Adds a flag for a setting. `usual` is its default as the help shows it.
 void declare_setting(CLI::App& app, const std::string& flag, std::string_view key,
                      const std::string& meaning, DaemonOptions& options,
@@ -73,7 +83,7 @@ void declare_setting(CLI::App& app, const std::string& flag, std::string_view ke
   };
   app.add_option_function<std::string>(flag, apply,
                                        meaning + " [" + usual.value_or(setting().text()) + "]")
-      ->type_name(setting().is_text() ? "WORD" : "NUMBER");
+      ->type_name(form_of(setting()));
 }
 
 /// Adds the flags for files: the configuration, and scenes, which are no settings.
@@ -105,6 +115,10 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
       "Folder in which scenes are kept, so that the next daemon with it has them again; "
       "without it they end with the daemon; relative to the folder that this is started in",
       options, "none");
+  declare_setting(app, "--record", "record.folder",
+                  "Folder into which messages and changes of scenes are recorded, for `camway "
+                  "replay`; relative to the folder that this is started in",
+                  options, "none");
   declare_setting(
       app, "--role", "fleet.role",
       "What this process does: all of it alone; front: serve clients of a fleet and let "
@@ -165,6 +179,9 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
                                         DaemonOptions& options) {
   CLI::App app("camwayd: plans camera paths that are free of collision, over LCM", "camwayd");
   declare(app, raw, options);
+  if (cli_support::asks_for_help_tree(argc, argv)) {
+    return ParsedOptions{std::nullopt, cli_support::help_tree(app), {}};
+  }
   cli_support::refuse_missing_values(app);
   try {
     app.parse(argc, argv);

@@ -118,6 +118,19 @@ std::string Setting::text() const {
       target);
 }
 
+std::vector<std::string_view> Setting::choices() const {
+  return std::visit(
+      [](const auto* value) -> std::vector<std::string_view> {
+        if constexpr (std::is_enum_v<std::decay_t<decltype(*value)>>) {
+          const auto words = words_for(*value);
+          return {words.begin(), words.end()};
+        } else {
+          return {};
+        }
+      },
+      target);
+}
+
 std::string Setting::set(std::string_view value) const {
   if (const auto* const level = std::get_if<service::LogLevel*>(&target))
     return choose(**level, value);
@@ -243,6 +256,10 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
       {"state.folder", &options.state.folder, 0, 0, false, nullptr, Setting::Path::kFile},
       {"state.most_bytes", &options.state.most_bytes, 1 << 20, kManyBytes},
+      {"record.folder", &options.record.folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"record.file_bytes", &options.record.limits.file_bytes, 1 << 16, kManyBytes},
+      {"record.file_s", &options.record.limits.file_time, 1, kDayS},
+      {"record.most_bytes", &options.record.limits.most_bytes, 1 << 20, kManyBytes},
       {"fleet.role", &options.fleet.role},
       {"fleet.servers", &options.fleet.servers, 0, 0, false, &fault_of_servers},
       {"fleet.name", &options.fleet.name, 0, 0, false, &fault_of_member},

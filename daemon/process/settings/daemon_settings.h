@@ -43,6 +43,8 @@ struct Setting {
   [[nodiscard]] std::string set_word(std::string_view word) const;
   /// Sets a switch. Not called `set`, which would take a text without quotes for a switch.
   void turn(bool on) const;
+  /// Returns the words that `set` takes; empty if it takes others as well.
+  [[nodiscard]] std::vector<std::string_view> choices() const;
   /// Returns which kind of value `set` takes.
   [[nodiscard]] bool is_text() const;
   /// Returns `value` with every relative path in it put below `folder`; `value` itself if it is no

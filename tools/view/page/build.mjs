@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// `node build.mjs OUT_DIR` makes OUT_DIR/{index.html,page.js,page.css}.
+// `node build.mjs OUT_DIR` makes OUT_DIR/{index.html,page.js,page.css}, and parts.json: which packages are in
+// them, with version and licence.
 import { build } from 'esbuild';
-import { copyFile, mkdir, readFile } from 'node:fs/promises';
+import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -15,8 +16,9 @@ if (!out) {
   process.exit(2);
 }
 await mkdir(out, { recursive: true });
-await build({
+const { metafile } = await build({
   absWorkingDir: here,
+  metafile: true,
   entryPoints: { page: 'src/main.ts' },
   outdir: out,
   bundle: true,
@@ -36,6 +38,14 @@ await build({
   target: 'es2022',
   logLevel: 'warning',
 });
+const packages = new Set(
+  Object.keys(metafile.inputs).flatMap((file) => /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file)?.[1] ?? []),
+);
+const parts = [...packages].sort().map(async (name) => {
+  const { version, license } = JSON.parse(await readFile(join(here, 'node_modules', name, 'package.json'), 'utf8'));
+  return { name, version, license };
+});
+await writeFile(join(out, 'parts.json'), JSON.stringify(await Promise.all(parts), null, 2) + '\n');
 await copyFile(join(here, 'index.html'), join(out, 'index.html'));
 
 let total = 0;

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 #
-# Makes the files that embedded_files.S puts into the program. Does nothing if what they are made of has not
-# changed. The packages of package-lock.json are installed once for each content of the lock, which needs the
-# network; without it there is a warning, and the page that says what is missing.
+# Makes the files that embedded_files.S puts into the program, and parts.json: which packages are in them. Does
+# nothing if what they are made of has not changed. The packages of package-lock.json are installed once for each
+# content of the lock, which needs the network; without it there is a warning, and the page that says what is
+# missing.
 #
 #   make_page.sh FOLDER OUT      FOLDER: for a copy of the sources, and their packages
 #   make_page.sh --without OUT   the page that says what is missing
@@ -26,7 +27,8 @@ sources() {
 deliver() {
   mkdir -p "$out"
   local file
-  for file in index.html page.js page.css index.html.gz page.js.gz page.css.gz policy.txt; do
+  for file in index.html page.js page.css index.html.gz page.js.gz page.css.gz policy.txt \
+    parts.json; do
     cmp -s "$1/$file" "$out/$file" || cp "$1/$file" "$out/$file"
   done
 }
@@ -37,6 +39,7 @@ make_without() {
   cp "$here/without.html" "$made/index.html"
   gzip -9 -n -c "$made/index.html" >"$made/index.html.gz"
   touch "$made"/{page.js,page.css,page.js.gz,page.css.gz,policy.txt}
+  echo '[]' >"$made/parts.json"
   deliver "$made"
   rm -r "$made"
   rm -f "$out/stamp"

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Completes words in the shells that are there: bash always, zsh and fish if they are installed.
+
+    completion_test.py --made DIR     the folder that make_manual.py wrote
+"""
+
+import argparse
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from typed_shell import TypedShell
+
+MADE = None  # set by main
+
+# A line without its last word's end, and the words that may follow there. Files are in `folder`.
+CASES = [
+    ("camway pl", {"plan"}),
+    ("camway scene de", {"describe"}),
+    ("camway scene l", {"load", "list"}),
+    ("camway plan --up ", {"as-in-file", "z-to-y", "y-to-z"}),
+    ("camway plan --method k", {"keyframe_insertion"}),
+    ("camway plan --respon", {"--response", "--response-dir"}),
+    ("camway plan --request re", {"request.json", "results/"}),
+    ("camway plan --no-timing --response-dir re", {"results/"}),
+    ("camway state show re", {"request.json", "results/"}),
+    ("camway load --he", {"--help"}),
+    ("camway scene load --up", {"--up", "--upload"}),
+    ("camwayd --role ", {"alone", "front", "planner"}),
+    ("camwayd --log-level wa", {"warn"}),
+    ("camwayd --state re", {"request.json", "results/"}),
+    ("camwayd --scene-roots re", {"results/"}),
+]
+# Where a shell of its own shows more: other words of this line, which it completes as well.
+ONLY_BASH = [
+    ("camway plan --up=z", {"z-to-y"}),
+    ("camway plan --request request.json re", {"request.json", "results/"}),  # takes several
+    ("camway plan --scale 2 --up y", {"y-to-z"}),
+    ("camway plan --scale ", set()),
+]
+
+
+def folder_of_files():
+    folder = pathlib.Path(tempfile.mkdtemp())
+    (folder / "request.json").write_text("{}")
+    (folder / "results").mkdir()
+    return folder
+
+
+class Completion(unittest.TestCase):
+    def setUp(self):
+        self.folder = folder_of_files()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_bash_offers_commands_flags_values_and_files(self):
+        for line, expected in CASES + ONLY_BASH:
+            with self.subTest(line):
+                self.assertEqual(self.offered_by_bash(line), expected)
+
+    def offered_by_bash(self, line):
+        words = line.replace("=", " = ").split(" ")
+        program = words[0]
+        script = (f'source "{MADE}/bash/{program}"; COMP_WORDS=({" ".join(repr(word) for word in words)}); '
+                  f"COMP_CWORD={len(words) - 1}; _{program}_complete; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+        said = subprocess.run(["bash", "--norc", "-u", "-c", script], cwd=self.folder, check=True, text=True,
+                              capture_output=True)
+        self.assertEqual(said.stderr, "")
+        return {word + "/" if (self.folder / word).is_dir() else word for word in said.stdout.split()}
+
+    def test_bash_completes_on_a_terminal(self):
+        shell = TypedShell(["bash", "--norc", "--noprofile", "-i"], f"PS1=; source {MADE}/bash/camway", self.folder, {})
+        self.addCleanup(shell.close)
+        shell.completed("camway pl", "plan ")
+        shell.completed("camway plan --up=z", "--up=z-to-y ")
+        shell.completed("camway plan --request req", "request.json ")
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
+    def test_zsh_completes_on_a_terminal(self):
+        setup = (f"PS1=; unsetopt zle_bracketed_paste 2>/dev/null; fpath=({MADE}/zsh $fpath); autoload -U compinit; "
+                 "compinit -u -D")
+        shell = TypedShell(["zsh", "-f", "-i"], setup, self.folder, {})
+        self.addCleanup(shell.close)
+        for line, end in [("camway pl", "plan "), ("camway scene des", "describe "),
+                          ("camway plan --up=z", "--up=z-to-y "), ("camway plan --meth", "--method="),
+                          ("camway plan --request=req", "request.json "), ("camway state show res", "results/"),
+                          ("camwayd --role=fr", "front "), ("camwayd --state=res", "results/")]:
+            with self.subTest(line):
+                shell.completed(line, end)
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish_offers_commands_flags_values_and_files(self):
+        script = [f"source {MADE}/fish/camway.fish; source {MADE}/fish/camwayd.fish"]
+        script += [f"complete -C '{line}' | string replace -r '\\t.*' ''; echo ---" for line, _ in CASES]
+        home = {"HOME": str(self.folder), "XDG_CONFIG_HOME": str(self.folder / "results"), "PATH": "/usr/bin:/bin"}
+        said = subprocess.run(["fish", "--no-config", "-c", "\n".join(script)], cwd=self.folder, check=True, text=True,
+                              capture_output=True, env=home)
+        self.assertEqual(said.stderr, "")
+        for (line, expected), offered in zip(CASES, said.stdout.split("---\n")):
+            with self.subTest(line):
+                self.assertEqual(set(offered.split()), expected)
+
+
+def main():
+    global MADE
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--made", type=pathlib.Path, required=True)
+    options, rest = parser.parse_known_args()
+    MADE = options.made.resolve()
+    unittest.main(argv=["completion_test.py", *rest])
+
+
+if __name__ == "__main__":
+    main()

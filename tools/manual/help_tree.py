@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""The commands and options of a program, as `PROGRAM --help-tree` tells them."""
+
+import dataclasses
+import json
+import re
+import subprocess
+
+# Forms of values that are names of files and of folders. Others are written by whoever calls.
+_FILES = {"FILE", "PATH"}
+_FOLDERS = {"DIR", "FOLDER"}
+
+
+@dataclasses.dataclass
+class Option:
+    names: list          # ["-h", "--help"]; empty for a positional
+    word: str            # the name of a positional
+    form: str            # of its value, "" for a switch
+    check: str           # which values it takes
+    description: str
+    default: str
+    group: str
+    required: bool
+    repeats: bool
+    needs: list
+    excludes: list
+
+    @property
+    def choices(self):
+        """The words that it takes; empty if it takes others as well."""
+        words = self.check.split("|")
+        return words if len(words) > 1 and all(re.fullmatch(r"[\w-]+", word) for word in words) else []
+
+    @property
+    def kind(self):
+        """Of its value: "file", "folder", "choice", "any", or "" without one."""
+        if self.choices:
+            return "choice"
+        return {"": ""}.get(self.form, "file" if self.form in _FILES else "folder" if self.form in _FOLDERS else "any")
+
+    @property
+    def short_description(self):
+        """Its first clause, for lists."""
+        return re.split(r"[;:.] | [(\[]", self.description)[0].strip()
+
+
+@dataclasses.dataclass
+class Command:
+    path: str            # "camway scene load"
+    description: str
+    footer: str
+    options: list
+    commands: list
+
+    @property
+    def name(self):
+        return self.path.split()[-1]
+
+    @property
+    def flags(self):
+        return [option for option in self.options if option.names]
+
+    @property
+    def positionals(self):
+        return [option for option in self.options if not option.names]
+
+    def all(self):
+        """This command and those below it, this one first."""
+        yield self
+        for command in self.commands:
+            yield from command.all()
+
+
+def _command(tree, above=""):
+    path = f"{above} {tree['name']}".strip()
+    return Command(path, tree["description"], tree["footer"], [Option(**option) for option in tree["options"]],
+                   [_command(command, path) for command in tree["commands"]])
+
+
+def read(program):
+    """Asks a program. Raises subprocess.CalledProcessError if it cannot be run."""
+    said = subprocess.run([program, "--help-tree"], check=True, stdout=subprocess.PIPE).stdout
+    return _command(json.loads(said))
