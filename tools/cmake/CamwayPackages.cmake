@@ -92,8 +92,8 @@ from programs by a running camwayd; and the types of its messages as .lcm
 files, for other languages.")
 if(python IN_LIST installed)
   # Its module is for one version of the interpreter.
-  math(EXPR next "${Python3_VERSION_MINOR} + 1")
-  set(interpreter "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(interpreter "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   camway_package(python python3-camway python SHARED DEPENDS "${interpreter}, camway ${exact}"
     SUMMARY "Camway in Python: planning, and the client of the daemon"
     DESCRIPTION "Plans camera paths that are free of collision, in the process of the program or

@@ -30,19 +30,34 @@ def start_daemon(programs):
     return daemon
 
 
-def measure(client, camway, peer, request, count):
-    """Milliseconds of Python and of C++ for `count` pairs of calls."""
-    mine, theirs = [], []
-    for i in range(count):
-        request.seed = i + 1
+def processor_ms(process):
+    """Processor time of all threads of a process, which a busy machine changes little."""
+    tasks = pathlib.Path(f"/proc/{process}/task").iterdir()
+    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks) / 1e6
+
+
+def measure(client, peer, request, count):
+    """Milliseconds of Python and of C++ for `count` pairs of calls. Who is first changes from pair to pair: the second
+    finds warm caches in the daemon."""
+
+    def by_python(seed):
+        request.seed = seed
         begin_s = time.perf_counter()
         answer = client.plan(request)
         mine.append(1000 * (time.perf_counter() - begin_s))
-        print(i + 1, file=peer.stdin, flush=True)
+        return answer.ok
+
+    def by_cpp(seed):
+        print(seed, file=peer.stdin, flush=True)
         taken_ms, is_ok = peer.stdout.readline().split()
         theirs.append(float(taken_ms))
-        if not answer.ok or is_ok != "1":
-            raise SystemExit("a plan failed")
+        return is_ok == "1"
+
+    mine, theirs = [], []
+    for i in range(count):
+        for plan in (by_python, by_cpp) if i % 2 == 0 else (by_cpp, by_python):
+            if not plan(i + 1):
+                raise SystemExit("a plan failed")
     return mine, theirs
 
 
@@ -66,12 +81,17 @@ def main():
                                       stdout=subprocess.PIPE, text=True) as peer:
                     request = camway.Request.load(file)
                     request.scene = SCENE
-                    mine, theirs = measure(client, camway, peer, request, arguments.count)
+                    before = processor_ms("self"), processor_ms(peer.pid)
+                    mine, theirs = measure(client, peer, request, arguments.count)
+                    after = processor_ms("self"), processor_ms(peer.pid)
                     peer.stdin.close()
+                # Writing to the peer and reading from it counts for Python here.
+                processor = [(after[i] - before[i]) / arguments.count for i in (0, 1)]
                 medians = statistics.median(mine), statistics.median(theirs)
                 rows.append({"request": name, "python_ms": medians[0], "cpp_ms": medians[1],
-                             "more_ms": medians[0] - medians[1]})
-                line = "{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms"
+                             "more_ms": medians[0] - medians[1], "processor_more_ms": processor[0] - processor[1]})
+                line = ("{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms; "
+                        "{processor_more_ms:+.3f} ms of processor time")
                 print(line.format(**rows[-1]))
     finally:
         daemon.terminate()

@@ -274,6 +274,14 @@ class WatchTest(unittest.TestCase):
 
         self.assertEqual(asyncio.run(give_up()).kind, "broken")
 
+    def test_no_event_is_lost_to_a_wait_that_was_given_up(self):
+        watch = self.client.watch(self.request)
+        self.assertEqual(watch.next_event(20.0).kind, "answer")
+        with self.assertRaises(TimeoutError):
+            watch.next_event(0.05)
+        self.client.put_object("hall", "wall", WALL, camway.Pose((4.5, 1.5, 4)))
+        self.assertEqual([watch.next_event(20.0).kind for _ in range(2)], ["broken", "answer"])
+
     def test_a_watch_ends_where_the_daemon_confirms_it(self):
         events = []
         watch = self.client.watch(self.request, events.append)

@@ -97,11 +97,19 @@ class PlanTest(unittest.TestCase):
             camway.Scene.load(support.SCENES / "office.obj", up="left")
 
     def test_without_the_program_that_reads_scenes_it_says_where_it_looked(self):
+        self.assertIn("camway-import is neither in /nowhere, beside this program nor on PATH",
+                      self.load_in_another_process(CAMWAY_PROGRAMS="/nowhere"))
+
+    def test_the_package_finds_the_programs_of_its_build(self):
+        self.assertEqual(self.load_in_another_process(), "")
+
+    def load_in_another_process(self, **environment):
+        """Returns what a process writes to standard error that reads a scene, with nothing on its PATH."""
+        inherited = {name: value for name, value in os.environ.items() if name != "CAMWAY_PROGRAMS"}
         code = "import camway; camway.Scene.load(__import__('sys').argv[1], use_cache=False)"
         done = subprocess.run([sys.executable, "-B", "-c", code, str(support.SCENES / "office.obj")], text=True,
-                              env=os.environ | {"CAMWAY_PROGRAMS": "/nowhere", "PATH": "/nowhere"},
-                              capture_output=True, check=False)
-        self.assertIn("camway-import is neither in /nowhere, beside this program nor on PATH", done.stderr)
+                              env=inherited | {"PATH": "/nowhere"} | environment, capture_output=True, check=False)
+        return done.stderr
 
     def test_a_scene_of_a_request_is_read_as_it_says(self):
         with tempfile.TemporaryDirectory() as folder:
