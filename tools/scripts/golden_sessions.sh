@@ -152,7 +152,8 @@ record_session() {
     rm -f "$log.response"
   done < <(requests_of "$session")
   sleep 0.3  # the logger writes what it heard
-  kill "$logger" && wait "$logger" || true
+  kill "$logger" || true
+  wait "$logger" || true
   keep_planning "$log.all" "$log"
 }
 
@@ -185,7 +186,8 @@ update_all() {
     "$camwayd" --scene "maze=$root/scenes/maze.obj,occupancy=0.25" --log-level warn &
     eventually "$camway" scene export maze --to "$sessions/maze.bt" >/dev/null 2>&1 ||
       fail "the map cannot be exported"
-    kill $! && wait $! || true
+    kill $! || true
+    wait $! || true
   fi
   mapfile -t scenes < <(scene_flags)
   "$camwayd" "${scenes[@]}" --log-level warn --max-deadline-s "$kDeadline_s" --deadline-s "$kDeadline_s" &
