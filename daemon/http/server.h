@@ -78,8 +78,13 @@ struct Handlers {
 struct Limits {
   int connections = 16;  ///< at a time [Limit: 1 <= value <= 1000]
   /// Time to send a request, or to take a response; also the time that a connection may be silent
-  /// between requests. WebSocket connections are kept as long as the other side answers pings.
+  /// between requests.
   std::chrono::milliseconds patience{5000};
+  /// Silence after which a WebSocket connection is closed. After half of it the other side is sent
+  /// a ping, and anything that it sends, a pong among it, is a sign of life. A browser whose page
+  /// is busy may read nothing, pings neither, once a message waits for the page; and programs of
+  /// the same machine that end are noticed without it. So it is long.
+  std::chrono::milliseconds silence{120'000};
   std::size_t header_bytes = 16'384;
   std::size_t body_bytes = 0;     ///< of a request
   std::size_t message_bytes = 0;  ///< of a WebSocket message

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 #include <mutex>
+#include <utility>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
@@ -15,9 +16,6 @@ namespace camway::http {
 namespace {
 
 namespace websocket = beast::websocket;
-
-/// A silent connection is asked for a sign of life after half of this, and closed after it.
-constexpr std::chrono::seconds kSilence{30};
 
 /// Messages that wait to be sent. Thread-safe.
 class Outbox {
@@ -77,8 +75,8 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
   void accept(const BeastRequest& upgrade) {
     // The stream's own clock must not run beside that of the protocol.
     beast::get_lowest_layer(stream_).expires_never();
-    stream_.set_option(
-        websocket::stream_base::timeout{core_.limits.patience, kSilence, /*pings=*/true});
+    stream_.set_option(websocket::stream_base::timeout{core_.limits.patience, core_.limits.silence,
+                                                       /*pings=*/true});
     stream_.set_option(
         websocket::stream_base::decorator([this](websocket::response_type& response) {
           for (const auto& [name, value] : core_.handlers.headers) response.set(name, value);
@@ -96,7 +94,7 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
 
   /// Sends what waits, one message after the other.
   void write() {
-    if (!is_open_ || is_writing_) return;
+    if (!is_open_ || is_writing_ || is_closing_) return;
     const std::string* const text = outbox_->front();
     if (text == nullptr) {
       if (closes_) close(websocket::close_code::normal);
@@ -141,7 +139,10 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
     read();
   }
 
+  /// Begins to close, unless that has begun: a message that is refused and a handler may both ask
+  /// for it, and the stream takes one close at a time.
   void close(websocket::close_code code) {
+    if (std::exchange(is_closing_, true)) return;
     outbox_->end();
     stream_.async_close(code, [self = shared_from_this()](beast::error_code) { self->abort(); });
   }
@@ -153,7 +154,8 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
   beast::flat_buffer buffer_;
   bool is_open_ = false;
   bool is_writing_ = false;
-  bool closes_ = false;
+  bool closes_ = false;      ///< to be closed once what waits is sent
+  bool is_closing_ = false;  ///< the close frame is on its way, and nothing is sent after it
 };
 
 /// The end of a connection that the handlers keep.

@@ -14,7 +14,9 @@
 #include "daemon/process/fleet_front.h"
 #include "daemon/process/metrics/metrics_text.h"
 #include "daemon/process/process_signals.h"
+#include "daemon/process/recording.h"
 #include "daemon/process/service_manager.h"
+#include "daemon/record/recording_transport.h"
 #include "daemon/scene/import/upload_file.h"
 #include "daemon/service/service.h"
 #include "daemon/service/transport/auth_transport.h"
@@ -76,12 +78,16 @@ base::Result<std::shared_ptr<wire::MessageAuth>> open_auth(const AuthOptions& op
 /// Opens the page for Prometheus; null if the options ask for none.
 base::Result<std::unique_ptr<http::Server>> open_metrics(const DaemonOptions& options,
                                                          const LatestStatus& latest,
+                                                         const record::Recorder* recorder,
                                                          const std::shared_ptr<service::Log>& log) {
   if (options.metrics.port == 0) return std::unique_ptr<http::Server>();
   HttpContent content;
   content.path = "/metrics";
   content.type = "text/plain; version=0.0.4; charset=utf-8";
-  content.text = [&latest] { return metrics_text(latest.get()); };
+  content.text = [&latest, recorder] {
+    const std::string text = metrics_text(latest.get());
+    return recorder != nullptr ? text + record_metrics(recorder->counts()) : text;
+  };
   // Used by the page's thread alone, since limited logs are not thread-safe.
   const auto crowded = std::make_shared<service::LimitedLog>(log, service::LogLevel::kWarn,
                                                              "metrics", options.service.log_limits);
@@ -114,8 +120,13 @@ int exit_code_of(service::RunOutcome outcome, const std::string& url, service::L
 /// The parts of a daemon that serves, in the order in which they are made and needed.
 class ServingDaemon {
  public:
-  ServingDaemon(const DaemonOptions& options, const std::shared_ptr<service::Log>& log)
-      : options_(options), log_(log), manager_(ServiceManager::from_environment()) {}
+  /// `recorder` may be null.
+  ServingDaemon(const DaemonOptions& options, record::Recorder* recorder,
+                const std::shared_ptr<service::Log>& log)
+      : options_(options),
+        recorder_(recorder),
+        log_(log),
+        manager_(ServiceManager::from_environment()) {}
 
   /// Opens the network, the keys and the page of metrics. Returns the exit code if one of them
   /// cannot be opened, after having logged why.
@@ -172,7 +183,9 @@ class ServingDaemon {
           service.request_stop();
         },
         [&] { reloader.request(); });
-    return exit_code_of(service.run(), options_.lcm_url, *log_);
+    const service::RunOutcome outcome = service.run();
+    if (recorder_ != nullptr) recorder_->finish();
+    return exit_code_of(outcome, options_.lcm_url, *log_);
   }
 
   std::optional<int> open_network() {
@@ -190,6 +203,10 @@ class ServingDaemon {
       return kExitLcm;
     }
     network_ = *std::move(opened);
+    if (recorder_ != nullptr) {
+      recording_.emplace(*network_, *recorder_);
+      log_->info("recording", {{"folder", options_.record.folder}});
+    }
     return std::nullopt;
   }
 
@@ -202,7 +219,7 @@ class ServingDaemon {
     }
     auth_ = *std::move(auth);
     if (!auth_) return std::nullopt;
-    signing_.emplace(*network_, auth_, options_.auth.required,
+    signing_.emplace(wire_side(), auth_, options_.auth.required,
                      service::LimitedLog(log_, service::LogLevel::kWarn, "distrusted",
                                          options_.service.log_limits));
     log_->info("messages are signed",
@@ -211,7 +228,8 @@ class ServingDaemon {
   }
 
   std::optional<int> open_page_of_metrics() {
-    base::Result<std::unique_ptr<http::Server>> page = open_metrics(options_, latest_, log_);
+    base::Result<std::unique_ptr<http::Server>> page =
+        open_metrics(options_, latest_, recorder_, log_);
     if (!page) {
       log_->error("there can be no page of metrics", {{"reason", page.error}});
       return kExitMetrics;
@@ -223,8 +241,13 @@ class ServingDaemon {
     return std::nullopt;
   }
 
+  /// The transport of messages as they are on the network.
+  service::Transport& wire_side() {
+    return recording_ ? static_cast<service::Transport&>(*recording_) : *network_;
+  }
+
   service::Transport& transport() {
-    return signing_ ? static_cast<service::Transport&>(*signing_) : *network_;
+    return signing_ ? static_cast<service::Transport&>(*signing_) : wire_side();
   }
 
   service::ServiceHooks hooks() {
@@ -267,10 +290,12 @@ class ServingDaemon {
   }
 
   const DaemonOptions& options_;
+  record::Recorder* const recorder_;
   const std::shared_ptr<service::Log>& log_;
   std::unique_ptr<service::Transport> network_;
-  std::shared_ptr<wire::MessageAuth> auth_;        ///< null without keys
-  std::optional<service::AuthTransport> signing_;  ///< over the network, with keys
+  std::optional<record::RecordingTransport> recording_;  ///< over the network, with a recorder
+  std::shared_ptr<wire::MessageAuth> auth_;              ///< null without keys
+  std::optional<service::AuthTransport> signing_;        ///< over the network, with keys
   LatestStatus latest_;
   std::unique_ptr<http::Server> metrics_;  ///< null if the options ask for none
   const ServiceManager manager_;
@@ -282,9 +307,9 @@ class ServingDaemon {
 }  // namespace
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, FleetMember* fleet,
+          ConfiguredScenes& configured, FleetMember* fleet, record::Recorder* recorder,
           const std::function<bool()>& read_scenes, const std::shared_ptr<service::Log>& log) {
-  ServingDaemon daemon(options, log);
+  ServingDaemon daemon(options, recorder, log);
   if (const std::optional<int> code = daemon.open()) return *code;
   return daemon.run(std::move(read_again), scenes, configured, fleet, read_scenes);
 }

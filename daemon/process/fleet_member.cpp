@@ -148,14 +148,16 @@ FleetMember::FleetMember(std::string id, std::unique_ptr<nats::Connection> conne
 
 std::unique_ptr<scene::SceneFollower> FleetMember::follow(scene::SceneStore& store,
                                                           const service::LimitedLog::Limits& limits,
-                                                          scene::SceneFollower::Advanced advanced) {
-  scene::SceneFollower::Changed changed;
+                                                          scene::SceneFollower::Advanced advanced,
+                                                          scene::SceneFollower::Changed changed) {
   if (role_ == FleetRole::kFront) {
     // Called on the follower's thread alone, since limited logs are not thread-safe.
     const auto lines = std::make_shared<service::LimitedLog>(service_log_, service::LogLevel::kInfo,
                                                              "changes of others", limits);
-    changed = [lines, &store](const scene::Snapshot& scene, bool is_removed) {
+    changed = [lines, &store, next = std::move(changed)](const scene::Snapshot& scene,
+                                                         bool is_removed) {
       log_change(scene, is_removed, store, *lines);
+      if (next) next(scene, is_removed);
     };
   }
   return std::make_unique<scene::SceneFollower>(

@@ -33,10 +33,11 @@ class FleetMember {
 
   /// Brings the changes of other processes into `store` as long as the returned object lives.
   /// Requires that the state was loaded into the store, and that both outlive it. `advanced` is as
-  /// in `SceneFollower`. A front logs each of these changes, within `limits`.
+  /// in `SceneFollower`. A front logs each of these changes, within `limits`, and then calls
+  /// `changed`.
   [[nodiscard]] std::unique_ptr<scene::SceneFollower> follow(
       scene::SceneStore& store, const service::LimitedLog::Limits& limits,
-      scene::SceneFollower::Advanced advanced = {});
+      scene::SceneFollower::Advanced advanced = {}, scene::SceneFollower::Changed changed = {});
 
  private:
   FleetMember(std::string id, std::unique_ptr<nats::Connection> connection,
@@ -48,8 +49,8 @@ class FleetMember {
   const FleetRole role_;
   const std::shared_ptr<service::Log> service_log_;
   const std::unique_ptr<nats::Connection> connection_;
-  /// The log alone uses it: a connection that asks a locked stream (`nats::StallWatch`) gets no other
-  /// answer either, and jobs go on meanwhile.
+  /// The log alone uses it: a connection that asks a locked stream (`nats::StallWatch`) gets no
+  /// other answer either, and jobs go on meanwhile.
   const std::unique_ptr<nats::Connection> log_connection_;
   scene::SharedLog* const shared_log_;  ///< owned by `state_`
   const std::unique_ptr<KeptState> state_;

@@ -14,8 +14,10 @@
 #include "daemon/process/kept_state.h"
 #include "daemon/process/planner_run.h"
 #include "daemon/process/process_signals.h"
+#include "daemon/process/recording.h"
 #include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/process/warning_journal.h"
+#include "daemon/record/recording_journal.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 #include "daemon/version/build_info.h"
@@ -35,6 +37,53 @@ int state_fault(const process::DaemonOptions& options, const std::string& reason
             {{"setting", options.where(is_alone ? "state.folder" : "fleet.servers")},
              {"reason", reason}});
   return kExitFault;
+}
+
+int record_fault(const process::DaemonOptions& options, const std::string& reason,
+                 service::Log& log) {
+  log.error("nothing can be recorded",
+            {{"setting", options.where("record.folder")}, {"reason", reason}});
+  return kExitFault;
+}
+
+/// What hears of the changes of the scenes.
+class Journals {
+ public:
+  /// Both may be null.
+  Journals(process::KeptState* state, record::Recorder* recorder,
+           const std::shared_ptr<service::Log>& log) {
+    if (state != nullptr) warning_.emplace(state->scenes(), log);
+    if (recorder != nullptr) recording_.emplace(warning_ ? &*warning_ : nullptr, *recorder);
+  }
+  Journals(const Journals&) = delete;
+  Journals& operator=(const Journals&) = delete;
+
+  /// The journal for the store; null if there is none.
+  [[nodiscard]] scene::SceneJournal* first() {
+    if (recording_) return &*recording_;
+    return warning_ ? &*warning_ : nullptr;
+  }
+
+ private:
+  std::optional<process::WarningJournal> warning_;
+  std::optional<record::RecordingJournal> recording_;
+};
+
+/// Records the scenes that were kept since an earlier start.
+void record_scenes(const scene::SceneStore& scenes, record::Recorder& recorder) {
+  for (const auto& scene : scenes.list()) recorder.scene_put(*scene, {});
+}
+
+/// Records what other processes change. The journal of the store does not hear of that.
+scene::SceneFollower::Changed recording_of_others(record::Recorder* recorder) {
+  if (recorder == nullptr) return {};
+  return [recorder](const scene::Snapshot& scene, bool is_removed) {
+    if (is_removed) {
+      recorder->scene_removed(scene);
+    } else {
+      recorder->scene_put(scene, {});
+    }
+  };
 }
 
 /// The log that keeps scenes beyond the life of this process. Both are null if nothing does.
@@ -78,16 +127,19 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
   process::block_reload_signal();  // a reload that is asked for now comes after the scenes
   Keeper keeper;
   if (const std::optional<int> code = open(options, log, keeper)) return *code;
+  auto recorder = process::open_recorder(options, log);
+  if (!recorder) return record_fault(options, recorder.error, *log);
   process::KeptState* const state = keeper.state();
-  std::optional<process::WarningJournal> journal;
-  if (state != nullptr) journal.emplace(state->scenes(), log);
-  scene::SceneStore scenes(options.store, journal ? &*journal : nullptr);
+  Journals journals(state, recorder->get(), log);
+  scene::SceneStore scenes(options.store, journals.first());
   if (const std::string fault = state != nullptr ? state->load_into(scenes, *log) : "";
       !fault.empty()) {
     return state_fault(options, fault, *log);
   }
-  const auto follower =
-      keeper.fleet ? keeper.fleet->follow(scenes, options.service.log_limits) : nullptr;
+  if (*recorder) record_scenes(scenes, **recorder);
+  const auto follower = keeper.fleet ? keeper.fleet->follow(scenes, options.service.log_limits, {},
+                                                            recording_of_others(recorder->get()))
+                                     : nullptr;
   process::ConfiguredScenes configured(scenes, log, open_cache(options, *log),
                                        state != nullptr ? &state->log() : nullptr,
                                        keeper.fleet ? process::member_id(options) : "");
@@ -96,8 +148,8 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
   // yet. A front reads them later.
   if (!keeper.fleet && !read_scenes()) return kExitBadInput;
   process::block_stop_signals();
-  return process::serve(options, read_again, scenes, configured, keeper.fleet.get(), read_scenes,
-                        log);
+  return process::serve(options, read_again, scenes, configured, keeper.fleet.get(),
+                        recorder->get(), read_scenes, log);
 }
 
 int run(int argc, char** argv) {

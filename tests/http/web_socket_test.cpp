@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,10 @@ using tcp = boost::asio::ip::tcp;
 class Client {
  public:
   explicit Client(int port) : stream_(context_) {
+    // A ping that is sent and answered is seen here; the stream answers it by itself.
+    stream_.control_callback([this](websocket::frame_type type, beast::string_view) {
+      if (type == websocket::frame_type::ping) ++pings_;
+    });
     stream_.next_layer().connect(
         {boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
     stream_.handshake("127.0.0.1", "/socket");
@@ -43,6 +49,8 @@ class Client {
     beast::error_code ignored;
     boost::asio::write(stream_.next_layer(), boost::asio::buffer(bytes), ignored);
   }
+  /// Returns how many pings came so far.
+  [[nodiscard]] int pings() const { return pings_; }
   /// Returns the next message; what ended the connection if there is none.
   std::string receive() {
     beast::flat_buffer buffer;
@@ -57,6 +65,7 @@ class Client {
  private:
   boost::asio::io_context context_;
   websocket::stream<tcp::socket> stream_;
+  int pings_ = 0;
 };
 
 /// Sends back what it receives, and keeps the sockets.
@@ -115,8 +124,8 @@ class Echo {
 
 constexpr Limits kLimits{.connections = 64, .message_bytes = 1000, .queued_bytes = 100'000};
 
-std::unique_ptr<Server> serve(Echo& echo) {
-  auto opened = Server::open({}, echo.handlers(), kLimits);
+std::unique_ptr<Server> serve(Echo& echo, const Limits& limits = kLimits) {
+  auto opened = Server::open({}, echo.handlers(), limits);
   if (!opened) throw std::runtime_error(opened.error);
   return std::move(*opened);
 }
@@ -192,6 +201,46 @@ TEST(HttpWebSocket, EndsWithTheServer) {
   EXPECT_FALSE(echo.last()->send("text"));
   echo.last()->close();
   EXPECT_EQ(client.receive(), "ended");
+}
+
+TEST(HttpWebSocket, IsClosedOnceThoughTwoAskForIt) {
+  Echo echo;
+  const auto server = serve(echo);
+  Client client(server->port());
+  client.send("a");
+  EXPECT_EQ(client.receive(), "echo a");
+  // The server closes because of this, and waits for the client's own close meanwhile.
+  client.send("x", /*is_text=*/false);
+  while (echo.last()->send("more")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  echo.last()->close();
+  echo.last()->close();
+  Client other(server->port());
+  other.send("b");
+  EXPECT_EQ(other.receive(), "echo b") << "the server has run what was asked of the first";
+  std::string end = client.receive();
+  while (end == "more") end = client.receive();
+  EXPECT_EQ(end, "closed 1003");
+}
+
+TEST(HttpWebSocket, IsKeptWhileTheOtherSideAnswersPings) {
+  constexpr std::chrono::milliseconds kSilence{1500};
+  Limits limits = kLimits;
+  limits.silence = kSilence;
+  Echo echo;
+  const auto server = serve(echo, limits);
+  Client dead(server->port());
+  const std::shared_ptr<Socket> dead_socket = echo.last();
+  Client alive(server->port());
+  const std::shared_ptr<Socket> alive_socket = echo.last();
+  // It says nothing itself, and waits longer than the silence that is borne.
+  std::thread waits([&] { EXPECT_EQ(alive.receive(), "late"); });
+  while (dead_socket->send("")) std::this_thread::sleep_for(kSilence / 20);
+  std::this_thread::sleep_for(kSilence);
+  EXPECT_TRUE(alive_socket->send("late"));
+  waits.join();
+  EXPECT_GE(alive.pings(), 2);
+  alive.send("a");
+  EXPECT_EQ(alive.receive(), "echo a");
 }
 
 TEST(HttpWebSocket, RandomFramesNeitherEndNorStallIt) {

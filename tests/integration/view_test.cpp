@@ -59,6 +59,7 @@ class ViewDaemonTest : public IntegrationTest {
     IntegrationTest::TearDown();
   }
   HttpClient http() { return {door_->port(), kSecret}; }
+  void expect_no_waiting(const std::string& digest);
   static std::string request_text(const std::string& name) { return read_file(request_file(name)); }
 
   std::unique_ptr<view::Backend> backend_;
@@ -86,7 +87,13 @@ TEST_F(ViewDaemonTest, EveryPlaceIsAnsweredByTheDaemon) {
       client.send("PATCH", objects + "/crate", R"({"orientation": [0, 0, 0, 1]})");
   EXPECT_EQ(moved.json().at("objects").at(0).at("position"), json({5.0, 6.0, 7.0})) << moved.body;
   EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 200);
-  EXPECT_EQ(client.send("DELETE", objects + "/crate").code, 404);
+  const Reached missing = client.send("DELETE", objects + "/crate");
+  EXPECT_EQ(missing.code, 404);
+  EXPECT_THAT(missing.json().at("error").get<std::string>(), StartsWith("object: "));
+  const Reached refused = client.post(
+      objects, R"({"name": "crate", "form": {"type": "mesh", "file": "/nowhere/crate.obj"}})");
+  EXPECT_EQ(refused.code, 400) << refused.body;
+  EXPECT_NE(refused.json().value("field", "invalid"), "invalid") << refused.body;
   const std::string plan = client.post("/v1/plan", request_text("office-graze-door")).body;
   EXPECT_EQ(json::parse(plan).at("status"), "ok") << plan;
   EXPECT_THAT(client.get("/plan.svg").body, HasSubstr("<svg"));
@@ -295,6 +302,24 @@ TEST_F(ViewDaemonTest, PlansAreCancelledAtTheDaemon) {
   EXPECT_EQ(end, json({{"id", 1}, {"cancelled", true}}));
 }
 
+/// Asks everything that needs a daemon, while none is heard. The client would wait for 10 s each
+/// time, and all of them take less than one of these.
+void ViewDaemonTest::expect_no_waiting(const std::string& digest) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string request = request_text("office-graze-door");
+  for (const Reached& reached :
+       {http().get("/v1/scenes"), http().get("/v1/scenes/office"),
+        http().get("/v1/scenes/office/meshes/" + std::string(32, '0')),
+        http().post("/v1/scenes/office/triangles", R"({"indices": [0]})"),
+        http().post("/v1/check", R"({"path": {"segments": []}, "request": )" + request + "}"),
+        http().send("DELETE", "/v1/scenes/office/objects/crate")}) {
+    EXPECT_EQ(reached.code, 503) << reached.body;
+    EXPECT_THAT(reached.body, HasSubstr("no daemon is heard"));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  EXPECT_EQ(http().get("/v1/scenes/office/meshes/" + digest).code, 200) << "it is kept here";
+}
+
 TEST_F(ViewDaemonTest, SaysThatTheDaemonIsGoneAndBack) {
   start_daemon();
   open_door();
@@ -306,6 +331,15 @@ TEST_F(ViewDaemonTest, SaysThatTheDaemonIsGoneAndBack) {
              message["event"]["heard"] == is_heard;
     });
   };
+  EXPECT_FALSE(next_heard(true).contains("closed"));
+  const std::string digest =
+      http().get("/v1/scenes/office").json().at("objects").at(0).at("digest").get<std::string>();
+  EXPECT_EQ(http().get("/v1/scenes/office/meshes/" + digest).code, 200);
+  // It waits for the daemon when the silence is noticed.
+  daemon().signal(SIGSTOP);
+  EXPECT_EQ(http().get("/v1/scenes").code, 503);
+  EXPECT_FALSE(next_heard(false).contains("closed"));
+  daemon().signal(SIGCONT);
   EXPECT_FALSE(next_heard(true).contains("closed"));
   daemon().signal(SIGKILL);
   ASSERT_EQ(daemon().wait(), 128 + SIGKILL);
@@ -323,6 +357,7 @@ TEST_F(ViewDaemonTest, SaysThatTheDaemonIsGoneAndBack) {
   EXPECT_THAT(status.json().at("error").get<std::string>(), HasSubstr("no daemon is heard"));
   const Reached plan = http().post("/v1/plan", request_text("office-graze-door"));
   EXPECT_EQ(plan.code, 503) << plan.body;
+  expect_no_waiting(digest);
   start_daemon();
   EXPECT_FALSE(next_heard(true).contains("closed"));
   EXPECT_EQ(http().post("/v1/plan", request_text("office-graze-door")).code, 200);

@@ -66,6 +66,7 @@ draw::FloorPlan floor_plan(const DrawFlags& flags, const planning::PlanRequest& 
     if (correction.kind == correction::CorrectionKind::kNone) continue;
     plan.corrected.push_back({correction.t_begin_s, correction.t_end_s});
   }
+  if (result.infeasibility) plan.barrier = draw::barrier_of(*result.infeasibility, mesh);
   return plan;
 }
 

@@ -21,7 +21,7 @@ struct Command {
   void (*add)(CLI::App& app, camway::tools::ExitCode& exit_code);
 };
 
-constexpr std::array<Command, 17> kCommands{{
+constexpr auto kCommands = std::to_array<Command>({
     {"plan", camway::tools::add_plan_command},
     {"check", camway::tools::add_check_command},
     {"info", camway::tools::add_info_command},
@@ -31,6 +31,9 @@ constexpr std::array<Command, 17> kCommands{{
     {"occupancy", camway::tools::add_occupancy_command},
     {"load", camway::tools::add_load_command},
     {"replay", camway::tools::add_replay_command},
+    {"session", camway::tools::add_session_command},
+    {"pack", camway::tools::add_pack_command},
+    {"unpack", camway::tools::add_unpack_command},
     {"scene", camway::tools::add_scene_command},
     {"draw", camway::tools::add_draw_command},
     {"cache", camway::tools::add_cache_command},
@@ -39,7 +42,7 @@ constexpr std::array<Command, 17> kCommands{{
     {"doctor", camway::tools::add_doctor_command},
     {"watch", camway::tools::add_watch_command},
     {"view", camway::tools::add_view_command},
-}};
+});
 
 /// Adds the command of that name; all commands if there is none, for the help and for errors. The
 /// flags of all commands take longer to declare than many a plan.

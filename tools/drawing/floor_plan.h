@@ -9,7 +9,9 @@
 #include "daemon/collision/interval.h"
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
+#include "tools/drawing/barrier.h"
 #include "tools/drawing/floor_section.h"
+#include "tools/drawing/palette.h"
 
 namespace camway::draw {
 
@@ -29,6 +31,12 @@ struct TimeRange {
   double end_s = 0.0;
 };
 
+/// Names of the two paths of a picture in its legend.
+struct PathNames {
+  std::string before{names::kBefore};
+  std::string after{names::kAfter};
+};
+
 /// The content of a picture: the keyframes, the path with its collisions, and the corrected path.
 struct FloorPlan {
   std::string title;
@@ -42,7 +50,9 @@ struct FloorPlan {
   std::vector<collision::CollisionInterval> collisions;  ///< collisions of `before`
   std::vector<collision::CollisionInterval> remaining_collisions;  ///< collisions of `after`
   std::vector<TimeRange> corrected = {};  ///< stretches of `after` that a correction changed
+  std::optional<Barrier> barrier = {};    ///< where there is no path
   std::optional<double> cut_height_m;     ///< height of the section; default: each storey's own
+  PathNames path_names = {};
 };
 
 /// Returns the height for the section: the median height of the keyframes, or that of another
@@ -59,6 +69,7 @@ struct PictureFiles {
 /// Draws the plan from above, like Figure 7 of Ptacek & Johnstone (2006): for each storey that the
 /// path visits, its section, keyframes with their near quadrilaterals, path and corner curves
 /// before and after the correction, and collision intervals with the quadrilaterals at their ends;
+/// the section of the barrier, with the keyframes inside and outside of it named;
 /// an enlarged detail of each place of collision, three at most; and the heights along the path.
 /// Keyframes have the numbers that messages give them: the given ones, from 0. Returns an error
 /// that names the file; empty on success.

@@ -93,6 +93,17 @@ void draw_paths(cairo_t* cr, const View& view, const FloorPlan& plan, const Pane
   stroke_after(cr);
 }
 
+void draw_barrier(cairo_t* cr, const View& view, const Panel& panel) {
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+  for (const SectionLine& line : panel.barrier) {
+    if (line.closed) trace(cr, view, line.points);
+  }
+  set_color(cr, kBarrierFill);
+  cairo_fill(cr);
+  for (const SectionLine& line : panel.barrier) trace(cr, view, line.points);
+  stroke(cr, palette::kInfeasible, kBarrierLine_px);
+}
+
 PlanPoint middle_of(const PanelCollision& collision, SceneUp up) {
   return to_plan(sample_at(collision.path, collision.middle_s).pose.position, up);
 }
@@ -130,7 +141,7 @@ void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan, const 
   }
 }
 
-/// Draws numbers and heights beside keyframes where there is room, else the numbers alone.
+/// Draws numbers and remarks beside keyframes where there is room, else the numbers alone.
 void draw_keyframe_labels(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel,
                           const std::vector<PlanBox>& kept_clear) {
   constexpr double kWedgeMiddle_px = 12.0;
@@ -148,16 +159,16 @@ void draw_keyframe_labels(cairo_t* cr, const View& view, const FloorPlan& plan, 
     if (keyframe.number.empty()) continue;
     const PlanPoint at = view.to_px(to_plan(keyframe.pose.position, plan.up));
     const double number_px = text_width_px(cr, keyframe.number, kLetters_px, true);
-    const std::string height = keyframe.height.empty() ? "" : " (" + keyframe.height + ")";
-    const double height_px = text_width_px(cr, height, kLetters_px - 2);
-    std::optional<PlanBox> box = places.place(at, {number_px + height_px, kLetters_px});
+    const std::string remark = keyframe.remark.empty() ? "" : " (" + keyframe.remark + ")";
+    const double remark_px = text_width_px(cr, remark, kLetters_px - 2);
+    std::optional<PlanBox> box = places.place(at, {number_px + remark_px, kLetters_px});
     const bool is_whole = box.has_value();
     if (!box) box = places.place(at, {number_px, kLetters_px});
     if (!box) continue;
     const PlanPoint foot(box->min().x(), box->max().y() - 1.5);
     draw_text(cr, foot, keyframe.number, kLetters_px, palette::kInk, 0.0, true);
     if (!is_whole) continue;
-    draw_text(cr, {foot.x() + number_px, foot.y()}, height, kLetters_px - 2, palette::kInk);
+    draw_text(cr, {foot.x() + number_px, foot.y()}, remark, kLetters_px - 2, palette::kInk);
   }
 }
 
@@ -208,6 +219,14 @@ PlanBox world_shown(const FloorPlan& plan) {
   for (const SampledPath* path : {&plan.before, &plan.after}) {
     for (const PathSample& s : *path) box.extend(to_plan(s.pose.position, plan.up));
   }
+  if (plan.barrier) {
+    const scene::Mesh& surface = plan.barrier->surface;
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      for (const geometry::Vec3& corner : surface.triangle(i)) {
+        box.extend(to_plan(corner, plan.up));
+      }
+    }
+  }
   if (box.isEmpty()) box = bounds_on_paper(plan.mesh, plan.up);
   if (box.isEmpty()) box.extend(PlanPoint(0.0, 0.0));
   const double margin_m = std::max(1.6, 0.1 * box.sizes().maxCoeff());
@@ -227,6 +246,7 @@ void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel
   cairo_clip(cr);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  draw_barrier(cr, view, panel);
   draw_paths(cr, view, plan, panel);
   draw_collisions(cr, view, plan, panel);
   draw_keyframes(cr, view, plan, panel);

@@ -78,8 +78,8 @@ std::vector<LegendEntry> legend_of(const FloorPlan& plan, bool has_several_store
       keyframe_entry(false, std::string(names::kGiven) + ", from 0"),
       keyframe_entry(true, std::string(names::kInserted)),
       quad_entry(palette::kGiven, "near quadrilateral"),
-      line_entry(&stroke_before, std::string(names::kBefore)),
-      line_entry(&stroke_after, std::string(names::kAfter)),
+      line_entry(&stroke_before, plan.path_names.before),
+      line_entry(&stroke_after, plan.path_names.after),
       corner_entry(),
   };
   if (!plan.corrected.empty()) {
@@ -89,6 +89,10 @@ std::vector<LegendEntry> legend_of(const FloorPlan& plan, bool has_several_store
   entries.push_back(collision_entry(false, std::string(names::kCollision) + " before"));
   entries.push_back(collision_entry(true, std::string(names::kCollision) + " that remains"));
   entries.push_back(quad_entry(palette::kCollision, "its begin and end"));
+  if (plan.barrier) {
+    entries.push_back(
+        area_entry(kBarrierFill, palette::kInfeasible, std::string(names::kInfeasible)));
+  }
   for (LegendEntry& entry : section_legend()) entries.push_back(std::move(entry));
   return entries;
 }

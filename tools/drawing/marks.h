@@ -53,6 +53,10 @@ void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains);
 /// Draws a scale bar of 1, 2 or 5 times a power of ten that ends at `right`.
 void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m);
 
+/// Fill and line of the section of a barrier.
+inline constexpr Color kBarrierFill = faded(palette::kInfeasible, 0.2);
+inline constexpr double kBarrierLine_px = 2.6;
+
 // The lines of each thing, the same in plans, height strips and legends.
 void stroke_before(cairo_t* cr);
 void stroke_after(cairo_t* cr);

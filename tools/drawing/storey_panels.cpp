@@ -150,6 +150,13 @@ FloorSection section_of_storey(const FloorPlan& plan, const StoreySplit& split,
   return cut_floor(plan.mesh, plan.up, height_m, floor_m);
 }
 
+/// Returns the side of the barrier on which the keyframe of a number is; empty if no proof says.
+std::string side_of(const std::optional<Barrier>& barrier, const std::string& number) {
+  if (!barrier || number.empty()) return {};
+  if (number == std::to_string(barrier->keyframe_inside)) return "inside";
+  return number == std::to_string(barrier->keyframe_outside) ? "outside" : "";
+}
+
 Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t storey) {
   Panel panel;
   panel.section = section_of_storey(plan, split, storey);
@@ -160,8 +167,11 @@ Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t stor
     const motion::Keyframe& keyframe = plan.keyframes[i];
     const bool is_inserted = numbers[i].empty();
     const double height_m = height_of(keyframe.pose.position, plan.up);
-    panel.keyframes.push_back({keyframe.pose, is_inserted, numbers[i],
-                               is_level || is_inserted ? "" : fmt::format("{:.2f} m", height_m)});
+    std::string remark = side_of(plan.barrier, numbers[i]);
+    if (!is_level && !is_inserted) {
+      remark += fmt::format("{}{:.2f} m", remark.empty() ? "" : ", ", height_m);
+    }
+    panel.keyframes.push_back({keyframe.pose, is_inserted, numbers[i], std::move(remark)});
   }
   panel.before = pieces_of(plan.before, split.of_before, storey);
   panel.after = pieces_of(plan.after, split.of_after, storey);
@@ -173,6 +183,7 @@ Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t stor
   }
   add_collisions(plan.before, split.of_before, plan.collisions, false, storey, panel);
   add_collisions(plan.after, split.of_after, plan.remaining_collisions, true, storey, panel);
+  if (plan.barrier) panel.barrier = barrier_section(*plan.barrier, plan.up, panel.section);
   return panel;
 }
 

@@ -15,7 +15,7 @@ struct PanelKeyframe {
   motion::Pose pose;
   bool is_inserted = false;
   std::string number;  ///< as in messages; empty for an inserted keyframe
-  std::string height;  ///< empty where all keyframes are about equally high
+  std::string remark;  ///< its height where they differ, its side of a barrier; may be empty
 };
 
 /// A collision as drawn: the poses from its begin to its end.
@@ -39,6 +39,7 @@ struct Panel {
   PanelPath after;
   std::vector<SampledPath> corrected;
   std::vector<PanelCollision> collisions;
+  std::vector<SectionLine> barrier;
 };
 
 /// Returns the number of each keyframe, as messages count: given keyframes from 0; nothing for

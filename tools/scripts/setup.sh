@@ -32,6 +32,8 @@ kPackages=(
   libsodium-dev
   # scenes that outlive the daemon
   libsqlite3-dev
+  # recorded sessions in one file
+  libarchive-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev
   # to pack Camway: finds the libraries that a package depends on; and makes the user of the daemon

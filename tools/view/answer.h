@@ -36,8 +36,14 @@ inline Answer failure(int code, std::string error) { return {code, {}, std::move
 /// Returns `text` as a string of JSON, in quotes. Bytes that are no UTF-8 are replaced.
 std::string json_string(std::string_view text);
 
-/// Returns `{"error": ...}`.
-std::string error_json(std::string_view error);
+/// Returns the member that a sentence about a wrong request is about, without the name of its
+/// document: "options.limits" of "request: options.limits: has no limit". The name of the document
+/// where it is about all of that; empty where it names nothing.
+std::string_view field_of(std::string_view error);
+
+/// Returns the members of an error: `"error": ...`, and `"field": ...` where the request is wrong
+/// and the sentence names a member.
+std::string error_members(int code, std::string_view error);
 
 /// Takes an answer: called exactly once, on any thread. Must neither throw nor wait.
 using Done = std::function<void(Answer)>;

@@ -31,10 +31,12 @@ OrderedJson scene_json(const SceneFacts& scene) {
 }
 
 OrderedJson object_json(const ObjectFacts& object) {
-  return {{"name", object.name},           {"kind", object.kind},
-          {"digest", object.digest},       {"triangles", object.triangles},
-          {"position", object.position_m}, {"orientation", object.orientation_wxyz},
-          {"bounds_min_m", object.min_m},  {"bounds_max_m", object.max_m}};
+  OrderedJson json{{"name", object.name},           {"kind", object.kind},
+                   {"digest", object.digest},       {"triangles", object.triangles},
+                   {"position", object.position_m}, {"orientation", object.orientation_wxyz},
+                   {"bounds_min_m", object.min_m},  {"bounds_max_m", object.max_m}};
+  if (!object.mesh_digest.empty()) json["mesh_digest"] = object.mesh_digest;
+  return json;
 }
 
 /// Names from files may hold any bytes.

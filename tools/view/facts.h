@@ -30,6 +30,8 @@ struct ObjectFacts {
   std::string name;
   std::string kind;  ///< "mesh", "box", ...
   std::string digest;
+  /// Digest of its mesh in its own frame, which moves do not change; empty where that is not known.
+  std::string mesh_digest;
   std::int64_t triangles = 0;
   Numbers3 position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};

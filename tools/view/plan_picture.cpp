@@ -38,6 +38,9 @@ std::string plan_picture(const LastPlan& last) {
   plan.after = draw::sample(last.result.path, kPageSamples);
   plan.collisions = last.result.collisions;
   plan.remaining_collisions = last.result.remaining_collisions;
+  if (last.result.infeasibility) {
+    plan.barrier = draw::barrier_of(*last.result.infeasibility, plan.mesh);
+  }
   return draw::floor_plan_svg(plan);
 }
 

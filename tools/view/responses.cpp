@@ -40,7 +40,8 @@ std::vector<std::pair<std::string, std::string>> common_headers() {
 
 http::Response to_response(Answer answer) {
   http::Response response{answer.code, "application/json", {}, {}};
-  response.body = answer.code == code::kOk ? std::move(answer.json) : error_json(answer.error);
+  response.body = answer.code == code::kOk ? std::move(answer.json)
+                                           : "{" + error_members(answer.code, answer.error) + "}";
   if (!response.body.ends_with('\n')) response.body += '\n';
   return response;
 }

@@ -100,9 +100,9 @@ void Session::received(const std::string& text) {
   std::variant<Message, BadMessage> read = read_message(text);
   if (const auto* const bad = std::get_if<BadMessage>(&read)) {
     const std::lock_guard lock(mutex_);
-    send(fmt::format("{{\"id\": {}, \"error\": {}, \"code\": {}}}",
-                     bad->id ? std::to_string(*bad->id) : "null", json_string(bad->error),
-                     code::kInvalid));
+    send(fmt::format("{{\"id\": {}, {}, \"code\": {}}}",
+                     bad->id ? std::to_string(*bad->id) : "null",
+                     error_members(code::kInvalid, bad->error), code::kInvalid));
     return;
   }
   Message& message = std::get<Message>(read);
@@ -372,7 +372,7 @@ void Session::send_field(Id id, std::string_view name, std::string_view json) {
 }
 
 void Session::send_error(Id id, int code, std::string_view error) {
-  send(fmt::format("{{\"id\": {}, \"error\": {}, \"code\": {}}}", id, json_string(error), code));
+  send(fmt::format("{{\"id\": {}, {}, \"code\": {}}}", id, error_members(code, error), code));
 }
 
 void Session::send_answer(Id id, const Answer& answer) {

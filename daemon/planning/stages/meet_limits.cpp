@@ -51,6 +51,12 @@ void take(Retimed slowed, const motion::TimeOrigin& origin, PlanResult& result) 
   result.measures->mean_shift_rad = unslowed.mean_shift_rad;
 }
 
+/// Returns whether a law slows all of its path. It may do so without being uniform.
+bool is_everywhere(const std::vector<SlowedStretch>& slowed, const motion::TimeLaw& law) {
+  return slowed.size() == 1 && slowed.front().given_t_begin_s == law.knots_s().front() &&
+         slowed.front().given_t_end_s == law.knots_s().back();
+}
+
 }  // namespace
 
 SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request,
@@ -73,12 +79,12 @@ SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request
                          query, prepared.origin,       times_s, is_free};
   std::optional<Retimed> slowed;
   if (is_free) slowed = slowed_where_needed(too_fast, deadline.share_of_rest(kShareOfSlowing));
-  plan.is_everywhere = !slowed;
   if (!slowed) slowed = slowed_uniformly(too_fast, deadline.not_before_s(kLeastBudget_s));
   plan.is_too_fast = !slowed;
   if (slowed) {
     plan.law = slowed->law;
     take(std::move(*slowed), prepared.origin, result);
+    plan.is_everywhere = is_everywhere(result.slowed, *plan.law);
   }
   return plan;
 }

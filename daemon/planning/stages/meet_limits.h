@@ -17,7 +17,7 @@ namespace camway::planning {
 /// How a path was made to meet motion limits.
 struct SlowedPlan {
   std::optional<motion::TimeLaw> law;  ///< law that slowed the path, if any
-  bool is_everywhere = false;          ///< slowed uniformly; means nothing without `law`
+  bool is_everywhere = false;          ///< no part keeps its time; means nothing without `law`
   bool is_too_fast = false;            ///< whether the deadline came before the path was slowed
   std::optional<LimitBreach> breach;   ///< limits that are not met, where the path is not slowed
 };

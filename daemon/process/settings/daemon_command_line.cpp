@@ -115,6 +115,10 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
       "Folder in which scenes are kept, so that the next daemon with it has them again; "
       "without it they end with the daemon; relative to the folder that this is started in",
       options, "none");
+  declare_setting(app, "--record", "record.folder",
+                  "Folder into which messages and changes of scenes are recorded, for `camway "
+                  "replay`; relative to the folder that this is started in",
+                  options, "none");
   declare_setting(
       app, "--role", "fleet.role",
       "What this process does: all of it alone; front: serve clients of a fleet and let "

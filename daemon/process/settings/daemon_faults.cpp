@@ -65,6 +65,18 @@ void check_effect(const DaemonOptions& options, std::initializer_list<std::strin
   }
 }
 
+/// A folder has to hold several files, so that the oldest can go while one is written.
+void check_record(const DaemonOptions& options, std::vector<std::string>& faults) {
+  constexpr std::size_t kLeastFiles = 4;
+  const record::RecordLimits& limits = options.record.limits;
+  if (limits.file_bytes <= limits.most_bytes / kLeastFiles) return;
+  const bool blames_file = options.set_at.contains("record.file_bytes");
+  faults.push_back(
+      fmt::format("{}: is {}, but record.most_bytes must be at least {} times record.file_bytes",
+                  options.where(blames_file ? "record.file_bytes" : "record.most_bytes"),
+                  blames_file ? limits.file_bytes : limits.most_bytes, kLeastFiles));
+}
+
 void check_fleet(const DaemonOptions& options, std::vector<std::string>& faults) {
   const FleetOptions& fleet = options.fleet;
   if (!options.drop_scenes.empty() && fleet.role != FleetRole::kFront) {
@@ -98,7 +110,7 @@ void check_fleet(const DaemonOptions& options, std::vector<std::string>& faults)
   if (fleet.role != FleetRole::kPlanner) return;
   check_effect(options,
                {"lcm.url", "lcm.prefix", "lcm.share_prefix", "scenes.roots", "auth.key_file",
-                "metrics.port", "fleet.jobs"},
+                "metrics.port", "fleet.jobs", "record.folder"},
                "has no effect on a planner, which talks to the fronts of its fleet alone", faults);
   for (const SceneArgument& scene : options.scenes) {
     faults.push_back(
@@ -116,6 +128,10 @@ std::vector<std::string> contradictions(const DaemonOptions& options) {
   if (options.state.folder.empty() && options.where("state.folder") == "--state") {
     faults.push_back("--state: must name a folder");
   }
+  if (options.record.folder.empty() && options.where("record.folder") == "--record") {
+    faults.push_back("--record: must name a folder");
+  }
+  check_record(options, faults);
   check_deadlines(options, "planning", options.service.deadline, faults);
   check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
   check_deadlines(options, "scenes", options.service.change_deadline, faults);

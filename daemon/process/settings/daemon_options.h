@@ -15,6 +15,7 @@
 
 #include "daemon/process/metrics/http_page.h"
 #include "daemon/process/settings/scene_argument.h"
+#include "daemon/record/log_files.h"
 #include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
@@ -40,6 +41,12 @@ struct AuthOptions {
 struct StateOptions {
   std::string folder;  ///< empty: nowhere
   std::size_t most_bytes = std::size_t{16} << 30;
+};
+
+/// Where messages and changes of scenes are recorded, for `camway replay`.
+struct RecordingOptions {
+  std::string folder;  ///< empty: nowhere
+  record::RecordLimits limits;
 };
 
 /// The part of a daemon in a fleet, which is several processes with the same scenes.
@@ -86,6 +93,7 @@ struct DaemonOptions {
   std::size_t cache_bytes = std::size_t{2} << 30;  ///< limit of the cache; 0: no cache
   scene::SceneStoreLimits store;
   StateOptions state;
+  RecordingOptions record;
   FleetOptions fleet;
   service::ServiceConfig service;
   /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",

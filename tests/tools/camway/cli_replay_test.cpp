@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "daemon/planning/plan.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/tools/camway/cli_runner.h"
 
@@ -42,6 +47,138 @@ TEST(CliReplayLog, ShowsABodyAndItsWitnesses) {
   const std::string text = read_all(responses + "/0000_c_1.json");
   EXPECT_THAT(text, HasSubstr("\"object\": \"wall\""));
   EXPECT_THAT(text, HasSubstr("\"feature\": \"surface\""));
+}
+
+/// Logs of four requests past an obstacle: the first has the answer that this build gives, the
+/// second the path of the first, the third a worse status, the fourth none.
+class CliReplayCompare : public ::testing::Test {
+ protected:
+  CliReplayCompare() {
+    const auto snapshot = scene::make_snapshot("wall", wall_mesh()).snapshot;
+    for (int id = 1; id <= 4; ++id) {
+      const planning::PlanRequest request =
+          simple_request({{1.0 + 0.1 * id, 0, 1}, {1.0 + 0.1 * id, 0, -1}});
+      planning::PlanResult result = planning::plan(*snapshot, request);
+      requests_.add_request(request, {"client", id, 0});
+      requests_.add_answer(result, header(id));
+      log_.add_request(request, {"client", id, 0});
+      if (id == 1) first_ = result;
+      if (id == 2) result.path = first_.path;
+      if (id == 3) result.status = planning::Status::kPartial;
+      if (id < 4) log_.add_answer(result, header(id));
+    }
+    file_ = folder_.write("log", log_.bytes());
+    truth_ = folder_.write("truth", requests_.bytes());
+  }
+
+  static messages::AnswerHeader header(int id) { return {{"client", id, 0}, "wall", 1, ""}; }
+
+  CliRun replay(std::vector<std::string> flags, const std::string& log = {}) const {
+    std::vector<std::string> words{"replay", log.empty() ? file_ : log, "--scene",
+                                   "wall=" + scene_};
+    words.insert(words.end(), flags.begin(), flags.end());
+    return run_camway(words);
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = folder_.write("wall.obj", wall_obj());
+  LogBuilder log_, requests_;
+  planning::PlanResult first_;
+  std::string file_, truth_;
+};
+
+TEST_F(CliReplayCompare, ItsExitCodeFollowsTheVerdictsThatFail) {
+  const CliRun run = replay({});
+  EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+  EXPECT_THAT(run.out, HasSubstr("verdict: DIFFERENT: 4 requests: 1 same, 1 better, 1 different, "
+                                 "0 worse, 0 regressed, 1 not compared"));
+  EXPECT_EQ(replay({"--fail-on", "worse,regressed"}).exit_code, 0);
+  EXPECT_EQ(replay({"--fail-on", "nothing"}).exit_code, 0);
+  EXPECT_EQ(replay({"--fail-on", "better"}).exit_code, 3);
+  EXPECT_EQ(replay({"--tolerance-m", "0.2"}).exit_code, 0);
+  EXPECT_EQ(replay({"--tolerance-m", "0.2", "--tolerance-shift-deg", "1"}).exit_code, 3);
+  EXPECT_EQ(replay({"--fail-on", "wrong"}).exit_code, 2);
+}
+
+TEST_F(CliReplayCompare, SelectsRequests) {
+  EXPECT_EQ(replay({"--id", "1"}).exit_code, 0);
+  const CliRun third = replay({"--status", "partial"});
+  EXPECT_THAT(third.out, HasSubstr("BETTER: status partial -> ok"));
+  EXPECT_THAT(third.out, HasSubstr("note: 3 requests are not selected"));
+  EXPECT_EQ(replay({"--from", "0.003", "--to", "2023-11-14T22:13:20.005Z"}).exit_code, 0);
+  const CliRun none = replay({"--client", "nobody"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("none of its 4 requests is selected"));
+  EXPECT_EQ(replay({"--id", "1..x"}).exit_code, 2);
+  EXPECT_EQ(replay({"--from", "yesterday"}).exit_code, 2);
+}
+
+TEST_F(CliReplayCompare, WritesReports) {
+  const std::string json = folder_.file("report.json");
+  const std::string html = folder_.file("report.html");
+  const CliRun run = replay({"--json", json, "--html", html, "--no-timing", "--pictures", "1"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  const auto document = nlohmann::json::parse(read_all(json));
+  EXPECT_EQ(document["counts"]["different"], 1);
+  EXPECT_EQ(document["requests"].size(), 4U);
+  const std::string page = read_all(html);
+  EXPECT_THAT(page, HasSubstr("data:image/svg+xml;base64,"));
+  EXPECT_EQ(page.find("base64,"), page.rfind("base64,")) << "one picture";
+  replay({"--json", folder_.file("again.json"), "--html", folder_.file("again.html"), "--no-timing",
+          "--pictures", "1", "--threads", "3"});
+  EXPECT_EQ(read_all(json), read_all(folder_.file("again.json")));
+  EXPECT_EQ(page, read_all(folder_.file("again.html")));
+  EXPECT_EQ(replay({"--json", folder_.file("nowhere/report.json")}).exit_code, 2);
+}
+
+TEST_F(CliReplayCompare, ComparesTwoLogsWithoutPlanning) {
+  const CliRun run = run_camway({"replay", "--baseline", truth_, "--against", file_});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("1 same, 0 better, 1 different, 0 worse, 1 regressed, 1 not"));
+  EXPECT_EQ(run_camway({"replay", "--baseline", truth_, "--against", truth_}).exit_code, 0);
+  EXPECT_EQ(run_camway({"replay", file_, "--baseline", truth_, "--against", truth_}).exit_code, 2);
+  EXPECT_EQ(run_camway({"replay", "--baseline", truth_}).exit_code, 2);
+  EXPECT_EQ(run_camway({"replay"}).exit_code, 2);
+}
+
+TEST_F(CliReplayCompare, ReadsATruncatedLogToTheLastGoodEvent) {
+  const std::string cut = folder_.write("cut", log_.bytes().substr(0, log_.offsets()[5] + 9));
+  const CliRun run = run_camway({"replay", "--baseline", truth_, "--against", cut, "--id", "1"});
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("the log breaks off inside the head of the event; 5 good events "
+                                 "before it"));
+  EXPECT_THAT(run.out, HasSubstr(cut + ": the log is damaged: 5 good events were used"));
+}
+
+TEST_F(CliReplayCompare, ComparesWithAnotherBuild) {
+  const CliRun itself = replay({"--baseline-build", CAMWAY_BINARY});
+  EXPECT_EQ(itself.exit_code, 0) << itself.out << itself.err;
+  EXPECT_THAT(itself.out, HasSubstr("verdict: SAME: 4 requests: 4 same"));
+
+  // A build whose first answer is its second one.
+  const std::string other =
+      folder_.write("other", "#!/bin/sh\n'" CAMWAY_BINARY
+                             "' \"$@\"\n"
+                             "while [ \"$1\" != --responses ]; do shift; done\n"
+                             "cp \"$2\"/0001_* \"$2\"/0000_client_1.json\n"
+                             "exit 3\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  const CliRun changed = replay({"--baseline-build", other});
+  EXPECT_EQ(changed.exit_code, 3) << changed.out << changed.err;
+  EXPECT_THAT(changed.out, HasSubstr("verdict: DIFFERENT: 4 requests: 3 same, 0 better, 1 diff"));
+
+  const CliRun none = replay({"--baseline-build", folder_.file("nowhere")});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("cannot be run"));
+  const CliRun mute = replay({"--baseline-build", "/bin/true"});
+  EXPECT_EQ(mute.exit_code, 2);
+  EXPECT_THAT(mute.err, HasSubstr("wrote no responses"));
+}
+
+TEST_F(CliReplayCompare, StepsNeedATerminal) {
+  const CliRun run = replay({"--step"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--step: asks after each request, which needs a terminal"));
 }
 
 }  // namespace

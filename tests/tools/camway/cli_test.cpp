@@ -270,7 +270,7 @@ TEST_F(CliReplay, EndsWithZeroWhenAllAgreeAndWritesTheSameBytesForAnyThreads) {
   EXPECT_EQ(one.exit_code, 0) << one.err << one.out;
   EXPECT_EQ(four.exit_code, 0);
   EXPECT_EQ(one.out, four.out);
-  EXPECT_THAT(one.out, HasSubstr("verdict: SAME: 5 requests: 5 agree, 0 differ"));
+  EXPECT_THAT(one.out, HasSubstr("verdict: SAME: 5 requests: 5 same, 0 better"));
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.file("r1"))) {
     const std::string name = entry.path().filename().string();
@@ -284,8 +284,8 @@ TEST_F(CliReplay, EndsWithThreeWhenAnAnswerDiffers) {
   const std::string log = folder_.write("log", recorded(true).bytes());
   const CliRun run = run_camway({"replay", log, "--scene", "wall=" + scene_});
   EXPECT_EQ(run.exit_code, 3) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("DIFFERS: remaining_collisions"));
-  EXPECT_THAT(run.out, HasSubstr("5 requests: 4 agree, 1 differ"));
+  EXPECT_THAT(run.out, HasSubstr("DIFFERENT: first differs in the proof: remaining_collisions"));
+  EXPECT_THAT(run.out, HasSubstr("5 requests: 4 same, 0 better, 1 different"));
 }
 
 TEST_F(CliReplay, EndsWithTwoAfterTheGoodPartOfATruncatedLog) {
@@ -295,7 +295,7 @@ TEST_F(CliReplay, EndsWithTwoAfterTheGoodPartOfATruncatedLog) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("breaks off"));
   EXPECT_THAT(run.err, HasSubstr("9 good events before it"));
-  EXPECT_THAT(run.out, HasSubstr("5 requests: 4 agree, 0 differ, 1 not compared"));
+  EXPECT_THAT(run.out, HasSubstr("0 regressed, 1 not compared"));
 }
 
 TEST_F(CliReplay, EndsWithTwoForInputThatCannotBeReplayed) {

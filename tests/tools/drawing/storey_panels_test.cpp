@@ -117,13 +117,13 @@ TEST(StoreyPanels, KeyframesHaveTheirHeights) {
       if (keyframe.is_inserted) continue;
       char height[40];
       std::snprintf(height, sizeof height, "%.2f m", keyframe.pose.position.y());
-      EXPECT_EQ(keyframe.height, height);
+      EXPECT_EQ(keyframe.remark, height);
     }
   }
   for (motion::Keyframe& keyframe : plan.keyframes) keyframe.pose.position.y() = 1.6;
   EXPECT_TRUE(are_level(plan.keyframes, plan.up));
   for (const PanelKeyframe& keyframe : storey_panels(plan)[0].keyframes) {
-    EXPECT_EQ(keyframe.height, "");
+    EXPECT_EQ(keyframe.remark, "");
   }
 }
 

@@ -15,7 +15,7 @@
 #include "daemon/collision/obstacles.h"
 #include "daemon/messages/plan.h"
 #include "tests/support/random.h"
-#include "tools/camway/replay/difference.h"
+#include "tools/camway/replay/compare/difference.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -159,10 +159,10 @@ TEST(JsonResponse, IsReadBackBitForBit) {
     const auto read = parse_as<planning::PlanResult>(*text.value, "P.json");
     ASSERT_TRUE(read.value) << read.error;
     EXPECT_EQ(read.value->message, result.message);
-    EXPECT_EQ(
-        difference_of(messages::to_wire(result, {}), *read.value, motion::Body(motion::Camera{}))
-            .what,
-        "");
+    EXPECT_EQ(difference_of(messages::to_wire(result, {}), messages::to_wire(*read.value, {}),
+                            {motion::Body(motion::Camera{}), 1.0})
+                  .what(),
+              "");
     EXPECT_EQ(std::bit_cast<std::uint64_t>(read.value->timing.certify_ms),
               std::bit_cast<std::uint64_t>(result.timing.certify_ms));
     EXPECT_EQ(write_plan_response(*read.value).value, text.value);
@@ -177,10 +177,10 @@ TEST(JsonResponse, KeepsTheSignOfZeroAndTheEndsOfTheRange) {
       {-std::numeric_limits<double>::max(), 9007199254740993.0}};
   const auto read = parse_as<planning::PlanResult>(*write_plan_response(result).value, "P.json");
   ASSERT_TRUE(read.value) << read.error;
-  EXPECT_EQ(
-      difference_of(messages::to_wire(result, {}), *read.value, motion::Body(motion::Camera{}))
-          .what,
-      "");
+  EXPECT_EQ(difference_of(messages::to_wire(result, {}), messages::to_wire(*read.value, {}),
+                          {motion::Body(motion::Camera{}), 1.0})
+                .what(),
+            "");
   EXPECT_TRUE(std::signbit(read.value->collisions[0].t_begin_s));
 }
 

@@ -170,6 +170,31 @@ TEST_F(ViewDoor, NamesTheMemberThatIsWrong) {
   EXPECT_TRUE(backend_.orders().empty());
 }
 
+TEST_F(ViewDoor, TellsProgramsTheMemberThatIsWrong) {
+  open();
+  const auto told = [&](const std::string& target, const std::string& body) {
+    return client_->post(target, body).json();
+  };
+  std::string one = kSmallRequest;
+  one.replace(one.find("\"near\": 0.1"), 11, "\"near\": -1");
+  EXPECT_EQ(told("/v1/plan", one).at("field"), "camera.near");
+  EXPECT_EQ(told("/v1/plan", "").at("field"), "request") << "all of it";
+  EXPECT_EQ(told("/v1/scenes/office/objects",
+                 R"({"name": "x", "form": {"type": "box", "size": [1, 0, 1]}})")
+                .at("field"),
+            "form.size");
+  EXPECT_EQ(told("/v1/nowhere", "").count("field"), 0U) << "of what is no wrong request";
+  SocketClient socket(door_->port(), kSecret);
+  socket.send(R"({"id": 1, "do": "plan", "request": )" + one + "}");
+  const json refused = socket.next();
+  EXPECT_EQ(refused.at("field"), "camera.near") << refused;
+  EXPECT_EQ(field_of("request: keyframes[2].position[0]: is 1e999; it must be finite"),
+            "keyframes[2].position[0]");
+  EXPECT_EQ(field_of("too many at a time: at most 8 plans"), "");
+  EXPECT_EQ(field_of("x"), "");
+  EXPECT_EQ(field_of(": a"), "");
+}
+
 TEST_F(ViewDoor, AnswersEveryPlace) {
   open();
   EXPECT_EQ(client_->get("/v1/version").json().at("door"), 1);

@@ -148,6 +148,28 @@ TEST_F(ViewHere, ObjectsComeMoveAndGo) {
   EXPECT_EQ(client.get("/v1/status").json().at("backend").at("planner"), "here");
 }
 
+TEST_F(ViewHere, AMoveKeepsTheDigestOfTheMeshInItsOwnFrame) {
+  open();
+  HttpClient client = http();
+  const std::string objects = "/v1/scenes/office/objects";
+  const auto added = [&](const std::string& name, const std::string& size) {
+    const std::string form = R"({"type": "box", "size": )" + size + "}";
+    const Reached got =
+        client.post(objects, R"({"name": ")" + name + R"(", "form": )" + form + "}");
+    return got.json().at("objects").at(0);
+  };
+  const json crate = added("crate", "[1, 2, 3]");
+  const json moved =
+      client.send("PATCH", objects + "/crate", R"({"position": [6, 6, 7]})").json()["objects"][0];
+  EXPECT_NE(moved.at("digest"), crate.at("digest"));
+  EXPECT_EQ(moved.at("mesh_digest"), crate.at("mesh_digest"));
+  EXPECT_EQ(added("twin", "[1, 2, 3]").at("mesh_digest"), crate.at("mesh_digest"));
+  // One that takes its place is another mesh, whatever memory it lies in.
+  for (const char* const size : {"[1, 2, 4]", "[2, 2, 3]"}) {
+    EXPECT_NE(added("crate", size).at("mesh_digest"), crate.at("mesh_digest"));
+  }
+}
+
 // The voxels of a cloud are numbered from an origin near it.
 TEST_F(ViewHere, ACloudOfPointsIsWhereItsPointsAre) {
   open();

@@ -18,6 +18,7 @@
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/track_thinning.h"
 #include "tools/camway/cameras/import_request.h"
+#include "tools/camway/cameras/log_track.h"
 #include "tools/camway/common/commands.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
@@ -34,6 +35,7 @@ struct ImportFlags {
   std::string format;
   std::string times;
   CameraReadOptions read;
+  LogTrackOptions log;
   std::string scene;
   double scale = 1.0;
   scene::UpAxis up = scene::UpAxis::kAsInFile;
@@ -59,7 +61,44 @@ void measure_rate(CameraTrack& track) {
           : "its times are on the frames of no rate: export writes 24 frames a second, or --fps");
 }
 
-base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraFormat*& format) {
+/// Logs are no files of cameras: they are recognised by their first bytes, and may be larger than
+/// memory.
+constexpr CameraFormat kLogFormat{"lcm", ".lcmlog", "log of lcm-logger, poses of one channel",
+                                  nullptr, nullptr};
+
+base::Result<CameraTrack> read_log(const ImportFlags& flags) {
+  if (flags.log.types.empty() || flags.log.position.empty()) {
+    return base::Failure{flags.file +
+                         ": is a log of lcm-logger: --type names the .lcm file of its messages, "
+                         "--position their member with the position"};
+  }
+  if (flags.log.orientation.empty() && flags.body.empty()) {
+    return base::Failure{flags.file +
+                         ": --orientation names the member with the quaternion; only a --body can "
+                         "do without"};
+  }
+  LogTrackOptions options = flags.log;
+  options.axes = flags.read.axes.value_or(CameraAxes::kGl);
+  base::Result<CameraTrack> track = read_log_track(flags.file, options);
+  if (track && flags.body.empty() && !flags.read.axes) {
+    track->notes.emplace_back("the camera is taken to look along -Z, +Y up (--camera-axes)");
+  }
+  return track;
+}
+
+std::string flag_of_logs(const ImportFlags& flags) {
+  const LogTrackOptions& log = flags.log;
+  if (!log.channel.empty()) return "--channel";
+  if (!log.types.empty()) return "--type";
+  if (!log.position.empty()) return "--position";
+  if (!log.orientation.empty()) return "--orientation";
+  return log.time.empty() ? "" : "--time";
+}
+
+base::Result<CameraTrack> read_camera_track(const ImportFlags& flags, const CameraFormat*& format) {
+  if (const std::string flag = flag_of_logs(flags); !flag.empty()) {
+    return base::Failure{flag + ": " + flags.file + " is no log of lcm-logger"};
+  }
   const base::Result<CameraFile> file = camera_file(flags.file);
   if (!file) return base::Failure{file.error};
   if (const std::string why = why_unreadable(*file); !why.empty()) {
@@ -82,6 +121,13 @@ base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraForma
     return base::Failure{
         fmt::format("{} (read as {}; --format names another)", track.error, format->name)};
   }
+  return track;
+}
+
+base::Result<CameraTrack> read_track(const ImportFlags& flags, const CameraFormat*& format) {
+  const bool is_log = is_event_log(flags.file);
+  if (is_log) format = &kLogFormat;
+  base::Result<CameraTrack> track = is_log ? read_log(flags) : read_camera_track(flags, format);
   if (track && track->keys.size() < 2) {
     return base::Failure{flags.file + ": has one pose; a path needs two"};
   }
@@ -236,6 +282,39 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
       ->check(cli_support::one_of({"gl", "cv"}));
 }
 
+void add_log_flags(CLI::App& command, LogTrackOptions& log) {
+  command.add_option("--channel", log.channel,
+                     "Of a log: the channel with the poses [the only one]");
+  command
+      .add_option(
+          "--type", log.types,
+          "Of a log: .lcm file with the struct of its messages, and of those in it that are "
+          "not in files beside it; may stand several times")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--position", log.position,
+                  "Of a log: member with the position: pos, pose.pos, poses[0].pos or x,y,z; of a "
+                  "list, each element is a pose")
+      ->type_name("MEMBER");
+  command.add_option("--orientation", log.orientation, "Of a log: member with the quaternion")
+      ->type_name("MEMBER");
+  cli_support::add_choice(command, "--quaternion", log.order, base::named_values<QuaternionOrder>(),
+                          "Of a log: order of its numbers");
+  command
+      .add_option("--time", log.time,
+                  "Of a log: member with the time [utime or timestamp, else when it was received]")
+      ->type_name("MEMBER");
+  const auto set_unit = [&log](const std::string& name) {
+    log.unit = base::value_of<TimeUnit>(name);
+  };
+  command
+      .add_option_function<std::string>(
+          "--time-unit", set_unit, "Of a log: unit of --time [the one that fits the log's times]")
+      ->check(cli_support::one_of({"s", "ms", "us", "ns"}));
+}
+
 void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
   command.add_option("--scene", flags.scene, "Scene file that the request names")
       ->type_name("FILE");
@@ -285,6 +364,7 @@ std::string formats_help() {
   for (const CameraFormat& format : camera_formats()) {
     text += fmt::format("  {:<12}{}\n", format.name, format.description);
   }
+  text += fmt::format("  {:<12}{}\n", kLogFormat.name, kLogFormat.description);
   return text;
 }
 
@@ -295,6 +375,7 @@ void add_import_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "import", "Make a request of a camera path of another program, with few keyframes");
   add_file_flags(*command, *flags);
+  add_log_flags(*command, flags->log);
   add_scene_flags_of_import(*command, *flags);
   add_lens_flags(*command, *flags);
   add_keyframe_flags(*command, *flags);

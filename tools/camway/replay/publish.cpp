@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <span>
@@ -23,6 +24,7 @@
 #include "lcmtypes/wire/local_traffic.h"
 #include "tools/camway/replay/event_log.h"
 #include "tools/camway/replay/signed_event.h"
+#include "tools/camway/session/session_files.h"
 
 namespace camway::tools {
 namespace {
@@ -45,11 +47,14 @@ class Publisher {
            event.channel == channels_.occupancy_request();
   }
 
-  bool send(const LogEvent& event) {
+  /// Sends an event; `id_shift` is added to the id of a planning request.
+  bool send(LogEvent event, std::uint64_t id_shift) {
     if (event.channel == channels_.plan_request()) {
-      const auto decoded = wire::decode<plan_request_t>(event.data);
+      auto decoded = wire::decode<plan_request_t>(event.data);
       if (decoded.message) {
-        asked_.emplace(decoded.message->client_id, decoded.message->request_id);
+        if (id_shift != 0) event.data = with_shifted_id(*decoded.message, id_shift);
+        last_ = {decoded.message->client_id, decoded.message->request_id};
+        asked_.insert(last_);
       } else if (wire::is_other_version(decoded.fault)) {
         ++other_version_;
       }
@@ -58,25 +63,47 @@ class Publisher {
       return lcm_.publish(event.channel, message.data(),
                           static_cast<unsigned int>(message.size())) == 0;
     };
+    ++sent_;
     return auth_ != nullptr ? publish(auth_->seal(event.channel, event.data)) : publish(event.data);
   }
 
-  /// Receives answers until `time`, or until all requests are answered if `stop_early`.
-  void listen_until(Clock::time_point time, bool stop_early) {
-    while (Clock::now() < time && !(stop_early && answered_count() == asked_.size())) {
+  /// Receives answers until `time`, or until `is_enough` returns true.
+  template <class IsEnough>
+  void listen_until(Clock::time_point time, const IsEnough& is_enough) {
+    while (Clock::now() < time && !is_enough()) {
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now());
       lcm_.handleTimeout(static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, kSliceMs)));
     }
   }
 
+  /// Whether an event is a page of the planning request that was sent last.
+  [[nodiscard]] bool continues_last(const LogEvent& event, std::uint64_t id_shift) const {
+    if (event.channel != channels_.plan_request()) return false;
+    const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
+    const auto id = sender ? static_cast<std::uint64_t>(sender->request_id) + id_shift : 0;
+    return sender && last_ == Key(sender->client_id, static_cast<std::int64_t>(id));
+  }
+  /// Whether the planning request that was sent last is answered; true if none was sent.
+  [[nodiscard]] bool is_last_answered() const {
+    return asked_.empty() || answered_.contains(last_);
+  }
+  [[nodiscard]] bool are_all_answered() const { return answered_.size() == asked_.size(); }
   [[nodiscard]] std::size_t asked_count() const { return asked_.size(); }
   [[nodiscard]] std::size_t answered_count() const { return answered_.size(); }
+  [[nodiscard]] std::size_t sent_count() const { return sent_; }
   /// Number of planning requests sent that a daemon of this version cannot read.
   [[nodiscard]] std::size_t other_version_count() const { return other_version_; }
 
  private:
   static constexpr int kQueueCapacity = 4096;
   static constexpr std::int64_t kSliceMs = 100;
+
+  static std::vector<std::uint8_t> with_shifted_id(plan_request_t& request, std::uint64_t shift) {
+    // Unsigned numbers may overflow.
+    request.request_id =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(request.request_id) + shift);
+    return wire::encode(request);
+  }
 
   void on_answer(const lcm::ReceiveBuffer* buffer, const std::string& channel) noexcept {
     const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
@@ -94,6 +121,8 @@ class Publisher {
   wire::MessageAuth* auth_;
   std::set<Key> asked_;
   std::set<Key> answered_;
+  Key last_;
+  std::size_t sent_ = 0;  ///< messages
   std::size_t other_version_ = 0;
 };
 
@@ -116,19 +145,30 @@ struct LoggedRequests {
   std::string damage;            ///< why the log could not be read to its end; else empty
 };
 
-/// Reads the requests out of their envelopes; `keys` may be null (`open_event`).
+bool is_wanted(const LogEvent& event, const PublishOptions& options) {
+  if (!options.wanted) return true;
+  const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
+  return sender && options.wanted->contains({sender->client_id, sender->request_id});
+}
+
+/// Reads the wanted requests out of their envelopes; `keys` may be null (`open_event`).
 LoggedRequests read_requests(const std::filesystem::path& log, const Publisher& publisher,
-                             const wire::MessageKeys* keys) {
+                             const PublishOptions& options, const wire::MessageKeys* keys) {
   LoggedRequests requests;
-  LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
-    if (!publisher.is_request(event)) return;
-    if (open_event(keys, event)) {
-      ++requests.distrusted;
-    } else {
-      requests.events.push_back(std::move(event));
-    }
-  });
-  requests.damage = std::move(summary.damage);
+  const base::Result<SessionFiles> files = SessionFiles::open(log);
+  if (!files) requests.damage = files.error;
+  if (!files) return requests;
+  for (const std::filesystem::path& file : files->logs()) {
+    LogSummary summary = read_event_log(file, [&](LogEvent&& event) {
+      if (!publisher.is_request(event)) return;
+      if (open_event(keys, event)) {
+        ++requests.distrusted;
+      } else if (is_wanted(event, options)) {
+        requests.events.push_back(std::move(event));
+      }
+    });
+    if (requests.damage.empty()) requests.damage = std::move(summary.damage);
+  }
   return requests;
 }
 
@@ -140,28 +180,62 @@ void print_faults(const std::filesystem::path& log, const LoggedRequests& reques
   }
 }
 
-/// Sends the events with the pauses between them, divided by the speed; waits for answers.
-/// Returns false if LCM refused one.
-bool send_all(const std::vector<LogEvent>& events, const PublishOptions& options,
-              Publisher& publisher) {
-  const Clock::time_point start = Clock::now();
+/// Returns the distance by which ids are shifted from one time to the next: more than the largest
+/// difference of two ids.
+std::uint64_t id_shift_of(const std::vector<LogEvent>& events) {
+  std::optional<std::int64_t> least, most;
   for (const LogEvent& event : events) {
-    if (options.speed > 0.0) {
-      publisher.listen_until(start + due_after(events.front(), event, options.speed), false);
+    const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
+    if (!sender) continue;
+    least = std::min(least.value_or(sender->request_id), sender->request_id);
+    most = std::max(most.value_or(sender->request_id), sender->request_id);
+  }
+  if (!least) return 1;
+  return static_cast<std::uint64_t>(*most) - static_cast<std::uint64_t>(*least) + 1;
+}
+
+/// Sends the events once, with the pauses between them, divided by the speed, or in lockstep.
+/// Returns false if LCM refused one.
+bool send_once(const std::vector<LogEvent>& events, std::uint64_t id_shift,
+               const PublishOptions& options, Publisher& publisher) {
+  const Clock::time_point start = Clock::now();
+  const auto wait_for_last = [&] {
+    publisher.listen_until(Clock::now() + seconds(options.wait_s),
+                           [&] { return publisher.is_last_answered(); });
+  };
+  for (const LogEvent& event : events) {
+    if (options.lockstep && !publisher.continues_last(event, id_shift)) wait_for_last();
+    if (!options.lockstep && options.speed > 0.0) {
+      publisher.listen_until(start + due_after(events.front(), event, options.speed),
+                             [] { return false; });
     }
-    if (!publisher.send(event)) {
+    if (!publisher.send(event, id_shift)) {
       print_error("LCM refused a message of " + std::to_string(event.data.size()) + " bytes");
       return false;
     }
   }
-  publisher.listen_until(Clock::now() + seconds(options.wait_s), true);
+  if (options.lockstep) wait_for_last();
+  return true;
+}
+
+/// Sends the events as often as wanted, and waits for answers. Returns false if LCM refused one.
+bool send_all(const std::vector<LogEvent>& events, const PublishOptions& options,
+              Publisher& publisher) {
+  const std::uint64_t shift = id_shift_of(events);
+  for (int turn = 0; turn < options.times; ++turn) {
+    if (!send_once(events, shift * static_cast<std::uint64_t>(turn), options, publisher)) {
+      return false;
+    }
+  }
+  publisher.listen_until(Clock::now() + seconds(options.wait_s),
+                         [&] { return publisher.are_all_answered(); });
   return true;
 }
 
 /// Reports what came of the requests that were sent. Returns the exit code.
 ExitCode outcome_of(const std::filesystem::path& log, const LoggedRequests& requests,
                     const Publisher& publisher) {
-  fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.events.size(),
+  fmt::print("sent {} messages; {} of {} planning requests answered\n", publisher.sent_count(),
              publisher.answered_count(), publisher.asked_count());
   if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
   if (publisher.other_version_count() > 0) {
@@ -194,7 +268,7 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
   if (!opened.unguarded.empty()) {
     print_error("other hosts of the network can be heard: " + opened.unguarded);
   }
-  const LoggedRequests requests = read_requests(log, publisher, keys.get());
+  const LoggedRequests requests = read_requests(log, publisher, options, keys.get());
   print_faults(log, requests);
   if (requests.events.empty()) {
     print_error(fmt::format("{}: holds no requests on {}_*", log.string(), options.prefix));

@@ -1,195 +1,242 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
-#include <thread>
+#include <set>
+#include <utility>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/settings/scene_argument.h"
-#include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
-#include "tools/camway/common/commands.h"
-#include "tools/camway/common/scene_flags.h"
-#include "tools/camway/replay/publish.h"
-#include "tools/camway/replay/replay_run.h"
-#include "tools/json/json_response.h"
-#include "tools/support/output_file.h"
+#include "tools/camway/replay/replay_flags.h"
+#include "tools/json/json_angle.h"
 
 namespace camway::tools {
 namespace {
 
-struct ReplayFlags {
-  std::string log;
-  std::vector<std::string> scenes;
-  ReplayOptions run;
-  std::string responses_dir;
-  bool no_timing = false;
-  bool publish = false;
-  PublishOptions publishing;
-  std::string key_file;
-};
-
-ExitCode invalid_input(std::string_view message) {
-  print_error(message);
-  return ExitCode::kInvalidInput;
-}
-
-/// Loads the scenes of `--scene`. On an error, prints it and returns nothing.
-std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
-  Scenes scenes;
-  for (const std::string& argument : arguments) {
-    const auto parsed = process::parse_scene_argument(argument);
-    if (!parsed) {
-      print_error("--scene " + argument + ": " + parsed.error);
-      return std::nullopt;
-    }
-    // Planning does not use the occupancy map, so none is made.
-    scene::SnapshotOptions options = parsed->options;
-    options.occupancy_resolution_m.reset();
-    LoadedScene loaded = load_timed(parsed->name, parsed->file.string(), options);
-    if (!loaded.result.snapshot) {
-      print_error(loaded.result.error);
-      return std::nullopt;
-    }
-    if (!scenes.emplace(parsed->name, std::move(loaded.result.snapshot)).second) {
-      print_error("--scene " + argument + ": the name stands twice");
-      return std::nullopt;
+/// Sends the wanted requests to a daemon.
+ExitCode publish_wanted(const ReplayFlags& flags,
+                        const std::shared_ptr<const wire::MessageKeys>& keys) {
+  PublishOptions options = flags.publishing;
+  if (!flags.selection.is_all()) {
+    const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys.get());
+    if (!opened) return ExitCode::kInvalidInput;
+    options.wanted.emplace();
+    for (const RecordedRequest& request : opened->session.requests) {
+      options.wanted->emplace(request.ids.client_id, request.ids.request_id);
     }
   }
-  return scenes;
-}
-
-/// Writes the response to each request as a file. Returns an error text, empty on success. Client
-/// ids consist of letters, digits, '-' and '_', so they are valid file names.
-std::string write_responses(const ReplayFlags& flags, const Session& session, const Scenes& scenes,
-                            const std::vector<ReplayedRequest>& replayed) {
-  for (std::size_t i = 0; i < replayed.size(); ++i) {
-    const RecordedRequest& recorded = session.requests[i];
-    ResponseFormat format;
-    format.has_timing = !flags.no_timing;
-    format.scene = recorded.scene;
-    const auto scene = scenes.find(recorded.scene);
-    if (scene != scenes.end()) format.scene_digest = scene->second->digest;
-    const base::Result<std::string> text = write_plan_response(replayed[i].result, format);
-    if (!text) return "the response cannot be written: " + text.error;
-    const std::string name =
-        fmt::format("{:04}_{}_{}.json", i, recorded.ids.client_id, recorded.ids.request_id);
-    const auto file = std::filesystem::path(flags.responses_dir) / name;
-    if (std::string fault = write_file(file, *text); !fault.empty()) return fault;
-  }
-  return {};
-}
-
-/// Returns the exit code of a complete replay. It is a success only if the log is undamaged and
-/// agrees.
-ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>& replayed) {
-  if (count(replayed, Verdict::kDiffers) > 0) return ExitCode::kNegative;
-  if (!session.log.damage.empty() || count(replayed, Verdict::kAgrees) == 0) {
-    return ExitCode::kInvalidInput;
-  }
-  return ExitCode::kSuccess;
-}
-
-/// Makes the folder for responses. Returns an error text if no file can be written there.
-std::string make_responses_dir(const std::string& folder) {
-  if (folder.empty()) return {};
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return folder + ": cannot be made: " + error.message();
-  return why_unwritable(std::filesystem::path(folder) / "response.json");
-}
-
-ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
-  const std::string& prefix = flags.publishing.prefix;
-  const Session session = read_session(flags.log, prefix, keys);
-  if (!session.log.damage.empty()) print_error(session.log.damage);
-  if (session.requests.empty() && session.other_version > 0) {
-    return invalid_input(fmt::format(
-        "{}: its {} messages on {}_* are of another version of the wire types: replay it with the "
-        "camway of the version that recorded it",
-        flags.log, session.other_version, prefix));
-  }
-  if (session.requests.empty() && session.distrusted > 0) {
-    return invalid_input(fmt::format("{}: its {} messages on {}_* are not signed with a key of {}",
-                                     flags.log, session.distrusted, prefix, flags.key_file));
-  }
-  if (session.requests.empty()) {
-    return invalid_input(fmt::format("{}: holds no planning requests on {}", flags.log,
-                                     wire::Channels{prefix}.plan_request()));
-  }
-  if (const std::string fault = make_responses_dir(flags.responses_dir); !fault.empty()) {
-    return invalid_input(fault);
-  }
-  const std::optional<Scenes> scenes = load_scenes(flags.scenes);
-  if (!scenes) return ExitCode::kInvalidInput;
-  const std::vector<std::string> missing = missing_scenes(session, *scenes);
-  for (const std::string& name : missing) {
-    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
-                            wire::printable(name), wire::printable(name)));
-  }
-  if (!missing.empty()) return ExitCode::kInvalidInput;
-  const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
-  fmt::print("{}", report(session, replayed, flags.no_timing ? Times::kHidden : Times::kShown));
-  ExitCode outcome = verdict_code(session, replayed);
-  if (!flags.responses_dir.empty()) {
-    const std::string error = write_responses(flags, session, *scenes, replayed);
-    if (!error.empty()) outcome = worse(outcome, invalid_input(error));
-  }
-  return outcome;
+  return publish_log(flags.log, options, keys);
 }
 
 ExitCode run_replay(const ReplayFlags& flags) {
   if (!wire::is_prefix(flags.publishing.prefix)) {
-    return invalid_input("--prefix " + flags.publishing.prefix +
-                         ": must be 1 to 11 letters, digits, '-' or '_'");
+    return invalid_replay("--prefix " + flags.publishing.prefix +
+                          ": must be 1 to 11 letters, digits, '-' or '_'");
+  }
+  const bool compares_logs = !flags.baseline.empty();
+  if (flags.log.empty() && !compares_logs) return invalid_replay("LOG is required");
+  if (!flags.log.empty() && compares_logs) {
+    return invalid_replay(flags.log + ": --baseline and --against name the logs");
   }
   wire::MessageKeys::ReadResult read;
   if (!flags.key_file.empty()) read = wire::MessageKeys::from_file(flags.key_file);
-  if (!read.error.empty()) return invalid_input("--key-file " + read.error);
-  return flags.publish ? publish_log(flags.log, flags.publishing, read.keys)
-                       : replay_offline(flags, read.keys.get());
+  if (!read.error.empty()) return invalid_replay("--key-file " + read.error);
+  if (flags.publish) return publish_wanted(flags, read.keys);
+  if (compares_logs) return compare_logs(flags, read.keys.get());
+  if (!flags.baseline_build.empty()) return compare_builds(flags, read.keys.get());
+  return flags.step ? replay_by_steps(flags, read.keys.get())
+                    : replay_offline(flags, read.keys.get());
+}
+
+/// Adds an option whose text `read` turns into a value.
+template <class Value, class Read>
+CLI::Option* add_read(CLI::App& command, const std::string& flag, Value& value, const Read& read,
+                      const std::string& description, const std::string& form) {
+  const auto set = [&value, read](const std::string& text) { value = *read(text); };
+  const auto check = [read, form](const std::string& text) {
+    return read(text) ? std::string() : text + ": must be " + form;
+  };
+  return command.add_option_function<std::string>(flag, set, description)->check(check);
+}
+
+CLI::Option* add_words(CLI::App& command, const std::string& flag, std::vector<std::string>& words,
+                       const std::string& description) {
+  return command.add_option(flag, words, description)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_selection_flags(CLI::App& command, Selection& selection) {
+  const std::string time_form =
+      "seconds after the first event, or a time such as "
+      "2026-11-27T08:30:00Z";
+  add_read(command, "--from", selection.from, &log_time_of,
+           "Only requests received at this time of the log or later: seconds after its first "
+           "event, or a time of the clock, 2026-11-27T08:30:00Z",
+           time_form)
+      ->type_name("TIME");
+  add_read(command, "--to", selection.to, &log_time_of,
+           "Only requests received at this time or earlier", time_form)
+      ->type_name("TIME");
+  add_read(command, "--id", selection.ids, &id_ranges_of, "Only requests with these ids: 3,7..9",
+           "ids and ranges such as 3,7..9")
+      ->type_name("IDS");
+  add_words(command, "--client", selection.clients, "Only requests of these clients")
+      ->type_name("CLIENT");
+  add_words(command, "--scene-name", selection.scenes, "Only requests in scenes of these names")
+      ->type_name("NAME");
+  add_words(command, "--status", selection.statuses,
+            "Only requests with these recorded statuses; none: without an answer")
+      ->type_name("STATUS")
+      ->check(cli_support::one_of(status_words()));
+}
+
+void add_threshold_flags(CLI::App& command, ReplayFlags& flags) {
+  Thresholds& thresholds = flags.run.thresholds;
+  CLI::Option* const tolerance =
+      command
+          .add_option("--tolerance-m", thresholds.tolerance_m,
+                      "Count paths that stay this many metres from each other as the same; 0: only "
+                      "the same bits")
+          ->check(cli_support::at_least_0())
+          ->capture_default_str();
+  const auto set_shift = [&thresholds](double shift_deg) {
+    thresholds.tolerance_shift_rad = radians(shift_deg);
+  };
+  command
+      .add_option_function<double>("--tolerance-shift-deg", set_shift,
+                                   "With --tolerance-m: and their pictures shift by no more than "
+                                   "this many degrees")
+      ->check(cli_support::at_least_0())
+      ->needs(tolerance);
+  command
+      .add_option("--most-clearance-loss-m", thresholds.clearance_loss_m,
+                  "A proved clearance smaller by more than this is a regression")
+      ->check(cli_support::at_least_0());
+  const auto at_least_1 =
+      cli_support::number_in({"1 or more", [](double value) { return value >= 1.0; }});
+  command
+      .add_option("--longer-than", thresholds.longer,
+                  "A path longer than this multiple of the earlier one is a regression")
+      ->check(at_least_1);
+  command
+      .add_option("--slower-than", thresholds.slower,
+                  "Planning that takes longer than this multiple of the earlier time, and 20 ms, "
+                  "is a regression; times of a busy machine say little")
+      ->check(at_least_1);
+}
+
+void add_failing_flag(CLI::App& command, Failing& failing) {
+  const auto set = [&failing](const std::vector<std::string>& words) {
+    failing.clear();
+    for (const std::string& word : words) {
+      if (const auto verdict = base::value_of<Verdict>(word)) failing.push_back(*verdict);
+    }
+  };
+  std::vector<std::string> words{"nothing"};
+  for (const std::string_view name : names_of(Verdict{})) words.emplace_back(name);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--fail-on", set,
+          "Verdicts for which the command ends with 3 [worse,different,regressed]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("VERDICTS")
+      ->check(cli_support::one_of(words));
+}
+
+void add_report_flags(CLI::App& command, ReplayFlags& flags) {
+  command.add_option("--json", flags.reports.json, "Write the comparison as JSON")
+      ->type_name("FILE");
+  CLI::Option* const html =
+      command
+          .add_option("--html", flags.reports.html,
+                      "Write the comparison as a page that is one file: table, plots, pictures")
+          ->type_name("FILE");
+  command
+      .add_option("--pictures", flags.reports.pictures,
+                  "With --html: largest number of requests that differ to draw")
+      ->check(cli_support::whole_number(0, 1000))
+      ->needs(html)
+      ->capture_default_str();
+  command.add_flag("--no-timing", flags.no_timing,
+                   "Leave times out of reports and responses, so that two runs compare byte by "
+                   "byte");
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
-  command
-      .add_option("--scene", flags.scenes,
-                  "A scene by the name that the requests use; may stand several times; as "
-                  "camwayd's")
-      ->type_name(process::kSceneArgumentForm)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_scene_source_flags(command, flags.sources);
   command
       .add_option("--threads", flags.run.threads,
                   "Requests planned at the same time; the output does not depend on it")
       ->check(cli_support::whole_number(1, 256))
       ->capture_default_str();
   command
-      .add_option("--tolerance-m", flags.run.tolerance_m,
-                  "Count paths that stay this many metres from each other as equal; 0: only the "
-                  "same bits")
-      ->check(cli_support::at_least_0())
-      ->capture_default_str();
+      .add_option("--least-deadline-s", flags.run.least_deadline_s,
+                  "Lengthen shorter deadlines to this, so that a slow machine gives the same "
+                  "answers")
+      ->check(cli_support::at_least_0());
   command.add_option("--responses", flags.responses_dir, "Folder for the response to each request")
       ->type_name("DIR");
-  command.add_flag("--no-timing", flags.no_timing,
-                   "Leave times out of table and responses, so that two runs compare byte by byte");
+}
+
+/// The other ways to use a log, of which one call takes one.
+void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
+  CLI::Option* const against =
+      command.add_option("--against", flags.against, "With --baseline: log of later answers")
+          ->type_name("LOG");
+  CLI::Option* const baseline =
+      command
+          .add_option("--baseline", flags.baseline,
+                      "Compare the answers of this log with those of another, without planning")
+          ->type_name("LOG")
+          ->needs(against);
+  against->needs(baseline);
+  CLI::Option* const build =
+      command
+          .add_option("--baseline-build", flags.baseline_build,
+                      "Compare with the answers of this other camway instead of the recorded ones")
+          ->type_name("CAMWAY")
+          ->excludes(baseline);
+  command
+      .add_flag("--step", flags.step,
+                "Show one request after the other, and ask after each; needs a terminal")
+      ->excludes(baseline)
+      ->excludes(build);
 }
 
 void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
   CLI::Option* publish =
       command.add_flag("--publish", flags.publish,
                        "Send the recorded requests to a running daemon instead, as recorded");
+  for (const char* other : {"--baseline", "--baseline-build", "--step"}) {
+    publish->excludes(command.get_option(other));
+  }
+  CLI::Option* const speed =
+      command
+          .add_option("--speed", flags.publishing.speed,
+                      "With --publish: times the recorded speed; 0 for as fast as possible")
+          ->check(cli_support::at_least_0())
+          ->needs(publish)
+          ->capture_default_str();
   command
-      .add_option("--speed", flags.publishing.speed,
-                  "With --publish: times the recorded speed; 0 for as fast as possible")
-      ->check(cli_support::at_least_0())
+      .add_flag("--lockstep", flags.publishing.lockstep,
+                "With --publish: send each request when the one before is answered")
+      ->needs(publish)
+      ->excludes(speed);
+  command
+      .add_option("--times", flags.publishing.times,
+                  "With --publish: how often to send all; from the second time on with new ids, "
+                  "so that the daemon plans again")
+      ->check(cli_support::whole_number(1, 1'000'000))
       ->needs(publish)
       ->capture_default_str();
   command
       .add_option("--wait-s", flags.publishing.wait_s,
-                  "With --publish: seconds to wait for answers after the last request")
+                  "With --publish: seconds to wait for answers after the last request; with "
+                  "--lockstep after each")
       ->check(cli_support::between(0.0, 1e6))
       ->needs(publish)
       ->capture_default_str();
@@ -204,7 +251,8 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
-  command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
+  command->add_option("LOG", flags->log,
+                      "Log of lcm-logger, folder of a daemon's recordings, or packed session");
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
   command
@@ -213,10 +261,17 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
                    "and sign them anew")
       ->type_name("FILE");
   add_offline_flags(*command, *flags);
+  add_selection_flags(*command, flags->selection);
+  add_threshold_flags(*command, *flags);
+  add_failing_flag(*command, flags->failing);
+  add_report_flags(*command, *flags);
+  add_mode_flags(*command, *flags);
   add_publish_flags(*command, *flags);
   command->footer(
-      exit_code_help("an answer differs (with --publish: a request was not answered)") +
-      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer differs."
+      exit_code_help("an answer has a verdict of --fail-on (with --publish: a request was not "
+                     "answered)") +
+      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has such a "
+      "verdict."
       "\nExample: camway replay session.lcmlog --scene office=scenes/office.obj --threads 4");
   command->callback([flags, &exit_code] { exit_code = run_replay(*flags); });
 }

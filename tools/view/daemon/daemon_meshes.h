@@ -36,6 +36,9 @@ class DaemonMeshes {
   /// Returns the mesh of an object, as `Backend::mesh` does.
   MeshAnswer mesh(const std::string& scene, const std::string& digest);
 
+  /// Returns whether the mesh of the object with this digest is here.
+  [[nodiscard]] bool keeps(const std::string& digest) { return find(digest).source != nullptr; }
+
   /// Returns a scene as it is now, with all of its objects where they are. Its digest, and those of
   /// its objects, are checked against the daemon's.
   RebuiltScene rebuilt(const std::string& scene);

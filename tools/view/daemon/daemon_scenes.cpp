@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace camway::view {
@@ -49,6 +50,13 @@ SceneShape to_client(const Form& form) {
     return SceneCylinder{cylinder->radius_m, cylinder->height_m, cylinder->chord_error_m};
   }
   return to_client(std::get<MeshForm>(form));
+}
+
+/// Returns a refusal without the word that its code says as well, so that it begins with a member,
+/// as refusals of the door itself do.
+std::string without_status(const std::string& error) {
+  constexpr std::string_view kInvalid = "invalid: ";
+  return error.starts_with(kInvalid) ? error.substr(kInvalid.size()) : error;
 }
 
 /// Returns `pose` with what the order says.
@@ -145,7 +153,8 @@ Answer ask_daemon_scene(Client& client, const SceneOrder& order) {
     const bool is_missing = answer.status == Status::kInvalid && order.is_change() &&
                             order.kind != Kind::kAdd &&
                             answer.error.find("object: ") != std::string::npos;
-    return failure(is_missing ? code::kNotFound : code_of(answer.status), answer.error);
+    return failure(is_missing ? code::kNotFound : code_of(answer.status),
+                   without_status(answer.error));
   }
   if (order.kind == Kind::kList) return {code::kOk, scenes_json(facts_of(answer.scenes)), {}};
   std::vector<ObjectFacts> objects;

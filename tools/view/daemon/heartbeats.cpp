@@ -95,7 +95,7 @@ void Heartbeats::silent() {
   is_known_ = true;
   changed_.notify_all();
   if (is_new) tell(kSilent);
-  if (is_new && on_silence_) on_silence_();
+  if (on_silence_) on_silence_();
 }
 
 bool Heartbeats::is_silent() {

@@ -34,7 +34,8 @@ class Heartbeats {
   /// Returns whether the daemon is silent: whether none was heard for as long as one may be.
   [[nodiscard]] bool is_silent();
 
-  /// Calls `told` each time that the daemon falls silent, on a thread of its own, until this ends.
+  /// Calls `told` when the daemon falls silent, and several times a second as long as it is, on a
+  /// thread of its own, until this ends: a question may be on its way when the silence is noticed.
   /// It must neither throw nor wait nor call this object. Call this before anything else.
   void on_silence(std::function<void()> told);
 

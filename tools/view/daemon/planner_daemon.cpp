@@ -120,7 +120,10 @@ class PlannerDaemon final : public Backend {
     if (!client_->good()) return;
     meshes_.emplace(*client_);
     heartbeats_.emplace(*client_);
-    heartbeats_->on_silence([this] { fail_plans(); });
+    heartbeats_->on_silence([this] {
+      fail_plans();
+      client_->cancel_scene_calls();
+    });
   }
   ~PlannerDaemon() override {
     stop_calls();
@@ -149,8 +152,13 @@ class PlannerDaemon final : public Backend {
   [[nodiscard]] std::shared_ptr<const LastPlan> last() const override;
 
  private:
-  /// Runs a call that waits for the daemon on one of these threads.
+  /// Runs a call that waits for the daemon on one of these threads. Answers at once if the daemon
+  /// is silent.
   void call(WorkPool& threads, Done done, std::function<Answer()> ask);
+  /// Runs work on one of these threads.
+  void run(WorkPool& threads, Done done, std::function<Answer()> ask);
+  /// Returns the answer, or that no daemon is heard if it was cancelled for that.
+  [[nodiscard]] Answer unless_silent(Answer answer);
   void stop_calls();
   /// Returns who is to be told of a plan; null if that was done.
   std::shared_ptr<Reporter> take_plan(std::uint64_t key);
@@ -244,7 +252,19 @@ Answer PlannerDaemon::planned(const PlanResponse& response, const PlanOrder& ord
   return {code::kOk, *text, {}};
 }
 
+Answer PlannerDaemon::unless_silent(Answer answer) {
+  return answer.code == code::kCancelled && heartbeats_->is_silent() ? no_daemon()
+                                                                     : std::move(answer);
+}
+
 void PlannerDaemon::call(WorkPool& threads, Done done, std::function<Answer()> ask) {
+  // The client would repeat the question for seconds.
+  run(threads, std::move(done), [this, ask = std::move(ask)] {
+    return heartbeats_->is_silent() ? no_daemon() : unless_silent(ask());
+  });
+}
+
+void PlannerDaemon::run(WorkPool& threads, Done done, std::function<Answer()> ask) {
   auto reporter = std::make_shared<Reporter>(std::move(done));
   threads.post([this, reporter, ask = std::move(ask)] {
     {
@@ -291,7 +311,7 @@ void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
 }
 
 void PlannerDaemon::status(Done done) {
-  call(callers_, std::move(done), [this] { return status_answer(); });
+  run(callers_, std::move(done), [this] { return status_answer(); });
 }
 
 Answer PlannerDaemon::status_answer() {
@@ -307,14 +327,15 @@ Answer PlannerDaemon::status_answer() {
 
 std::shared_ptr<Job> PlannerDaemon::check(CheckOrder order, Done done) {
   auto job = std::make_shared<StoppableJob>();
-  call(provers_, std::move(done),
-       [this, job, order = std::move(order)] { return checked(order, *job); });
+  run(provers_, std::move(done),
+      [this, job, order = std::move(order)] { return checked(order, *job); });
   return job;
 }
 
 Answer PlannerDaemon::checked(const CheckOrder& order, const StoppableJob& job) {
+  if (heartbeats_->is_silent()) return no_daemon();
   const RebuiltScene scene = meshes_->rebuilt(order.scene);
-  if (!scene.snapshot) return failure(scene.code, scene.error);
+  if (!scene.snapshot) return unless_silent(failure(scene.code, scene.error));
   if (scene.lacks_inside) {
     return failure(code::kNotOffered,
                    "the scene has an occupancy map, whose inside a daemon does not send; "
@@ -331,9 +352,11 @@ void PlannerDaemon::mesh(std::string scene, std::string digest, MeshDone done) {
     if (answer.code != code::kOk) found->mesh = nullptr;
     done(std::move(*found));
   };
-  call(callers_, report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
+  run(callers_, report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
+    // One that is kept here needs no daemon.
+    if (heartbeats_->is_silent() && !meshes_->keeps(digest)) return no_daemon();
     *found = meshes_->mesh(scene, digest);
-    return Answer{found->code, {}, found->error};
+    return unless_silent({found->code, {}, found->error});
   });
 }
 

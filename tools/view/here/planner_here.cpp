@@ -44,8 +44,9 @@ SceneFacts facts_of(const scene::Snapshot& snapshot) {
   return facts;
 }
 
-ObjectFacts facts_of(const scene::SceneObject& object) {
+ObjectFacts facts_of(const scene::SceneObject& object, MeshDigests& meshes) {
   ObjectFacts facts;
+  facts.mesh_digest = meshes.of(object.source);
   facts.name = object.name;
   facts.kind = scene::to_string(object.source->kind);
   facts.digest = object.digest;
@@ -61,10 +62,11 @@ ObjectFacts facts_of(const scene::SceneObject& object) {
 }
 
 /// Returns the answer about a scene and all of its objects, or the one of that name.
-Answer answer_about(const scene::Snapshot& snapshot, const std::string& object = {}) {
+Answer answer_about(const scene::Snapshot& snapshot, MeshDigests& meshes,
+                    const std::string& object = {}) {
   std::vector<ObjectFacts> objects;
   for (const auto& each : snapshot.objects) {
-    if (object.empty() || each->name == object) objects.push_back(facts_of(*each));
+    if (object.empty() || each->name == object) objects.push_back(facts_of(*each, meshes));
   }
   return {code::kOk, objects_json(facts_of(snapshot), objects), {}};
 }
@@ -177,6 +179,7 @@ class PlannerHere final : public Backend {
   const std::string text_;
   const std::optional<scene::ImportOptions> reading_;
   scene::SceneStore store_;
+  MeshDigests mesh_digests_;
   const std::shared_ptr<SceneWatchers> watchers_ = std::make_shared<SceneWatchers>();
   std::stop_source all_;
   std::atomic<int> running_ = 0;
@@ -257,7 +260,7 @@ Answer PlannerHere::asked(const SceneOrder& order) {
   }
   if (order.is_change()) return changed(order);
   const std::shared_ptr<const scene::Snapshot> snapshot = store_.find(order.scene);
-  return snapshot ? answer_about(*snapshot) : unknown_scene(order.scene);
+  return snapshot ? answer_about(*snapshot, mesh_digests_) : unknown_scene(order.scene);
 }
 
 Answer PlannerHere::changed(const SceneOrder& order) {
@@ -271,7 +274,7 @@ Answer PlannerHere::changed(const SceneOrder& order) {
   if (!change) return failure(code::kInvalid, change.error);
   const scene::StoreResult made = store_.change(order.scene, *std::move(change));
   if (!made.snapshot) return failure(code_of(made.fault), made.error);
-  return answer_about(*made.snapshot, order.object);
+  return answer_about(*made.snapshot, mesh_digests_, order.object);
 }
 
 base::Result<scene::SceneChange> PlannerHere::change_of(const SceneOrder& order,

@@ -37,6 +37,18 @@ MeshAnswer object_mesh(const scene::Snapshot& snapshot, std::string_view digest)
   return {mesh_of(*(*object)->source), triangles};
 }
 
+std::string MeshDigests::of(const std::shared_ptr<const scene::ObjectSource>& source) {
+  if (source->kind == scene::ObjectKind::kMap) return {};
+  const std::lock_guard lock(mutex_);
+  if (const auto found = kept_.find(source.get()); found != kept_.end()) {
+    if (found->second.source.lock() == source) return found->second.digest;
+  }
+  std::erase_if(kept_, [](const auto& each) { return each.second.source.expired(); });
+  std::string digest = scene::mesh_digest(*mesh_of(*source));
+  kept_.insert_or_assign(source.get(), Kept{source, digest});
+  return digest;
+}
+
 Answer scene_triangles(const scene::Snapshot& snapshot, const std::vector<std::int64_t>& indices) {
   const auto size = static_cast<std::int64_t>(snapshot.index.size());
   std::map<std::int64_t, geometry::Triangle> triangles;

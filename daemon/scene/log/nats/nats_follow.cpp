@@ -190,13 +190,20 @@ bool NatsLog::Parts::pass_on(const std::string& scene, LogMessage message, std::
         gaps_.insert(scene);
         return true;
       }
-      if (message.kind != LogMessage::Kind::kEntry) gaps_.erase(scene);
       chain.take(message, sequence);
     }
     // A message that does not count is not there; one that a summary or removal has replaced comes
     // with that.
     const ChainLink* const link = chain.find(message.id);
     if (link == nullptr || link->is_taken || !chain.is_whole()) return true;
+    // A purge removes the oldest messages first, one by one. This process knows what it has
+    // appended itself, so it may meet a message here whose predecessors are gone from the log
+    // already. The summary or removal that purges follows.
+    if (!chain.is_next(*link)) {
+      gaps_.insert(scene);
+      return true;
+    }
+    if (message.kind != LogMessage::Kind::kEntry) gaps_.erase(scene);
   }
   LogUpdate update{kind_of(message.kind), scene, {}, sequence};
   base::Result<Bytes> record = record_of(message, patience_end());

@@ -103,6 +103,10 @@ void SceneChain::mark_all_as_taken() {
   for (ChainLink& link : links_) link.is_taken = true;
 }
 
+bool SceneChain::is_next(const ChainLink& link) const {
+  return &link == links_.data() || (&link - 1)->is_taken;
+}
+
 std::string removals_text(const SceneChain& chain) {
   if (chain.links().empty()) return "";
   const LogMessage& first = chain.links().front().message;

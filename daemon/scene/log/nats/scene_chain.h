@@ -63,6 +63,8 @@ class SceneChain {
   /// Marks the messages that `other` has marked, too.
   void mark_as_taken_in(const SceneChain& other);
   void mark_all_as_taken();
+  /// Whether `follow` has passed on everything that comes before `link`, which is one of `links()`.
+  [[nodiscard]] bool is_next(const ChainLink& link) const;
 
  private:
   std::vector<ChainLink> links_;

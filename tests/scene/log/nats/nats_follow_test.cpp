@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/nats/stream.h"
 #include "tests/integration/process.h"
 #include "tests/scene/log/nats/fleet_log.h"
 #include "tests/support/nats_server.h"
@@ -123,6 +124,50 @@ TEST(NatsFollow, BringsASummaryInsteadOfWhatItHasReplaced) {
   }
   EXPECT_EQ(seen[seen.size() - 2], "summary 100");
   EXPECT_EQ(seen.back(), "entry 101");
+}
+
+// A purge removes one message after the other, so a follower can read between two removals.
+TEST(NatsFollow, DoesNotPassOnAnOwnChangeWhosePredecessorsAreBeingPurged) {
+  constexpr std::uint64_t kChanges = 300;
+  const NatsServer server;
+  FleetLog log({server.url()});
+  std::mutex mutex;
+  std::vector<std::string> seen;
+  std::uint64_t revision = 0;
+  std::atomic<bool> may_go_on = false;
+  log->follow([&](const LogUpdate& update) {
+    {
+      const std::lock_guard lock(mutex);
+      const bool is_summary = update.kind == LogUpdate::Kind::kSummary;
+      if (!is_summary && update.entry.before != revision) {
+        seen.push_back(std::to_string(update.entry.revision) + " after " +
+                       std::to_string(revision));
+      }
+      revision = update.entry.revision;
+      if (is_summary) seen.push_back("summary " + std::to_string(revision));
+    }
+    eventually([&] { return may_go_on.load(); });
+  });
+  for (std::uint64_t i = 0; i < kChanges; ++i) {
+    ASSERT_EQ(log->append("office", sample_entry(i, i + 1, "text")).error, "");
+  }
+  nats::StreamConfig config;
+  config.name = "camway_LOG";
+  config.subject = "camway.log.>";
+  config.news = "camway.news";
+  const auto stream = nats::Stream::ensure(log.connection(), config, milliseconds(3000));
+  ASSERT_TRUE(stream) << stream.error;
+  const auto purged =
+      (*stream)->purge("camway.log.scene.>", log->position_of("office") - 1, milliseconds(10'000));
+  ASSERT_TRUE(purged) << purged.error;
+  ASSERT_EQ(*purged, kChanges - 2);
+  may_go_on = true;
+  ASSERT_TRUE(eventually([&] { return log->followed() >= log->position_of("office"); }));
+  ASSERT_EQ(log->summarize("office", kChanges, log_bytes("all"), {}).error, "");
+  ASSERT_TRUE(eventually([&] { return log->followed() >= log->position_of("office"); }));
+  log->stop_following();
+  EXPECT_EQ(seen, std::vector<std::string>{"summary " + std::to_string(kChanges)});
+  EXPECT_EQ(log.warnings(), "");
 }
 
 /// Changes of one scene by several threads of several processes.

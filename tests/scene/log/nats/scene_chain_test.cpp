@@ -124,6 +124,18 @@ TEST(SceneChain, TheSameMessageTwiceIsThereOnce) {
   EXPECT_EQ(chain.last_sequence(), 4U);
 }
 
+TEST(SceneChain, PassesOnInOrder) {
+  ChainMaker maker;
+  SceneChain chain = chain_of({maker.entry(1), maker.entry(2), maker.entry(3)});
+  EXPECT_TRUE(chain.is_next(chain.links()[0]));
+  EXPECT_FALSE(chain.is_next(chain.links()[1]));
+  chain.links()[0].is_taken = true;
+  EXPECT_TRUE(chain.is_next(chain.links()[1]));
+  EXPECT_FALSE(chain.is_next(chain.links()[2]));
+  chain.take(maker.summary(), 4);
+  EXPECT_TRUE(chain.is_next(chain.links()[0]));
+}
+
 TEST(ChainRepair, AppendsWhatIsMissing) {
   testing::Random random(77);
   for (int i = 0; i < 300; ++i) {

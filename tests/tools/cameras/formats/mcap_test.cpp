@@ -9,7 +9,7 @@
 
 #include "tools/cameras/files/mcap_records.h"
 #include "tools/cameras/formats/camera_format.h"
-#include "tools/cameras/formats/mcap_file.h"
+#include "tools/cameras/files/mcap_file.h"
 #include "tools/cameras/formats/mcap_formats.h"
 
 namespace camway::tools {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include <lcm/lcm-cpp.hpp>
@@ -21,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 /// A stand-in for a daemon: keeps every request, and answers planning requests if told to.
 class Listener {
  public:
-  enum class Manner { kAnswers, kIsSilent };
+  enum class Manner { kAnswers, kAnswersWhenQuiet, kIsSilent };
 
   explicit Listener(Manner manner) : manner_(manner) {
     // The tests prove nothing on a network without multicast.
@@ -29,7 +31,9 @@ class Listener {
     if (!lcm_.good()) return;
     lcm_.subscribe("CAMWAY_.*_REQUEST", &Listener::on_request, this)->setQueueCapacity(1000);
     thread_ = std::jthread([this](const std::stop_token& stop) {
-      while (!stop.stop_requested()) lcm_.handleTimeout(20);
+      while (!stop.stop_requested()) {
+        if (lcm_.handleTimeout(20) == 0) answer_all();
+      }
     });
   }
 
@@ -37,6 +41,7 @@ class Listener {
     std::string channel;
     std::vector<std::uint8_t> data;
     Clock::time_point time;
+    std::size_t answered_before = 0;  ///< requests that had been answered when it came
   };
   /// Returns the messages so far, as soon as there are `count`, or after 10 s.
   std::vector<Received> received(std::size_t count) {
@@ -56,17 +61,28 @@ class Listener {
     const std::vector<std::uint8_t> data(bytes, bytes + buffer->data_size);
     {
       const std::lock_guard lock(mutex_);
-      received_.push_back({channel, data, Clock::now()});
+      received_.push_back({channel, data, Clock::now(), answered_});
     }
     const auto request = wire::decode<plan_request_t>(data);
     if (!request.message || manner_ == Manner::kIsSilent) return;
-    const messages::AnswerHeader header{
-        {request.message->client_id, request.message->request_id, 0}, "wall", 1, ""};
-    const auto answer = messages::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header);
-    lcm_.publish("CAMWAY_PLAN_RESPONSE_" + request.message->client_id, &answer);
+    pending_.push_back({request.message->client_id, request.message->request_id, 0});
+    if (manner_ == Manner::kAnswers) answer_all();
+  }
+
+  void answer_all() {
+    for (const messages::RequestIds& ids : pending_) {
+      const auto answer =
+          messages::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", {ids, "wall", 1, ""});
+      lcm_.publish("CAMWAY_PLAN_RESPONSE_" + ids.client_id, &answer);
+      ++answered_;
+    }
+    pending_.clear();
   }
 
   Manner manner_;
+  // Used by the thread alone.
+  std::vector<messages::RequestIds> pending_;
+  std::size_t answered_ = 0;  ///< requests
   lcm::LCM lcm_;
   std::mutex mutex_;  ///< guards received_
   std::vector<Received> received_;
@@ -116,6 +132,46 @@ TEST_F(Publish, KeepsTheRecordedRhythm) {
   // Only a lower limit: a busy machine may be late, never early. Half, because the first may be
   // late.
   EXPECT_GE(received.back().time - received.front().time, std::chrono::milliseconds(300));
+}
+
+TEST_F(Publish, SendsEachRequestWhenTheOneBeforeIsAnswered) {
+  Listener listener(Listener::Manner::kAnswersWhenQuiet);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--lockstep"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto received = listener.received(8);
+  ASSERT_EQ(received.size(), 8U);
+  for (std::size_t i = 1; i < 6; ++i) {
+    EXPECT_EQ(received[i].answered_before, i) << "answers that were sent before it came";
+  }
+}
+
+TEST_F(Publish, LockstepGoesOnWhenNobodyAnswers) {
+  Listener listener(Listener::Manner::kIsSilent);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--lockstep", "--wait-s", "0.05"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(listener.received(8).size(), 8U);
+}
+
+TEST_F(Publish, SendsAllSeveralTimesWithNewIds) {
+  Listener listener(Listener::Manner::kAnswers);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0", "--times", "3"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sent 24 messages; 18 of 18 planning requests answered"));
+  std::multiset<std::int64_t> ids;
+  for (const auto& each : listener.received(24)) {
+    const auto request = wire::decode<plan_request_t>(each.data);
+    if (request.message) ids.insert(request.message->request_id);
+  }
+  std::multiset<std::int64_t> expected;
+  for (int id = 0; id < 18; ++id) expected.insert(id);
+  EXPECT_EQ(ids, expected);
+}
+
+TEST_F(Publish, SendsTheSelectedRequestsAlone) {
+  Listener listener(Listener::Manner::kAnswers);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0", "--id", "1..2,4"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sent 3 messages; 3 of 3 planning requests answered"));
 }
 
 TEST_F(Publish, EndsWithThreeWhenNobodyAnswers) {

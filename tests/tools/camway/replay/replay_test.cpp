@@ -8,6 +8,7 @@
 #include "daemon/planning/result/witness_names.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/tools/camway/replay/log_builder.h"
+#include "tools/camway/replay/compare/report.h"
 #include "tools/camway/replay/replay_run.h"
 #include "tools/json/json_response.h"
 
@@ -68,13 +69,31 @@ class ReplayTest : public ::testing::Test {
                                                  unsigned threads = 1) const {
     ReplayOptions options;
     options.threads = threads;
-    return replay(session, scenes_, options);
+    NamedScenes scenes(scenes_);
+    return replay(session, scenes, options);
   }
 
   TemporaryFolder folder_;
   Scenes scenes_;
   LogBuilder log_;
 };
+
+std::vector<ComparedRequest> compared_of(const std::vector<ReplayedRequest>& replayed) {
+  std::vector<ComparedRequest> compared;
+  for (const ReplayedRequest& each : replayed) compared.push_back(each.compared);
+  return compared;
+}
+
+std::size_t count(const std::vector<ReplayedRequest>& replayed, Verdict verdict) {
+  return tools::count(compared_of(replayed), verdict);
+}
+
+std::string report(const Session& session, const std::vector<ReplayedRequest>& replayed,
+                   Times times) {
+  ReportHead head{.title = "log", .times = times};
+  head.notes = notes_of(session);
+  return text_report(head, compared_of(replayed));
+}
 
 /// Returns all output of a replay as bytes, without times.
 std::string bytes_of(const Session& session, const std::vector<ReplayedRequest>& replayed) {
@@ -92,13 +111,14 @@ TEST_F(ReplayTest, AgreesWithWhatPlanningAnswered) {
   const Session recorded = session();
   ASSERT_EQ(recorded.requests.size(), 16U);
   const auto replayed = run(recorded);
-  EXPECT_EQ(count(replayed, Verdict::kAgrees), 16U) << report(recorded, replayed, Times::kShown);
+  EXPECT_EQ(count(replayed, Verdict::kSame), 16U) << report(recorded, replayed, Times::kShown);
   EXPECT_EQ(replayed[0].result.status, Status::kOk);
   EXPECT_EQ(replayed[3].result.status, Status::kInvalid);
-  for (const ReplayedRequest& item : replayed) EXPECT_EQ(item.difference.path_m, 0.0);
+  for (const ReplayedRequest& item : replayed) EXPECT_EQ(item.compared.difference.path_m, 0.0);
   const std::string table = report(recorded, replayed, Times::kShown);
   EXPECT_THAT(table, HasSubstr("12345.0"));
-  EXPECT_THAT(table, HasSubstr("verdict: SAME: 16 requests: 16 agree, 0 differ, 0 not compared"));
+  EXPECT_THAT(table, HasSubstr("verdict: SAME: 16 requests: 16 same, 0 better, 0 different, 0 "
+                               "worse, 0 regressed, 0 not compared"));
 }
 
 TEST_F(ReplayTest, GivesTheSameBytesForAnyNumberOfThreads) {
@@ -127,17 +147,19 @@ TEST_F(ReplayTest, SeesAChangedAnswer) {
 
   const Session recorded = session();
   const auto replayed = run(recorded);
-  EXPECT_EQ(count(replayed, Verdict::kDiffers), 2U);
-  EXPECT_EQ(replayed[0].note, "segments[0].position");
-  EXPECT_GT(replayed[0].difference.path_m, 0.0);
-  EXPECT_EQ(replayed[1].note, "status infeasible -> ok");
-  EXPECT_THAT(report(recorded, replayed, Times::kHidden), HasSubstr("verdict: DIFFERENT"));
+  EXPECT_EQ(count(replayed, Verdict::kDifferent), 1U);
+  EXPECT_EQ(count(replayed, Verdict::kRegressed), 1U);
+  EXPECT_EQ(replayed[0].compared.difference.member, "segments[0].position[1][0]");
+  EXPECT_GT(replayed[0].compared.difference.path_m, 0.0);
+  EXPECT_EQ(replayed[1].compared.note, "one of the two proofs is wrong");
+  EXPECT_THAT(report(recorded, replayed, Times::kHidden), HasSubstr("verdict: REGRESSED"));
 
   ReplayOptions tolerant;
-  tolerant.tolerance_m = 1e-9;
-  const auto within = replay(recorded, scenes_, tolerant);
-  EXPECT_EQ(within[0].verdict, Verdict::kAgrees);
-  EXPECT_EQ(within[1].verdict, Verdict::kDiffers);
+  tolerant.thresholds.tolerance_m = 1e-9;
+  NamedScenes scenes(scenes_);
+  const auto within = replay(recorded, scenes, tolerant);
+  EXPECT_EQ(within[0].compared.verdict, Verdict::kSame);
+  EXPECT_EQ(within[1].compared.verdict, Verdict::kRegressed);
 }
 
 TEST_F(ReplayTest, PlansARepeatedRequestOnceAndLeavesOutAnIdUsedTwice) {
@@ -152,9 +174,9 @@ TEST_F(ReplayTest, PlansARepeatedRequestOnceAndLeavesOutAnIdUsedTwice) {
   EXPECT_EQ(recorded.requests[0].sent, 2U);
   EXPECT_EQ(recorded.conflicts, 1U);
   const auto replayed = run(recorded);
-  EXPECT_EQ(replayed[0].verdict, Verdict::kAgrees);
-  EXPECT_EQ(replayed[1].verdict, Verdict::kNotCompared);
-  EXPECT_EQ(replayed[1].note, "no answer in the log");
+  EXPECT_EQ(replayed[0].compared.verdict, Verdict::kSame);
+  EXPECT_EQ(replayed[1].compared.verdict, Verdict::kNotCompared);
+  EXPECT_EQ(replayed[1].compared.note, "no answer in the log");
 }
 
 TEST_F(ReplayTest, PutsPagesTogether) {
@@ -170,10 +192,9 @@ TEST_F(ReplayTest, PutsPagesTogether) {
   ASSERT_EQ(recorded.requests.size(), 1U);
   EXPECT_EQ(recorded.requests[0].request->keyframes.size(), 2500U);
   ASSERT_TRUE(recorded.requests[0].answer && recorded.requests[0].answer->result);
-  EXPECT_EQ(
-      difference_of(*recorded.requests[0].answer->result, result, motion::Body(request.camera))
-          .what,
-      "");
+  EXPECT_TRUE(difference_of(*recorded.requests[0].answer->result, messages::to_wire(result, {}),
+                            {motion::Body(request.camera), 3.0})
+                  .has_same_bits());
   EXPECT_EQ(recorded.incomplete, 0U);
 }
 
@@ -205,8 +226,8 @@ TEST_F(ReplayTest, DoesNotCompareWhatHangsOnTheMachine) {
   log_.add_event("CAMWAY_PLAN_RESPONSE_client", wire::encode(busy));
   const auto replayed = run(session());
   EXPECT_EQ(count(replayed, Verdict::kNotCompared), 2U);
-  EXPECT_THAT(replayed[0].note, HasSubstr("timeout"));
-  EXPECT_EQ(replayed[1].note, "recorded: overloaded");
+  EXPECT_THAT(replayed[0].compared.note, HasSubstr("timeout"));
+  EXPECT_EQ(replayed[1].compared.note, "recorded: overloaded");
 }
 
 TEST_F(ReplayTest, TakesTheAnswerThatCameAfterOverload) {
@@ -217,7 +238,7 @@ TEST_F(ReplayTest, TakesTheAnswerThatCameAfterOverload) {
   record(request, 1);
   const auto replayed = run(session());
   ASSERT_EQ(replayed.size(), 1U);
-  EXPECT_EQ(replayed[0].verdict, Verdict::kAgrees);
+  EXPECT_EQ(replayed[0].compared.verdict, Verdict::kSame);
 }
 
 TEST_F(ReplayTest, KnowsWhichScenesItLacks) {
@@ -231,10 +252,10 @@ TEST_F(ReplayTest, KnowsWhichScenesItLacks) {
   log_.add_request(request, {"client", 3, 0});
   log_.add_answer(unknown, {{"client", 3, 0}, "nowhere", 0, ""});
   const Session recorded = session();
-  EXPECT_THAT(missing_scenes(recorded, scenes_), ElementsAre("office"));
-  EXPECT_THAT(missing_scenes(recorded, {}), ElementsAre("office", "wall"));
+  EXPECT_THAT(missing_scenes(recorded, NamedScenes(scenes_)), ElementsAre("office"));
+  EXPECT_THAT(missing_scenes(recorded, NamedScenes({})), ElementsAre("office", "wall"));
   const auto replayed = run(recorded);
-  EXPECT_EQ(replayed[2].verdict, Verdict::kAgrees);
+  EXPECT_EQ(replayed[2].compared.verdict, Verdict::kSame);
 }
 
 TEST_F(ReplayTest, TellsThatTheSceneChanged) {
@@ -245,8 +266,8 @@ TEST_F(ReplayTest, TellsThatTheSceneChanged) {
   log_.add_answer(planned(request), other);
   const Session recorded = session();
   const auto replayed = run(recorded);
-  EXPECT_TRUE(replayed[0].scene_changed);
-  EXPECT_EQ(replayed[0].verdict, Verdict::kAgrees);
+  EXPECT_TRUE(replayed[0].compared.scene_changed);
+  EXPECT_EQ(replayed[0].compared.verdict, Verdict::kSame);
   EXPECT_THAT(report(recorded, replayed, Times::kHidden), HasSubstr("other triangles"));
 }
 
@@ -258,7 +279,7 @@ TEST_F(ReplayTest, UsesTheGoodPartOfATruncatedLog) {
   EXPECT_EQ(recorded.log.events, 7U);
   EXPECT_NE(recorded.log.damage, "");
   const auto replayed = run(recorded);
-  EXPECT_EQ(count(replayed, Verdict::kAgrees), 3U);
+  EXPECT_EQ(count(replayed, Verdict::kSame), 3U);
   EXPECT_EQ(count(replayed, Verdict::kNotCompared), 1U);
   EXPECT_THAT(report(recorded, replayed, Times::kHidden),
               HasSubstr("the log is damaged: 7 good events were used"));
@@ -283,7 +304,7 @@ TEST_F(ReplayTest, CarriesBodiesAndClearance) {
   ASSERT_TRUE(read.body);
   EXPECT_EQ(std::get<motion::BoxShape>(*read.body).size_m, geometry::Vec3(0.5, 0.25, 0.125));
   EXPECT_EQ(read.options.clearance_m, 0.0625);
-  EXPECT_EQ(run(recorded)[0].verdict, Verdict::kAgrees);
+  EXPECT_EQ(run(recorded)[0].compared.verdict, Verdict::kSame);
 }
 
 // The daemon's scene had bounds, which neither digest nor request contains.
@@ -298,7 +319,7 @@ TEST_F(ReplayTest, PlansWithinTheBoundsOfTheAnswer) {
   const auto replayed = run(session());
   ASSERT_EQ(replayed.size(), 2U);
   for (const ReplayedRequest& item : replayed) {
-    EXPECT_EQ(item.verdict, Verdict::kAgrees) << item.difference.what;
+    EXPECT_EQ(item.compared.verdict, Verdict::kSame) << item.compared.difference.what();
     EXPECT_EQ(item.result.bounds, bounded->options.bounds);
   }
   EXPECT_EQ(replayed[1].result.status, planning::Status::kInvalid);

@@ -23,8 +23,8 @@ export const browser = await chromium.launch({
 });
 
 /// Opens the page of a door, or a file.
-export async function open_page(url, {theme = 'light'} = {}) {
-  const context = await browser.newContext({viewport: kWindow, colorScheme: theme, acceptDownloads: true});
+export async function open_page(url, {theme = 'light', window = kWindow} = {}) {
+  const context = await browser.newContext({viewport: window, colorScheme: theme, acceptDownloads: true});
   context.setDefaultTimeout(kPatience_ms);
   const page = new Page(await context.newPage(), url);
   await page.open();
@@ -56,6 +56,13 @@ export class Page {
       addEventListener('securitypolicyviolation', ({violatedDirective, blockedURI}) => {
         console.error(`forbidden by ${violatedDirective}: ${blockedURI}`);
       });
+      window.sockets = [];
+      window.WebSocket = class extends WebSocket {
+        constructor(...words) {
+          super(...words);
+          window.sockets.push(this);
+        }
+      };
     });
     await this.tab.goto(this.url);
   }
@@ -63,6 +70,16 @@ export class Page {
   /// Takes the faults that must have happened; the others fail the test at `close`.
   forgive(pattern) {
     this.faults = this.faults.filter(fault => !pattern.test(fault));
+  }
+
+  /// Has the door close the socket of the page: it takes no bytes that are not text. Returns the code of the close.
+  drop_socket() {
+    return this.tab.evaluate(() => {
+      const socket = window.sockets.at(-1);
+      const closed = new Promise(done => socket.addEventListener('close', ({code}) => done(code)));
+      socket.send(new Uint8Array(1));
+      return closed;
+    });
   }
 
   async close() {
@@ -129,8 +146,16 @@ export class Page {
     return read_png(await this.tab.screenshot({clip}));
   }
 
-  /// Waits for two frames: what was asked to be drawn in the first is on the screen in the second.
-  drawn() {
-    return this.tab.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+  /// A picture of the view of the scene alone: panels and time line change without it.
+  async view() {
+    await this.drawn();
+    return read_png(await this.tab.screenshot({clip: await this.tab.locator('#viewport').boundingBox()}));
+  }
+
+  /// Waits until all that was asked for is drawn, and one frame more, which puts it on the screen.
+  async drawn() {
+    await this.tab.evaluate(() => new Promise(requestAnimationFrame));
+    await this.until(({isDrawn}) => isDrawn);
+    await this.tab.evaluate(() => new Promise(requestAnimationFrame));
   }
 }

@@ -80,14 +80,14 @@ test('the time line scrubs and plays', async () => {
   const page = await open('office-graze-door');
   const bar = await page.tab.getByRole('slider', {name: 'Time on the path'}).boundingBox();
   const {mouse} = page.tab;
-  const start = await page.picture();
+  const start = await page.view();
   await mouse.move(bar.x + 0.25 * bar.width, bar.y + 0.6 * bar.height);
   await mouse.down();
   const early_s = (await page.state()).cursor_s;
   await mouse.move(bar.x + 0.75 * bar.width, bar.y + 0.6 * bar.height);
   await page.until(({state}, early_s) => state.cursor_s > early_s, early_s);
   await mouse.up();
-  assert.ok(count_of_changes(start, await page.picture()) > 100, 'the picture does not follow the time');
+  assert.ok(count_of_changes(start, await page.view()) > 100, 'the picture does not follow the time');
   const {cursor_s: begin_s, answer} = await page.state();
   await page.tab.keyboard.press('Home');
   await page.until(({state}, begin_s) => state.cursor_s < begin_s, begin_s);

@@ -30,6 +30,9 @@ test('an object that another process moves breaks the watched path, and heals it
   await page.tab.getByRole('checkbox', {name: /watch/i}).check();
   await page.until(({state}) => state.watched === 'ok');
   await page.tab.getByText('watched path: free').waitFor();
+  // Where the connection is lost, the path is watched again when it is back.
+  await page.drop_socket();
+  await page.until(({state}) => window.sockets.length === 2 && state.connection === 'open' && state.watched === 'ok');
   const before = await revision(page);
   // A box that the last keyframe is shut in: any other obstacle would be gone round at once.
   camway('scene', 'add', 'office', 'box', '--box', '2,2,2', '--position=-20,8.9,10');

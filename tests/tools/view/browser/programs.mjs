@@ -25,6 +25,14 @@ export function request_file(name) {
   return path.join(kRoot, 'scenes/requests', `${name}.json`);
 }
 
+/// Writes a request with other options into the folder of the test, and returns its name.
+export function request_with(name, options) {
+  const request = JSON.parse(fs.readFileSync(request_file(name), 'utf8'));
+  const file = path.join(folder, `${name}-${Object.keys(options).join('-')}.json`);
+  fs.writeFileSync(file, JSON.stringify({...request, scene: 'office.obj', options: {...request.options, ...options}}));
+  return file;
+}
+
 /// Ends the test as one that cannot run here, and says why.
 export function not_run(why) {
   console.log(`not run: ${why}`);

@@ -37,10 +37,10 @@ test('a review shows path and scene when the door is gone', async () => {
   assert.deepEqual(state.answer.segments, answer.segments);
   assert.equal(state.scene.scene.triangles, 29544);
   // Time goes on, and nothing can be edited.
-  const start = await review.picture();
+  const start = await review.view();
   await review.tab.keyboard.press('End');
   await review.until(({state}) => state.cursor_s === state.answer.segments.at(-1).t1);
-  assert.ok(count_of_changes(start, await review.picture()) > 100, 'the picture does not follow the time');
+  assert.ok(count_of_changes(start, await review.view()) > 100, 'the picture does not follow the time');
   await review.tab.keyboard.press('k');
   assert.deepEqual((await review.state()).request, state.request);
   await review.close();

@@ -2,6 +2,7 @@
 // All that keys and buttons do, in one table: the keyboard, the tool bar and the help are made from it.
 
 import type { Actions, Pose } from './model/actions.js';
+import { distanceText, offeredPose } from './model/free_pose.js';
 import type { Store } from './model/store.js';
 import type { Viewport } from './viewport/viewport.js';
 
@@ -37,11 +38,13 @@ export function selectedKeyframe(store: Store): number | undefined {
   return selection && 'keyframe' in selection ? selection.keyframe : undefined;
 }
 
-/** The keyframe whose free pose can be accepted: the selected one, or the first that collides. */
-function faulty(store: Store): number | undefined {
-  const faults = (store.now.answer?.keyframe_faults ?? []).filter(({ free_pose }) => free_pose);
-  const selected = selectedKeyframe(store);
-  return (faults.find(({ keyframe }) => keyframe === selected) ?? faults[0])?.keyframe;
+/** Accepts the free pose that is offered; a far one only where that is allowed. Plans if there is none. */
+function acceptOrPlan({ store, actions, viewport }: CommandContext, mayBeFar: boolean): void {
+  if (viewport.editing.isDragging) return; // the hand still has the keyframe
+  const offered = offeredPose(store.now);
+  if (!offered) actions.plan('full');
+  else if (!offered.isFar || mayBeFar) actions.acceptFreePose(offered.keyframe);
+  else actions.say(`The nearest free pose of keyframe ${offered.keyframe} is ${distanceText(offered)}. Shift Enter accepts it.`);
 }
 
 function freeName(store: Store, stem: string): string {
@@ -56,7 +59,8 @@ function selectNext(store: Store, actions: Actions, step: number): void {
   actions.select({ keyframe: selected === undefined ? (step > 0 ? 0 : count - 1) : (selected + step + count) % count });
 }
 
-function keyframeCommands({ store, actions, viewport }: CommandContext): Command[] {
+function keyframeCommands(context: CommandContext): Command[] {
+  const { store, actions, viewport } = context;
   const change = (poseOf: (keyframe: number) => Pose | undefined): void => {
     const keyframe = selectedKeyframe(store);
     const pose = keyframe === undefined ? undefined : poseOf(keyframe);
@@ -95,17 +99,8 @@ function keyframeCommands({ store, actions, viewport }: CommandContext): Command
     { keys: ['Alt+Shift+ArrowRight'], name: 'Turn it to the right', group, run: () => turn(-1, 0) },
     { keys: ['Alt+Shift+ArrowUp'], name: 'Turn it up', group, run: () => turn(0, 1) },
     { keys: ['Alt+Shift+ArrowDown'], name: 'Turn it down', group, run: () => turn(0, -1) },
-    {
-      keys: ['Enter'],
-      shown: 'Enter',
-      name: 'Accept the free pose of a keyframe that collides; else plan',
-      group,
-      run: () => {
-        const keyframe = faulty(store);
-        if (keyframe === undefined) actions.plan('full');
-        else actions.acceptFreePose(keyframe);
-      },
-    },
+    { keys: ['Enter'], shown: 'Enter', name: 'Accept the near free pose of a keyframe that collides; else plan', group, run: () => acceptOrPlan(context, false) },
+    { keys: ['Shift+Enter'], shown: 'Shift Enter', name: 'Accept its free pose, however far it is', group, run: () => acceptOrPlan(context, true) },
   ];
 }
 

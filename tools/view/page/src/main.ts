@@ -18,7 +18,8 @@ const page = new Page(store, (pageParts) => (review ? openReview(review, store) 
 
 /**
  * For tests, and to look at: nothing of the page uses it. `screenOf` says where a point of the world is, in CSS
- * pixels of the window; `report` is what was drawn last.
+ * pixels of the window; `report` is what was drawn last; `isDrawn` says whether
+ * that is all; `handle` is that under the mouse.
  */
 Object.defineProperty(window, 'camway', {
   value: Object.freeze({
@@ -27,6 +28,12 @@ Object.defineProperty(window, 'camway', {
     },
     get report() {
       return page.report;
+    },
+    get isDrawn() {
+      return page.viewport.isDrawn;
+    },
+    get handle() {
+      return page.viewport.editing.handles.axis;
     },
     screenOf: (point: [number, number, number]) => page.viewport.screenOf(point),
   }),

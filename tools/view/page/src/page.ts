@@ -2,6 +2,7 @@
 // Puts the parts of the page together, whatever stands behind it.
 
 import type { Answer } from './contract/answer.js';
+import type { ExportFormat } from './contract/door.js';
 import type { PlanRequest } from './contract/request.js';
 import { makeCommands } from './commands.js';
 import { PageActions } from './door/page_actions.js';
@@ -9,7 +10,8 @@ import type { SceneEditor } from './door/scene_editor.js';
 import { Help } from './help.js';
 import { listenToKeys } from './keyboard.js';
 import { makeLegend } from './legend.js';
-import type { ExportFormat, Facts, PlanKind } from './model/actions.js';
+import type { Facts, PlanKind } from './model/actions.js';
+import { kLeastKeyframes } from './model/edits.js';
 import { beginOf, clampToPath } from './model/path.js';
 import { pathOf } from './model/stops.js';
 import type { Store } from './model/store.js';
@@ -61,6 +63,7 @@ export class Page {
   report: ViewReport | undefined;
   private facts: Facts;
   private toldDocument = '';
+  private isReady = false;
   private readonly actions: PageActions;
   private readonly panels: Panels;
   private readonly statusBar: StatusBar;
@@ -91,7 +94,7 @@ export class Page {
       },
       backing.request ?? kNoRequest,
     );
-    this.viewport = new Viewport(part('viewport'), store, this.actions, backing.sources, (report) => this.drawn(report));
+    this.viewport = new Viewport(part('viewport'), store, this.actions, backing.sources, (report) => this.drawn(report), () => this.finished());
     const commands = makeCommands({
       store,
       actions: this.actions,
@@ -143,6 +146,16 @@ export class Page {
     if (told === this.toldDocument) return;
     this.toldDocument = told;
     this.panels.setDocument({ name, isDirty, canUndo, canRedo });
+  }
+
+  /** Marks the first picture of the whole scene with its plan, for measurements: tests/bench/run page. */
+  private finished(): void {
+    const { scene, request, answer, isPending, isDraft } = this.store.now;
+    const hasPlan = (request?.keyframes.length ?? 0) < kLeastKeyframes || (answer !== undefined && !isPending && !isDraft);
+    const hasScene = scene !== undefined && (this.report?.sceneTriangles ?? 0) >= scene.scene.triangles;
+    if (this.isReady || !hasScene || !hasPlan) return;
+    this.isReady = true;
+    performance.mark('camway-ready');
   }
 
   private drawn(report: ViewReport): void {

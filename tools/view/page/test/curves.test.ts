@@ -147,11 +147,52 @@ test('without the option, the viewing distance is the one that gives the mean sh
   }
 });
 
-test('no shift is drawn for a slowed path, or without the path before', () => {
-  const [before, after] = changedPair(new Random('slow'));
-  const slowed = [{ t_begin: 0, t_end: 2, given: [0, 1] as [number, number] }];
-  assert.equal(new Curves(after, before, undefined, { ...kEmpty, segments: after, slowed }).curve('shift'), undefined);
+test('no shift is drawn without the path before', () => {
+  const [, after] = changedPair(new Random('slow'));
   assert.equal(new Curves(after, [], undefined, { ...kEmpty, segments: after }).curve('shift'), undefined);
+});
+
+/** The path of a segment after `s` -> `s + bend * s * (1 - s)`, in pieces: a slowed path has the same places at other times. */
+function slowedPath(before: Segment, factor: number, bend: number, pieces: number): Segment[] {
+  const given = (share: number): number => share + bend * share * (1 - share);
+  const duration_s = before.t1 - before.t0;
+  return Array.from({ length: pieces }, (_, i) => {
+    const [u0, u1] = [given(i / pieces), given((i + 1) / pieces)];
+    const [t0, t1] = [before.t0 + (factor * duration_s * i) / pieces, before.t0 + (factor * duration_s * (i + 1)) / pieces];
+    return { t0, t1, position: part(before.position, u0, u1) as Segment['position'], orientation: part(before.orientation, u0, u1) as Segment['orientation'] };
+  });
+}
+
+/** Control points of a Bezier curve between two parameters, by its blossom. */
+function part(points: readonly (readonly number[])[], u0: number, u1: number): number[][] {
+  const degree = points.length - 1;
+  return points.map((_, i) => {
+    let row = points.map((point) => [...point]);
+    for (let level = 0; level < degree; ++level) {
+      const u = level < degree - i ? u0 : u1;
+      row = row.slice(1).map((next, k) => next.map((x, axis) => (1 - u) * (row[k]?.[axis] as number) + u * x));
+    }
+    return row[0] as number[];
+  });
+}
+
+test('a path that was only slowed has no shift, and one that was moved as well has that of the move', () => {
+  const random = new Random('slowed');
+  for (let round = 0; round < 20; ++round) {
+    const [before] = random.path(1, 0) as [Segment];
+    const after = slowedPath(before, 1 + 2 * random.number(), random.number(-0.5, 0.5), 12);
+    const end_s = after.at(-1)?.t1 as number;
+    const slowed = [{ t_begin: 0, t_end: end_s, given: [0, before.t1] as [number, number] }];
+    const request = { keyframes: [], options: { viewing_distance_m: 5 } };
+    const shiftOf = (path: Segment[]): Curve => curveOf(new Curves(path, [before], request, { ...kEmpty, segments: path, slowed }), 'shift');
+    const largest = shiftOf(after).largest;
+    assert.ok(largest < 0.05, `${largest} degrees at places that are the same`);
+    const moved_m = 30;
+    const aside = after.map((segment) => ({ ...segment, position: segment.position.map(([x, y, z]) => [x, y + moved_m, z]) as Segment['position'] }));
+    // The path is within 10 m of the origin, so no place of it is nearer than this.
+    const least = ((moved_m - 20) / 5) * (180 / Math.PI);
+    for (const value of shiftOf(aside).values) assert.ok(value >= least, `${value}`);
+  }
 });
 
 test('the radius of a body is that of the ball about the eye', () => {

@@ -56,6 +56,24 @@ test('a request that is refused, or cannot be asked, has no answer of an older o
   }
 });
 
+test('an option that is refused does not keep the path from being drawn', async () => {
+  const random = new Random('refused');
+  const request: PlanRequest = { ...random.request(3), options: { clearance_m: -1, limits: { speed_m_per_s: -2 }, seed: 3 } };
+  const store = new Store({ ...kEmptyState, connection: 'open', request });
+  const asked: unknown[] = [];
+  const path = random.path(2);
+  const planner = new Planner(new Socket(), store, ({ options }) => {
+    asked.push(options);
+    if (options?.['clearance_m'] !== undefined) return Promise.reject(new DoorError('request: options.clearance_m: is -1; it must be from 0 to 1e+09', 400));
+    if (options?.['limits'] !== undefined) return Promise.reject(new DoorError('request: options.limits.speed_m_per_s: is -2; it must be above 0', 400));
+    return Promise.resolve(path);
+  });
+  planner.plan(request, 'full');
+  await settled();
+  assert.equal(store.now.before, path);
+  assert.deepEqual(asked, [{ clearance_m: -1, limits: { speed_m_per_s: -2 }, seed: 3 }, { limits: { speed_m_per_s: -2 }, seed: 3 }, { seed: 3 }]);
+});
+
 test('planning that was cancelled leaves no answer of an older request, and a new plan brings one', async () => {
   const { store, socket, planner } = await planning();
   planner.cancel();

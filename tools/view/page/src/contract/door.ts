@@ -16,6 +16,8 @@ export interface ObjectFacts {
   name: string;
   kind: string;
   digest: string;
+  /** Of its mesh in its own frame, which moves do not change; not with a daemon, nor for occupancy maps. */
+  mesh_digest?: string;
   triangles: number;
   position: Vec3;
   orientation: Quat;
@@ -44,6 +46,14 @@ export interface Field {
   unit?: string;
   /** Members of an object. */
   fields?: Field[];
+}
+
+/** A format of `camway export`, as `GET /v1/fields` lists it. */
+export interface ExportFormat {
+  name: string;
+  /** With its dot. */
+  extension: string;
+  help: string;
 }
 
 /** `GET /v1/last`: what was planned last, for a page that is opened. */

@@ -13,6 +13,7 @@ import {
   fetchFields,
   fetchLast,
   fetchMesh,
+  fetchPart,
   fetchReview,
   fetchStatus,
   fetchTriangles,
@@ -23,6 +24,8 @@ import { SceneEditor } from './scene_editor.js';
 import { DoorError, DoorSocket } from './socket.js';
 
 const kForbidden = 403;
+/** Between attempts to open a page whose door does not answer. */
+const kStartPause_ms = 2000;
 const kLost = 'The connection to camway is lost. The page goes on when it is back.';
 const kRestarted =
   'Camway was started again, and refuses this page. Save your request first, then open the newly printed address.';
@@ -64,10 +67,13 @@ export function openDoor(store: Store, page: PageParts): Backing {
     scenes.start();
     if (isBack) {
       store.set({ message: 'Connected again.' });
+      sceneEditor.resume();
       void scenes.refresh();
+      watch.resume();
     }
-    const { request, answer } = store.now;
-    if (request && (isBack || isProfileMissing || !answer)) planner.plan(request, 'full');
+    const { request, answer, watched } = store.now;
+    // A path that is watched is planned for that.
+    if (request && watched === 'off' && (isBack || isProfileMissing || !answer)) planner.plan(request, 'full');
     isProfileMissing = false;
   });
   const planner = new Planner(socket, store);
@@ -77,14 +83,15 @@ export function openDoor(store: Store, page: PageParts): Backing {
     if (request && (isChanged ? watched === 'off' : unplanned !== '')) planner.plan(request, 'full');
   });
   const watch = new PathWatch(socket, store);
+  const sceneEditor = new SceneEditor(nameNow, () => void scenes.refresh(), onError);
 
   async function start(): Promise<void> {
     const [status, list, last] = await Promise.all([fetchStatus(), listScenes(), fetchLast().catch(() => ({}) as never)]);
     sceneName = status.backend?.scene ?? sceneStem(last.request?.scene) ?? list[0]?.name;
     store.set({ isReadOnly: status.read_only === true });
     page.setFacts({ status: status.backend });
-    const fields = await fetchFields().catch(() => []);
-    page.setFacts({ fields });
+    const { fields, exports } = await fetchFields().catch(() => ({ fields: [], exports: [] }));
+    page.setFacts({ fields, exports });
     planner.hasProfile = fields.some(({ name }) => name === kProfileOption);
     if (sceneName) store.set({ scene: await describeScene(sceneName) });
     const request: PlanRequest = last.request ?? { ...(sceneName ? { scene: sceneName } : {}), camera: kDefaultCamera, keyframes: [] };
@@ -99,20 +106,36 @@ export function openDoor(store: Store, page: PageParts): Backing {
     socket.open();
   }
 
+  /** A door that is not reached, or has no daemon yet, is asked again; one that refuses the page is not. */
+  async function startUntilDone(): Promise<void> {
+    for (;;) {
+      try {
+        await start();
+        return;
+      } catch (error) {
+        const isRefused = error instanceof DoorError && error.code === kForbidden;
+        onError(error instanceof DoorError && !isRefused ? error.message : lostMessage(error));
+        if (isRefused) return;
+      }
+      await new Promise((done) => setTimeout(done, kStartPause_ms));
+    }
+  }
+
   return {
     sources: {
       mesh: (digest) => fetchMesh(sceneName ?? '', digest),
       triangles: (indices) => fetchTriangles(sceneName ?? '', indices),
+      part: (point, reach_m) => fetchPart(sceneName ?? '', point, reach_m),
     },
     request: undefined,
-    facts: { fields: [], exports: ['csv'], status: undefined },
+    facts: { fields: [], exports: [], status: undefined },
     plan: (request, kind) => planner.plan(request, kind),
     sceneFault: (request) => sceneFault(request, sceneName),
     cancelPlan: () => planner.cancel(),
     watchPath: (request) => (request ? watch.start(request) : watch.stop()),
     review: fetchReview,
     exported: fetchExport,
-    sceneEditor: new SceneEditor(nameNow, () => void scenes.refresh(), onError),
-    start: () => void start().catch((error: Error) => onError(error.message)),
+    sceneEditor,
+    start: () => void startUntilDone(),
   };
 }

@@ -7,6 +7,7 @@ import type { PlanRequest } from '../contract/request.js';
 import type { Store } from '../model/store.js';
 import { describeScene } from './places.js';
 import { completed } from './planner.js';
+import { DoorLost } from './socket.js';
 import type { DoorSocket } from './socket.js';
 
 interface SceneEvent {
@@ -83,6 +84,7 @@ export class SceneWatch {
 /** Has a daemon watch the path of a request. */
 export class PathWatch {
   private id: number | undefined;
+  private request: PlanRequest | undefined;
   /** The path that is followed: where there is no way for a while, it is free again later. */
   private followed: Answer | undefined;
 
@@ -101,23 +103,31 @@ export class PathWatch {
       if (this.id === id) this.hear(event as PathEvent);
     });
     this.id = id;
+    this.request = request;
     this.followed = undefined;
     this.store.set({ watched: 'replanning' });
     answer.then(
       () => this.ended(id, ''),
-      (error: Error) => this.ended(id, error.message),
+      (error: Error) => this.ended(id, error instanceof DoorLost ? '' : error.message, error instanceof DoorLost),
     );
+  }
+
+  /** Watches again where a path was watched when the connection was lost, as it was edited since. */
+  resume(): void {
+    if (this.id === undefined && this.request) this.start(this.store.now.request ?? this.request);
   }
 
   stop(): void {
     if (this.id !== undefined) this.socket.tell(this.id, 'unwatch');
     this.id = undefined;
+    this.request = undefined;
     this.store.set({ watched: 'off' });
   }
 
-  private ended(id: number, message: string): void {
+  private ended(id: number, message: string, isLost = false): void {
     if (this.id !== id) return;
     this.id = undefined;
+    if (!isLost) this.request = undefined;
     this.store.set({ watched: 'off', ...(message ? { message } : {}) });
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The actions of the page: edits of the document, questions to the door, and the cursor's time.
 
+import type { ExportFormat } from '../contract/door.js';
 import type { Vec3, PlanRequest } from '../contract/request.js';
-import type { Actions, Direction, ExportFormat, NewObject, PlanKind, Pose, Stop } from '../model/actions.js';
+import type { Actions, Direction, NewObject, PlanKind, Pose, Stop } from '../model/actions.js';
 import { RequestDocument } from '../model/document.js';
 import {
   insertedAfter,
@@ -257,7 +258,7 @@ export class PageActions implements Actions {
     const { answer, request } = this.store.now;
     if (!answer || !request || !isAnswered(this.store.now)) return;
     this.around.exported(format, request, answer).then(
-      (file) => saveFile(`${this.baseName}.${format}`, file),
+      (file) => saveFile(`${this.baseName}${format.extension}`, file),
       (error: Error) => this.say(error.message),
     );
   }

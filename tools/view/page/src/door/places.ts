@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The places of the door over HTTP; the browser's cookie holds the token.
 
-import type { Answer, Segment } from '../contract/answer.js';
-import type { Field, LastPlan, ObjectFacts, SceneDescription, SceneFacts } from '../contract/door.js';
+import type { Answer, Collision, Segment } from '../contract/answer.js';
+import type { ExportFormat, Field, LastPlan, ObjectFacts, SceneDescription, SceneFacts } from '../contract/door.js';
 import type { PlanRequest, Vec3 } from '../contract/request.js';
 import { DoorError } from './socket.js';
 
@@ -68,12 +68,31 @@ export async function interpolate(request: PlanRequest): Promise<Segment[]> {
   return (await fetchJson<{ segments: Segment[] }>('/v1/interpolate', request)).segments;
 }
 
-export async function fetchFields(): Promise<Field[]> {
-  return (await fetchJson<{ fields: Field[] }>('/v1/fields')).fields;
+export interface DoorFields {
+  fields: Field[];
+  exports: ExportFormat[];
+}
+
+export async function fetchFields(): Promise<DoorFields> {
+  const { fields, exports = [] } = await fetchJson<{ fields: Field[]; exports?: ExportFormat[] }>('/v1/fields');
+  return { fields, exports };
 }
 
 export function fetchLast(): Promise<LastPlan> {
   return fetchJson<LastPlan>('/v1/last');
+}
+
+/**
+ * The name that the scene's file gives to what is within `reach_m` of a point; undefined if nothing is. Asked as the
+ * check of a ball that rests there, since its witness has the name.
+ */
+export async function fetchPart(scene: string, point: Vec3, reach_m: number): Promise<string | undefined> {
+  const orientation = [1, 0, 0, 0];
+  const body = { type: 'sphere', radius_m: reach_m };
+  const request = { scene, body, keyframes: [0, 1].map((time) => ({ time, position: point, orientation })) };
+  const segment = { t0: 0, t1: 1, position: Array.from({ length: 4 }, () => point), orientation: Array.from({ length: 7 }, () => orientation) };
+  const { collisions } = await fetchJson<{ collisions?: Collision[] }>('/v1/check', { request, path: { segments: [segment] } });
+  return collisions?.[0]?.witness.object;
 }
 
 export interface DoorStatus {
@@ -107,6 +126,6 @@ export async function fetchReview(request: PlanRequest, answer: Answer): Promise
   return (await fetchPlace('/v1/review', { request, answer })).blob();
 }
 
-export async function fetchExport(format: string, request: PlanRequest, answer: Answer): Promise<Blob> {
-  return (await fetchPlace(`/v1/export?format=${encodeURIComponent(format)}`, { request, answer })).blob();
+export async function fetchExport(format: ExportFormat, request: PlanRequest, answer: Answer): Promise<Blob> {
+  return (await fetchPlace(`/v1/export?format=${encodeURIComponent(format.name)}`, { request, answer })).blob();
 }

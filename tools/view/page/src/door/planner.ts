@@ -5,9 +5,10 @@ import type { Answer, Segment } from '../contract/answer.js';
 import type { PlanRequest } from '../contract/request.js';
 import type { PlanKind } from '../model/actions.js';
 import { kLeastKeyframes } from '../model/edits.js';
+import { withoutFault } from '../model/option_fault.js';
 import type { Store } from '../model/store.js';
 import { interpolate } from './places.js';
-import { DoorLost, Superseded } from './socket.js';
+import { DoorError, DoorLost, Superseded } from './socket.js';
 import type { DoorSocket } from './socket.js';
 
 const kDrag = 'page';
@@ -58,13 +59,21 @@ class Interpolation {
     this.isAsking = true;
     for (let request = this.next; request; request = this.next) {
       this.next = undefined;
-      try {
-        this.onPath(request, await this.interpolated(request));
-      } catch {
-        this.onPath(request, []); // the answer to the request says what is wrong
-      }
+      this.onPath(request, await this.pathOf(request));
     }
     this.isAsking = false;
+  }
+
+  /** An option that is refused does not keep the path from being seen; the answer to the request says what is wrong. */
+  private async pathOf(request: PlanRequest): Promise<readonly Segment[]> {
+    for (let asked: PlanRequest | undefined = request; asked; ) {
+      try {
+        return await this.interpolated(asked);
+      } catch (error) {
+        asked = error instanceof DoorError ? withoutFault(asked, error.message) : undefined;
+      }
+    }
+    return [];
   }
 }
 

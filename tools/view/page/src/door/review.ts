@@ -18,6 +18,7 @@ export function openReview(review: Review, store: Store): Backing {
   const refuse = (): Promise<never> => Promise.reject(new Error('A review cannot do that.'));
   return {
     sources: {
+      part: () => Promise.resolve(undefined),
       mesh: (digest) => {
         const base64 = review.meshes[digest];
         return base64 === undefined ? Promise.reject(new Error('This file lacks a mesh.')) : Promise.resolve(bytesOf(base64));

@@ -3,7 +3,9 @@
 
 import type { NewObject, Pose } from '../model/actions.js';
 import { addObject, moveObject, removeObject } from './places.js';
+import { DoorError } from './socket.js';
 
+const kUnreached = 'The change of the scene did not reach camway.';
 /** The door allows 50 changes a second, of all clients together. */
 const kLeastPause_ms = 60;
 
@@ -26,10 +28,20 @@ export class SceneEditor {
     this.isMoving = true;
     for (let next = this.takeNext(); next; next = this.takeNext()) {
       const [name, pose] = next;
-      await this.change((scene) => moveObject(scene, name, pose));
+      const isDone = await this.change((scene) => moveObject(scene, name, pose));
+      if (!isDone) {
+        // Nobody has heard of it: it is sent again by `resume`, unless the object was moved on since.
+        if (!this.waiting.has(name)) this.waiting.set(name, pose);
+        break;
+      }
       await new Promise((done) => setTimeout(done, kLeastPause_ms));
     }
     this.isMoving = false;
+  }
+
+  /** The connection is back: sends the moves that did not get through. */
+  resume(): void {
+    if (!this.isMoving && this.waiting.size > 0) void this.moveAll();
   }
 
   private takeNext(): [string, Pose] | undefined {
@@ -46,14 +58,21 @@ export class SceneEditor {
     void this.change((scene) => removeObject(scene, name));
   }
 
-  private async change(act: (scene: string) => Promise<void>): Promise<void> {
+  /** Returns false where the door was not reached. What it refuses is said, and done with. */
+  private async change(act: (scene: string) => Promise<void>): Promise<boolean> {
     const scene = this.sceneName();
-    if (!scene) return;
+    if (!scene) return true;
     try {
       await act(scene);
       this.onChanged();
     } catch (error) {
-      this.onError((error as Error).message);
+      if (!(error instanceof DoorError)) {
+        this.onError(kUnreached);
+        return false;
+      }
+      this.onError(error.message);
+      this.onChanged(); // what was shown while it was dragged goes back
     }
+    return true;
   }
 }

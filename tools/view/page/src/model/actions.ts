@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { Field } from '../contract/door.js';
+import type { ExportFormat, Field } from '../contract/door.js';
 import type { PlanRequest, Quat, Vec3 } from '../contract/request.js';
 
 export interface Pose {
@@ -24,9 +24,6 @@ export interface NewObject {
   position: Vec3;
   orientation?: Quat;
 }
-
-/** A format of `camway export`, as docs/cameras.md names it. */
-export type ExportFormat = string;
 
 /**
  * All that the page can do, behind one door for mouse, keyboard and panels. An action never throws: what goes

@@ -36,6 +36,19 @@ export const kCurveKinds: readonly CurveKind[] = [
   { name: 'shift', label: 'shift', unit: '°', help: 'Shift of the picture from the path as interpolated' },
 ];
 
+/** For slowed paths, whose clock is another one. */
+export const kShiftByPlace: CurveKind = {
+  name: 'shift',
+  label: 'shift by place',
+  unit: '°',
+  help: 'Shift of the picture from the nearest place of the path as interpolated, as slowed parts have another clock',
+};
+
+/** Samples and golden sections for the nearest place on a slowed part. */
+const kPlaceSamples = 16;
+const kPlaceSections = 20;
+const kGolden = (Math.sqrt(5) - 1) / 2;
+
 /** Parts of a segment to begin with: fewer would miss bends whose middle is on the line. */
 const kFirstParts = 8;
 const kMostHalvings = 4;
@@ -102,17 +115,43 @@ export class Curves {
       case 'clearance':
         return stepsOf(this.answer?.clearance_profile ?? []);
       case 'shift':
-        // On a slowed path the time before slowing is not known well enough: a false shift would be drawn.
-        if (this.before.length === 0 || !this.answer || !this.times.isSame) return undefined;
+        if (this.before.length === 0 || !this.answer) return undefined;
         return sampledAlong(this.path, (segment, u) => this.shiftAt(segment, u));
     }
   }
 
   private shiftAt(segment: Segment, u: number): number {
-    const time_s = segment.t0 + u * (segment.t1 - segment.t0);
-    const then = poseAt(this.before, this.times.toGiven(time_s));
-    return then ? shiftOf(changeBetween(then, motionIn(segment, u)), this.scale) : 0;
+    const [from_s, to_s] = this.times.givenRange(segment.t0 + u * (segment.t1 - segment.t0));
+    const now = motionIn(segment, u);
+    const shiftFrom = (time_s: number): number => {
+      const then = poseAt(this.before, time_s);
+      return then ? shiftOf(changeBetween(then, now), this.scale) : 0;
+    };
+    // The clock of a slowed part is not known inside of it: there the path is compared with the nearest place.
+    return from_s === to_s ? shiftFrom(from_s) : leastOf(shiftFrom, from_s, to_s);
   }
+}
+
+/** The least value of a function between two times: of its least sample, and of its neighbourhood by golden sections. */
+function leastOf(value: (time_s: number) => number, from_s: number, to_s: number): number {
+  const step_s = (to_s - from_s) / kPlaceSamples;
+  const samples = Array.from({ length: kPlaceSamples + 1 }, (_, k) => value(from_s + k * step_s));
+  const least = samples.reduce((best, sample, k) => (sample < (samples[best] as number) ? k : best), 0);
+  let [a, b] = [from_s + Math.max(0, least - 1) * step_s, from_s + Math.min(kPlaceSamples, least + 1) * step_s];
+  let [p, q] = [b - kGolden * (b - a), a + kGolden * (b - a)];
+  let [atP, atQ] = [value(p), value(q)];
+  for (let k = 0; k < kPlaceSections; ++k) {
+    if (atP < atQ) {
+      [b, q, atQ] = [q, p, atP];
+      p = b - kGolden * (b - a);
+      atP = value(p);
+    } else {
+      [a, p, atP] = [p, q, atQ];
+      q = a + kGolden * (b - a);
+      atQ = value(q);
+    }
+  }
+  return Math.min(samples[least] as number, atP, atQ);
 }
 
 /** The value of a curve at a time, on the line between samples. At a jump, the value after it. */

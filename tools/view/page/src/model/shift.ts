@@ -64,6 +64,8 @@ export function shiftScale(
   });
   const asked = request?.options?.['viewing_distance_m'];
   if (typeof asked === 'number' && asked > 0) return scaleOf(asked, 'request');
+  // On a slowed path the means would be of other instants.
+  if (!times.isSame) return scaleOf(kAssumedDistance_m, 'assumed');
   const shift_rad = (answer?.measures?.after['mean_shift_deg'] ?? 0) / kDegreesPerRadian;
   if (!answer || before.length === 0 || !(shift_rad > 0)) return scaleOf(kAssumedDistance_m, 'assumed');
   const mean = meanChange(answer.segments, before, times);

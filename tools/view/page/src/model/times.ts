@@ -14,6 +14,9 @@ const kLeastShareOfMean = 0.01;
 const kLeastStep_s = 1e-9;
 const kLeastRelativeStep = 1.42e-14;
 
+/** A stretch whose duration changed by less than this share was not slowed. */
+const kSameDuration = 1e-9;
+
 export function isTimed(request: PlanRequest): boolean {
   return request.keyframes.length > 0 && request.keyframes.every((keyframe) => keyframe.time !== undefined);
 }
@@ -103,6 +106,16 @@ export class TimeMap {
   /** A time of the request for a time on the path. */
   toGiven(time_s: number): number {
     return mapped(this.path, this.given, time_s);
+  }
+
+  /** The times of the request that an instant of the path can be: one, or where the path was slowed, from one to another. */
+  givenRange(time_s: number): [from: number, to: number] {
+    const next = this.path.findIndex((end) => time_s < end);
+    if (next <= 0) return [this.toGiven(time_s), this.toGiven(time_s)];
+    const [begin, end] = [this.given[next - 1] as number, this.given[next] as number];
+    const stretch_s = (this.path[next] as number) - (this.path[next - 1] as number);
+    const isSlowed = Math.abs(stretch_s - (end - begin)) > kSameDuration * (end - begin);
+    return isSlowed ? [begin, end] : [this.toGiven(time_s), this.toGiven(time_s)];
   }
 
   /** A time on the path for a time of the request. */

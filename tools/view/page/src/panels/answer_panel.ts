@@ -2,6 +2,7 @@
 import type { Answer, Collision, Correction, KeyframeFault } from '../contract/answer.js';
 import type { Actions } from '../model/actions.js';
 import { lowerBoundText, numberText, timeText, withUnit } from '../model/format.js';
+import { acceptingKey, distanceText, freePoses } from '../model/free_pose.js';
 import { beginOf } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import type { State, Store } from '../model/store.js';
@@ -10,7 +11,6 @@ import {
   certificateWords,
   correctionText,
   faultText,
-  freePoseText,
   infeasibilityWords,
   measureRows,
   otherChanges,
@@ -94,13 +94,14 @@ function draftWords({ isDraft, isPending }: State): string | undefined {
 
 function faultsOf(state: State, faults: readonly KeyframeFault[], actions: Actions): Node[] {
   if (faults.length === 0) return [];
+  const poses = freePoses(state);
   const rows = faults.map((fault) => {
     const row = make('div', { class: 'cw-fault' }, make('p', { text: faultText(fault) }));
-    const pose = fault.free_pose;
+    const pose = poses.find(({ keyframe }) => keyframe === fault.keyframe);
     if (!pose) row.append(make('p', { class: 'cw-muted', text: 'No free pose was found near it.' }));
     else if (state.connection !== 'review') {
-      const away = freePoseText(state.request, fault.keyframe, pose);
-      const button = makeButton(`Accept the free pose${away ? ` (${away})` : ''}`, () => actions.acceptFreePose(fault.keyframe));
+      const words = pose.isFar ? 'Accept the far free pose' : 'Accept the free pose';
+      const button = makeButton(`${words} (${distanceText(pose)})`, () => actions.acceptFreePose(fault.keyframe), { title: acceptingKey(pose) });
       button.dataset['key'] = `fault ${fault.keyframe}`;
       row.append(button);
     }

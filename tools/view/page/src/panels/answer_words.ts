@@ -3,10 +3,7 @@
 // Answers in words. The meanings are those of docs/answers.md.
 
 import type { Answer, Correction, Infeasibility, KeyframeFault, Status } from '../contract/answer.js';
-import type { PlanRequest } from '../contract/request.js';
-import type { Pose } from '../model/actions.js';
 import { counted, lowerBoundText, numberText, withUnit } from '../model/format.js';
-import { changeBetween, kDegreesPerRadian } from '../model/shift.js';
 import { correctionWords } from '../timeline/bands.js';
 
 /** Smaller lengths and angles are of rounding, and shown as 0. */
@@ -103,16 +100,6 @@ export function shutInWords(keyframe: number): string {
 export function faultText(fault: KeyframeFault): string {
   const depth = fault.depth_m !== undefined && fault.depth_m > 0 ? `; it has to move by about ${withUnit(fault.depth_m, 'm')}` : '';
   return `Keyframe ${fault.keyframe} collides${depth}.`;
-}
-
-/** How far the free pose of a fault is from the keyframe. */
-export function freePoseText(request: PlanRequest | undefined, keyframe: number, pose: Pose): string {
-  const old = request?.keyframes[keyframe];
-  if (!old) return '';
-  const change = changeBetween(old, pose);
-  const turned_deg = change.turned_rad * kDegreesPerRadian;
-  const turn = turned_deg > 1e-3 ? `, ${withUnit(turned_deg, '°')}` : '';
-  return `${withUnit(change.moved_m, 'm')}${turn} away`;
 }
 
 export interface MeasureRow {

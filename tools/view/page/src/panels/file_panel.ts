@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-import type { Actions, DocumentFacts, ExportFormat, Facts } from '../model/actions.js';
+import type { ExportFormat } from '../contract/door.js';
+import type { Actions, DocumentFacts, Facts } from '../model/actions.js';
 import { isAnswered } from '../model/store.js';
 import type { State, Store } from '../model/store.js';
 import { make, makeButton, setText } from './dom.js';
@@ -10,19 +11,6 @@ export interface FilePanel {
   setDocument(facts: DocumentFacts): void;
 }
 
-const kFormats: Readonly<Record<string, string>> = {
-  gltf: 'glTF 2.0 (gltf)',
-  blender: 'Blender script (blender)',
-  mcap: 'MCAP for Foxglove (mcap)',
-  chan: 'Nuke (chan)',
-  nerfstudio: 'nerfstudio',
-  transforms: 'transforms.json (transforms)',
-  colmap: 'COLMAP (colmap)',
-  tum: 'TUM (tum)',
-  kitti: 'KITTI (kitti)',
-  csv: 'table (csv)',
-};
-
 /** Makes the panel that opens and saves. In a review nothing is opened, and nothing is asked of a door. */
 export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions): FilePanel {
   const name = make('strong', { text: 'No request' });
@@ -32,7 +20,11 @@ export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions)
   const saveAnswer = makeButton('Save the answer', () => actions.saveAnswer());
   const edit = makeButton('Edit on from the answer', () => actions.editAnswer(), { title: 'Takes the keyframes of the answer, inserted ones too, as those of the request' });
   const format = make('select', { 'aria-label': 'Format' });
-  const exportButton = makeButton('Export', () => actions.exportAs(format.value));
+  let formats: readonly ExportFormat[] = [];
+  const exportButton = makeButton('Export', () => {
+    const chosen = formats.find(({ name }) => name === format.value);
+    if (chosen) actions.exportAs(chosen);
+  });
   const review = makeButton('Save as a page', () => actions.saveReview());
   const exporting = section('Export', 'Writes a pose for each frame, for another program.', format, exportButton);
   const reviewing = section('Review', 'One HTML file with the scene, the request and the answer. It opens in any browser, without Camway.', review);
@@ -60,7 +52,8 @@ export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions)
   update(store.now);
   return {
     setFacts(facts) {
-      setFormats(format, facts.exports);
+      if (facts.exports !== formats) setFormats(format, facts.exports);
+      formats = facts.exports;
       update(store.now);
     },
     setDocument(facts) {
@@ -72,8 +65,8 @@ export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions)
 
 function setFormats(select: HTMLSelectElement, formats: readonly ExportFormat[]): void {
   const kept = select.value;
-  select.replaceChildren(...formats.map((format) => new Option(kFormats[format] ?? format, format)));
-  if (formats.includes(kept)) select.value = kept;
+  select.replaceChildren(...formats.map(({ name, extension, help }) => new Option(`${name} (${extension}): ${help}`, name)));
+  if (formats.some(({ name }) => name === kept)) select.value = kept;
 }
 
 function section(title: string, help: string, ...children: HTMLElement[]): HTMLElement {

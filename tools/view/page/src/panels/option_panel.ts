@@ -4,6 +4,7 @@ import type { Camera } from '../contract/request.js';
 import type { Actions, Facts } from '../model/actions.js';
 import { optionAt } from '../model/edits.js';
 import { withUnit } from '../model/format.js';
+import { optionFault } from '../model/option_fault.js';
 import type { State, Store } from '../model/store.js';
 import { make, makeButton, uniqueId } from './dom.js';
 import { numberField, numberInput } from './inputs.js';
@@ -40,6 +41,7 @@ function isChanged(now: State, before: State): boolean {
   return (
     now.request?.options !== before.request?.options ||
     now.request?.camera !== before.request?.camera ||
+    now.unplanned !== before.unplanned ||
     (now.request === undefined) !== (before.request === undefined) ||
     now.connection !== before.connection
   );
@@ -100,14 +102,23 @@ function fieldRow(state: State, field: OptionField, helpId: string, actions: Act
   const rule = make('span', { class: 'cw-rule', id: uniqueId(), text: field.rule });
   const name = field.path.at(-1) as string;
   const isMember = field.path.length > 1;
+  const fault = faultOf(state, field);
   const control = controlOf(field, value, `${helpId} ${rule.id}`, (next) => actions.setOption(field.path, next));
   if (control instanceof HTMLInputElement && control.type === 'checkbox') {
     const label = make('label', { class: 'cw-check' }, control, isMember ? memberOf(name, field) : 'on');
-    return make('div', { class: 'cw-option-field' }, label, rule);
+    return make('div', { class: 'cw-option-field' }, label, fault, rule);
   }
   control.setAttribute('aria-label', isMember ? `${field.path[0]}, ${name}` : name);
   const words = isMember ? memberOf(name, field) : undefined;
-  return make('div', { class: 'cw-option-field' }, words, control, rule);
+  if (fault) control.setAttribute('aria-invalid', 'true');
+  return make('div', { class: 'cw-option-field' }, words, control, fault, rule);
+}
+
+/** What the door says of a field whose value it refuses. */
+function faultOf({ unplanned }: State, { path }: OptionField): HTMLElement | undefined {
+  const fault = optionFault(unplanned);
+  if (fault?.path.join('.') !== path.join('.')) return undefined;
+  return make('span', { class: 'cw-bad cw-wrong', role: 'alert', text: `Refused: it ${fault.words}.` });
 }
 
 function memberOf(name: string, { unit, help }: OptionField): HTMLElement {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { Actions } from '../model/actions.js';
-import { Curves, kCurveKinds } from '../model/curves.js';
+import { Curves, kCurveKinds, kShiftByPlace } from '../model/curves.js';
 import { timeText } from '../model/format.js';
 import { beginOf, endOf } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
@@ -124,14 +124,14 @@ class Timeline {
 
   private lanes(): Lane[] {
     return this.transport.shown().flatMap((name) => {
-      const kind = kCurveKinds.find((known) => known.name === name);
+      const isByPlace = name === 'shift' && !this.content.curves.times.isSame;
+      const kind = isByPlace ? kShiftByPlace : kCurveKinds.find((known) => known.name === name);
       return kind ? [{ kind, curve: this.content.curves.curve(name), missing: this.missing(name) }] : [];
     });
   }
 
   private missing(name: string): string {
     if (pathOf(this.store.now).length === 0) return '';
-    if (name === 'shift' && !this.content.curves.times.isSame) return 'not drawn for a path that was slowed';
     return kMissing[name] ?? '';
   }
 

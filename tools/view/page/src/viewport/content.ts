@@ -5,6 +5,7 @@ import { Group, Vector3 } from 'three';
 import type { IUniform, Vector4 } from 'three';
 import type { State } from '../model/store.js';
 import type { Pose } from '../model/actions.js';
+import { acceptingKey, distanceText, offeredPose } from '../model/free_pose.js';
 import { poseAt } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
 import { TimeMap } from '../model/times.js';
@@ -29,6 +30,8 @@ const kMostLabels = 2000;
 export interface Picked {
   name: string;
   point: Vector3;
+  /** The part of the object there, where its file has names; undefined until it is known. */
+  part: string | undefined;
 }
 
 export class Content {
@@ -88,10 +91,11 @@ export class Content {
   }
 
   /** Names for what is shown. The selected one comes first: numbers give way to those before them. */
-  labels({ answer, selection, scene }: State, picked: Picked | undefined): Label[] {
+  labels({ request, answer, selection, scene, connection }: State, picked: Picked | undefined): Label[] {
     const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
     const faults = new Set((answer?.keyframe_faults ?? []).map(({ keyframe }) => keyframe));
     const proof = answer?.infeasibility;
+    const isEditable = connection !== 'review';
     const suffix = (i: number): string =>
       proof?.keyframe_inside === i ? ' inside' : proof?.keyframe_outside === i ? ' outside' : faults.has(i) ? ' collides' : '';
     const labels = this.places.slice(0, kMostLabels).map(
@@ -101,10 +105,16 @@ export class Content {
         kind: faults.has(i) ? 'invalid' : i === selected ? 'selected' : 'keyframe',
       }),
     );
+    const offered = offeredPose({ request, answer, selection });
+    if (offered && isEditable) {
+      const at = this.extent.placeOf(offered.pose.position);
+      labels.unshift({ text: `free, ${distanceText(offered)}: ${acceptingKey(offered)}`, at, kind: 'free' });
+    }
     if (selection && 'object' in selection) {
       const bounds = scene?.objects.find(({ name }) => name === selection.object)?.bounds;
       const at = picked?.point ?? (bounds && this.extent.boxOf(bounds).getCenter(new Vector3()));
-      if (at) labels.unshift({ text: selection.object, at, kind: 'object' });
+      const part = picked?.part === undefined ? '' : `: ${picked.part}`;
+      if (at) labels.unshift({ text: `${selection.object}${part}`, at, kind: 'object' });
     }
     return labels.sort((a, b) => Number(a.kind === 'keyframe') - Number(b.kind === 'keyframe'));
   }

@@ -33,6 +33,10 @@ export class Extent {
     return new Box3(frame.toLocal(min), frame.toLocal(max));
   }
 
+  placeOf(point: Vec3): Vector3 {
+    return this.frameNow().toLocal(point);
+  }
+
   get scene(): Box3 {
     const bounds = this.store.now.scene?.scene.bounds;
     if (bounds) return this.boxOf(bounds);

@@ -50,7 +50,12 @@ export class Handles {
 
   /** Whether the mouse is over a handle, or has one. */
   get isHot(): boolean {
-    return this.target !== undefined && this.controls.axis !== null;
+    return this.axis !== null;
+  }
+
+  /** The handle under the mouse: "X", "XZ", ...; null if there is none. */
+  get axis(): string | null {
+    return this.target ? this.controls.axis : null;
   }
 
   get isDragging(): boolean {

@@ -12,7 +12,7 @@ const kLeastDistance_px = 16;
 export interface Label {
   text: string;
   at: Vector3;
-  kind: 'keyframe' | 'selected' | 'invalid' | 'object';
+  kind: 'keyframe' | 'selected' | 'invalid' | 'object' | 'free';
 }
 
 export class Labels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The objects of the scene. A new description fetches the meshes with new digests alone, and moves the others.
+// The objects of the scene. A new description fetches the meshes that are new alone, and moves the others.
 
 import { Group, LineSegments, Mesh, Raycaster, ShaderMaterial, Vector3 } from 'three';
 import type { BufferGeometry, IUniform, Ray } from 'three';
@@ -27,6 +27,11 @@ export interface Hit {
   point: Vector3;
   /** Unit normal of the surface there, towards the ray's begin. */
   normal: Vector3;
+}
+
+/** What tells meshes apart: two objects of one mesh, or one that moves, need it once. */
+function meshKey({ digest, mesh_digest }: ObjectFacts): string {
+  return mesh_digest ?? digest;
 }
 
 /** Meshes that are fetched at a time: browsers have six connections to a host. */
@@ -59,15 +64,15 @@ export class SceneView {
     for (const facts of description.objects) this.place(facts);
     const names = new Set(description.objects.map(({ name }) => name));
     for (const name of this.items.keys()) if (!names.has(name)) this.remove(name);
-    const wanted = description.objects.filter(({ name, digest }) => this.items.get(name)?.facts.digest !== digest);
+    const wanted = description.objects.filter((facts) => !this.isShown(facts));
     const queue = [...wanted];
     const fetchNext = async (): Promise<void> => {
       for (let facts = queue.shift(); facts && update === this.update; facts = queue.shift()) {
         try {
-          const shape = await this.shapeOf(facts.digest);
+          const shape = await this.shapeOf(facts);
           if (update === this.update) this.add(facts, shape);
         } catch (error) {
-          this.shapes.delete(facts.digest);
+          this.shapes.delete(meshKey(facts));
           this.onError(error instanceof Error ? error.message : String(error));
         }
       }
@@ -136,11 +141,17 @@ export class SceneView {
     return crossing > 0 ? [0, Math.min(crossing, far)] : [0, far];
   }
 
-  private shapeOf(digest: string): Promise<Shape> {
-    let shape = this.shapes.get(digest);
+  private isShown(facts: ObjectFacts): boolean {
+    const item = this.items.get(facts.name);
+    return item !== undefined && meshKey(item.facts) === meshKey(facts);
+  }
+
+  private shapeOf(facts: ObjectFacts): Promise<Shape> {
+    const key = meshKey(facts);
+    let shape = this.shapes.get(key);
     if (!shape) {
-      shape = this.source(digest).then(readShape);
-      this.shapes.set(digest, shape);
+      shape = this.source(facts.digest).then(readShape);
+      this.shapes.set(key, shape);
     }
     return shape;
   }
@@ -175,7 +186,7 @@ export class SceneView {
 
   private place(facts: ObjectFacts): void {
     const item = this.items.get(facts.name);
-    if (!item || item.facts.digest !== facts.digest) return;
+    if (!item || !this.isShown(facts)) return;
     item.facts = facts;
     this.setPose(item, facts.position, facts.orientation);
     this.onChange();
@@ -201,10 +212,10 @@ export class SceneView {
   }
 
   private dropUnused(description: SceneDescription): void {
-    const used = new Set(description.objects.map(({ digest }) => digest));
-    for (const [digest, shape] of this.shapes) {
-      if (used.has(digest)) continue;
-      this.shapes.delete(digest);
+    const used = new Set(description.objects.map(meshKey));
+    for (const [key, shape] of this.shapes) {
+      if (used.has(key)) continue;
+      this.shapes.delete(key);
       shape.then(disposeShape, () => undefined);
     }
   }

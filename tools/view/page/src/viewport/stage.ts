@@ -4,6 +4,7 @@
 import { ColorManagement, LinearSRGBColorSpace, Scene, Vector4, WebGLRenderer } from 'three';
 import type { PerspectiveCamera } from 'three';
 import type { Part } from './camera_views.js';
+import { FrameFence } from './frame_fence.js';
 import type { Rgb, TubeUniforms } from './tubes.js';
 
 // All colours are given as they are shown; nothing is lit by physics here.
@@ -32,7 +33,9 @@ export class Stage {
   readonly scene = new Scene();
   readonly tubes: TubeUniforms = { viewHeight: { value: 1 }, fade_m: { value: 0 } };
   private readonly renderer: WebGLRenderer;
+  private readonly fence: FrameFence;
   private isDue = false;
+  private isLeft = false;
   private last_ms = 0;
   private size: [number, number] = [1, 1];
 
@@ -43,15 +46,29 @@ export class Stage {
     private readonly drawings: () => Drawing[],
     private readonly onDrawn: (count: DrawCount) => void,
     private readonly onResize: (width: number, height: number) => void,
+    /** Hears that the GPU has finished what was drawn last. */
+    private readonly onFinished: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
+    this.fence = new FrameFence(this.renderer.getContext() as WebGL2RenderingContext);
     this.canvas.addEventListener('webglcontextrestored', () => this.invalidate());
+    // The next page of this tab would wait for frames that nobody sees.
+    window.addEventListener('pagehide', () => (this.isLeft = true));
+    window.addEventListener('pageshow', ({ persisted }) => {
+      this.isLeft = false;
+      if (persisted) this.invalidate();
+    });
     host.prepend(this.canvas);
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
+  }
+
+  /** Whether the last frame is drawn, and no other one is due. */
+  get isDrawn(): boolean {
+    return !this.isDue && this.fence.isPassed;
   }
 
   get pixelRatio(): number {
@@ -75,7 +92,7 @@ export class Stage {
   invalidate(): void {
     if (this.isDue) return;
     this.isDue = true;
-    requestAnimationFrame((now_ms) => this.draw(now_ms));
+    requestAnimationFrame((now_ms) => this.frame(now_ms));
   }
 
   private resize(): void {
@@ -90,8 +107,14 @@ export class Stage {
     this.invalidate();
   }
 
-  private draw(now_ms: number): void {
+  private frame(now_ms: number): void {
     this.isDue = false;
+    if (this.isLeft) return;
+    if (this.fence.isPassed) this.draw(now_ms);
+    else this.invalidate();
+  }
+
+  private draw(now_ms: number): void {
     const elapsed_s = Math.min(Math.max(now_ms - this.last_ms, 0) / 1000, kLongestStep_s);
     const goesOn = this.onFrame(this.last_ms === 0 ? 0 : elapsed_s);
     this.last_ms = now_ms;
@@ -102,9 +125,20 @@ export class Stage {
     this.renderer.clear();
     for (const drawing of this.drawings()) this.drawOne(drawing);
     const { calls, triangles } = this.renderer.info.render;
+    this.fence.set();
     this.onDrawn({ draws: calls, triangles, frame_ms: performance.now() - begin_ms });
+    this.watchEnd();
     if (goesOn) this.invalidate();
     else this.last_ms = now_ms;
+  }
+
+  /** Tells of the end of a frame after which no other one is due. */
+  private watchEnd(): void {
+    requestAnimationFrame(() => {
+      if (this.isDue || this.isLeft) return;
+      if (this.fence.isPassed) this.onFinished();
+      else this.watchEnd();
+    });
   }
 
   private drawOne({ camera, part, before, after }: Drawing): void {

@@ -31,6 +31,8 @@ import type { Theme } from './theme.js';
 
 export interface Sources {
   mesh: MeshSource;
+  /** The name of the part of an object that is within a reach of a point of the world. */
+  part: (point: Vec3, reach_m: number) => Promise<string | undefined>;
   triangles: TriangleSource;
 }
 
@@ -45,6 +47,8 @@ const kWalkFade_m = 0.8;
 /** New objects are put that far off the surface that the view looks at, and that far ahead if there is none. */
 const kOffSurface_m = 0.3;
 const kAhead_m = 3;
+/** What is that near to a click on a surface was clicked. */
+const kPartReach_m = 0.01;
 /** Of a person who stands. */
 const kEyeHeight_m = 1.6;
 
@@ -78,10 +82,12 @@ export class Viewport {
     private readonly actions: Actions,
     private readonly sources: Sources,
     private readonly onDrawn: (report: ViewReport) => void,
+    /** Hears that what the last report is of is on the screen. */
+    onFinished: () => void,
   ) {
     this.host = host;
     const part = (name: string): HTMLElement => host.querySelector<HTMLElement>(`[data-part="${name}"]`) ?? host;
-    this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h));
+    this.stage = new Stage(host, (s) => this.advance(s), () => this.drawings(), (count) => this.report(count), (w, h) => this.resized(w, h), onFinished);
     const invalidate = (): void => this.stage.invalidate();
     this.extent = new Extent(store, () => this.frame, () => this.up);
     this.sceneView = new SceneView(this.look, this.stage.tubes.viewHeight, sources.mesh, invalidate, (message) => store.set({ message }));
@@ -131,6 +137,10 @@ export class Viewport {
     const hit = this.sceneView.pick(ray, 3 * reach_m);
     const place = hit ? hit.point.addScaledVector(hit.normal, kOffSurface_m) : ray.at(reach_m, new Vector3());
     return this.frame.toPose(place, new Quaternion()).position;
+  }
+
+  get isDrawn(): boolean {
+    return this.stage.isDrawn;
   }
 
   get upAxis(): UpAxis {
@@ -290,6 +300,9 @@ export class Viewport {
     await this.sceneView.show(now.scene, this.frame);
     this.updateSection();
     this.select(this.store.now);
+    // An object that was selected before its mesh was there has handles now.
+    this.dirty.content = true;
+    this.stage.invalidate();
   }
 
   /** Shows a request that was opened, once it is known in which scene. */
@@ -390,8 +403,20 @@ export class Viewport {
     this.navigation?.setSize(width, height);
   }
 
+  /** Names the part that was clicked, where the object is a file with names in it. */
+  private async namePart(picked: Picked): Promise<void> {
+    const reach_m = Math.max(kPartReach_m, this.sceneView.count.error_m);
+    const { position } = this.frame.toPose(picked.point, new Quaternion());
+    const part = await this.sources.part(position, reach_m).catch(() => undefined);
+    if (this.picked !== picked || part === picked.name) return;
+    picked.part = part;
+    this.dirty.content = true;
+    this.stage.invalidate();
+  }
+
   private pick(hit: Hit | undefined): void {
-    this.picked = hit;
+    this.picked = hit && { name: hit.name, point: hit.point, part: undefined };
+    if (this.picked) void this.namePart(this.picked);
     this.actions.select(hit && { object: hit.name });
     this.dirty.content = true;
     this.stage.invalidate();

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/recording.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "daemon/process/scene_origins.h"
+#include "daemon/process/settings/daemon_settings.h"
+#include "daemon/version/build_info.h"
+
+namespace camway::process {
+namespace {
+
+record::RecordFacts facts_of(const DaemonOptions& options) {
+  record::RecordFacts facts;
+  facts.version = service::version_text();
+  for (const SettingChange& change : changes_between(default_options(), options)) {
+    facts.settings.emplace(change.key, change.after);
+  }
+  for (const SceneArgument& scene : options.scenes) {
+    facts.settings.emplace("scene." + scene.name, SceneOrigins::arguments_of(scene));
+  }
+  return facts;
+}
+
+std::string metric(std::string_view name, std::string_view type, std::string_view help,
+                   std::uint64_t value) {
+  return fmt::format("# HELP camway_{0} {1}\n# TYPE camway_{0} {2}\ncamway_{0} {3}\n", name, help,
+                     type, value);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<record::Recorder>> open_recorder(
+    const DaemonOptions& options, const std::shared_ptr<service::Log>& log) {
+  if (options.record.folder.empty()) return std::unique_ptr<record::Recorder>();
+  record::RecordOptions record;
+  record.folder = options.record.folder;
+  record.prefix = options.service.prefix;
+  record.limits = options.record.limits;
+  return record::Recorder::open(record, facts_of(options), log);
+}
+
+std::string record_metrics(const record::RecordCounts& counts) {
+  return metric("recorded_total", "counter", "Messages and changes of scenes that were recorded.",
+                counts.recorded) +
+         metric("recorded_bytes_total", "counter", "Bytes that were recorded.", counts.bytes) +
+         metric("not_recorded_total", "counter",
+                "Messages and changes of scenes that were left out of the recording.",
+                counts.dropped) +
+         metric("recording_failing", "gauge", "1 if the recording cannot be written at present.",
+                counts.is_failing ? 1 : 0);
+}
+
+}  // namespace camway::process

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "daemon/base/file_descriptor.h"
+#include "daemon/base/result.h"
+#include "daemon/record/blob_folder.h"
+#include "daemon/scene/log/scene_log.h"
+
+namespace camway::record {
+
+/// The ending of the files of a recording.
+inline constexpr char kLogEnding[] = ".lcmlog";
+/// The folder of blobs beside the files.
+inline constexpr char kBlobFolder[] = "blobs";
+
+/// The size of a recording.
+struct RecordLimits {
+  /// A file that is as large, or as old, is followed by the next.
+  std::size_t file_bytes = std::size_t{256} << 20;
+  std::chrono::milliseconds file_time{3'600'000};
+  /// Limit of all files and blobs. The oldest files, and the blobs that no other needs, are removed
+  /// where it would be exceeded.
+  std::size_t most_bytes = std::size_t{8} << 30;
+};
+
+/// The files of a folder of recordings: the one that is being written, and older ones.
+/// Not thread-safe.
+class LogFiles {
+ public:
+  /// Makes the folder, and locks it. Fails if it cannot be written, or if another process records
+  /// into it.
+  static base::Result<LogFiles> open(const std::filesystem::path& folder, std::string session,
+                                     const RecordLimits& limits);
+
+  /// Whether the present file is too large or too old, or there is none.
+  [[nodiscard]] bool is_over() const;
+  /// Begins the next file.
+  scene::AppendResult begin_next();
+  /// Appends whole events, all of them or none. Requires a present file.
+  scene::AppendResult append(std::span<const std::uint8_t> events);
+  /// Keeps a blob that the present file needs.
+  scene::AppendResult put_blob(const scene::BlobId& id, const scene::Bytes& bytes);
+  [[nodiscard]] bool has_blob(const scene::BlobId& id) const { return blobs_.touch(id); }
+  [[nodiscard]] base::Result<scene::Bytes> blob(const scene::BlobId& id) const {
+    return blobs_.get(id);
+  }
+
+  /// Number of the present file, from 1; 0 before the first one.
+  [[nodiscard]] std::uint64_t part() const { return part_; }
+
+ private:
+  using Steady = std::chrono::steady_clock;
+
+  LogFiles(std::filesystem::path folder, std::string session, const RecordLimits& limits,
+           base::FileDescriptor lock);
+
+  /// Removes old files until there is room. Returns false if there is none.
+  bool make_room(std::uint64_t bytes);
+  bool remove_oldest();
+
+  std::filesystem::path folder_;
+  std::string session_;
+  RecordLimits limits_;
+  base::FileDescriptor lock_;
+  BlobFolder blobs_;
+  std::filesystem::path file_;
+  std::optional<base::FileDescriptor> fd_;  ///< of the present file
+  std::uint64_t part_ = 0;
+  std::uint64_t file_bytes_ = 0;
+  std::uint64_t all_bytes_ = 0;  ///< of all files and blobs
+  Steady::time_point begun_{};
+};
+
+}  // namespace camway::record

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/record/log_files.h"
+#include "daemon/record/recorder.h"
+#include "daemon/record/session_events.h"
+#include "daemon/record/update_log.h"
+#include "daemon/scene/log/durable_scenes.h"
+#include "daemon/service/log/limited_log.h"
+
+namespace camway::record {
+
+/// Writes the events of a recording. Where that fails, tries again after a while, and then writes
+/// what is missing.
+/// Not thread-safe, but for `counts`: for the thread that writes.
+class RecordWriter {
+ public:
+  using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
+
+  RecordWriter(const std::string& prefix, RecordFacts facts, std::string session, LogFiles files,
+               const std::shared_ptr<service::Log>& log);
+
+  void write(const RecordedMessage& message);
+  void write(const ChangedScene& change);
+  /// Takes note of events that were left out after all others, and of the scenes after them.
+  void skip(const Gap& gap, const SceneMap& scenes);
+  /// Writes all events to the disk, as far as that is possible.
+  void flush();
+  /// Does the same, and writes what is missing.
+  void finish();
+
+  /// Thread-safe. Without what was left out for want of time.
+  [[nodiscard]] RecordCounts counts() const;
+
+ private:
+  using Steady = std::chrono::steady_clock;
+
+  /// Makes the files ready for another event: begins the next one, or tries again after a failure.
+  /// Returns false if that is not possible now.
+  bool is_ready();
+  /// Adds what stands at the beginning of a file, and after a gap.
+  bool begin_events();
+  void keep(const ChangedScene& change);
+  void add(const SessionEvent& event);
+  void add(std::int64_t utime, std::string_view channel, std::span<const std::uint8_t> bytes);
+  /// Writes the events that wait. Returns false if that is not possible.
+  bool write_events();
+  /// Counts events that are not recorded since `fail`; the first one is of this time.
+  void lose(std::uint64_t messages, std::uint64_t changes, std::int64_t utime);
+  void note_gap(const Gap& gap);
+  /// Takes note of a failed write, after which nothing is written for a while.
+  void fail(const scene::AppendResult& why);
+
+  const std::string prefix_;
+  const std::string channel_;
+  const RecordFacts facts_;
+  const std::string session_;
+  const std::shared_ptr<service::Log> log_;
+  service::LimitedLog warnings_;
+  LogFiles files_;
+  UpdateLog updates_;
+  scene::DurableScenes recorded_;
+  SceneMap scenes_;     ///< as they are after what was written or lost
+  std::string digest_;  ///< of the scene that is being recorded
+  std::vector<std::uint8_t> events_;
+  std::uint64_t messages_ = 0;  ///< in `events_`
+  std::uint64_t changes_ = 0;   ///< in `events_`
+  std::int64_t first_utime_ = 0;
+  std::int64_t number_ = 0;
+  bool has_begun_ = false;  ///< whether the present file has its first events
+  std::optional<Gap> gap_;  ///< what is missing since the last event
+  Steady::time_point retry_at_{};
+  std::string fault_;  ///< of the last write that failed
+  std::atomic<std::uint64_t> recorded_count_ = 0;
+  std::atomic<std::uint64_t> recorded_bytes_ = 0;
+  std::atomic<std::uint64_t> lost_ = 0;
+  std::atomic<std::uint64_t> file_count_ = 0;
+  std::atomic<bool> is_failing_ = false;
+};
+
+}  // namespace camway::record

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What must not be lost: edits when the connection drops or the page is loaded again, and poses to a stray key.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import test, {after} from 'node:test';
+
+import {browser, open_page as open_window} from './browser.mjs';
+import {open_door, request_file, request_with, scene_file} from './programs.mjs';
+
+const kSmall = {width: 960, height: 600};  // drawn sooner
+const kToWall_m = 2.55;  // as in editing_test.mjs
+
+const door = await open_door('--scene', scene_file('office'), '--request', request_file('office-wall-rooms'));
+after(async () => {
+  await browser.close();
+  assert.equal(await door.end(), 0, door.output);
+});
+
+function open_page(url) {
+  return open_window(url, {window: kSmall});
+}
+
+test('a socket that the door closes is opened again, and what was asked is answered', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  const given = (await page.state()).request.keyframes[0].position[0];
+  await page.tab.keyboard.press('n');
+  // The edit is made before the page has heard of the close, so its plan is lost with the socket.
+  const closed = page.drop_socket();
+  await page.tab.keyboard.press('Alt+PageUp');
+  assert.equal(await closed, 1003);
+  await page.until(() => window.sockets.length === 2 && window.sockets[1].readyState === WebSocket.OPEN);
+  const edited = (await page.state()).request;
+  await page.until(({state}) => state.connection === 'open' && !state.isPending && state.answer?.certificate?.certified);
+  const {request, answer} = await page.state();
+  assert.deepEqual(request, edited);
+  assert.equal(request.keyframes[0].position[0], given);
+  request.keyframes[0].position.forEach((x, i) => assert.ok(Math.abs(answer.keyframes[0].position[i] - x) < 1e-9));
+  await page.tab.keyboard.press('Control+z');
+  await page.until(({state}, edited) => state.request.keyframes[0].position[1] !== edited && state.answer && !state.isPending, edited.keyframes[0].position[1]);
+  await page.close();
+});
+
+test('while there is no connection the bar says so, and edits are kept and planned later', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  // Attempts to connect fail until the test allows them.
+  await page.tab.evaluate(() => {
+    const Real = window.WebSocket;
+    window.allow = () => (window.WebSocket = Real);
+    window.WebSocket = class extends Real {
+      constructor() {
+        super(`ws://${location.host}/v1/nowhere`);
+      }
+    };
+  });
+  await page.drop_socket();
+  await page.tab.locator('#status', {hasText: 'connection lost, trying again'}).waitFor();
+  await page.tab.locator('#message', {hasText: 'The connection to camway is lost'}).waitFor();
+  await page.tab.keyboard.press('n');
+  await page.tab.keyboard.press('Alt+PageUp');
+  const edited = await page.until(({state}) => state.request);
+  await page.tab.evaluate(() => window.allow());
+  await page.until(({state}) => state.connection === 'open' && !state.isPending && state.answer?.status === 'ok');
+  assert.deepEqual((await page.state()).request, edited);
+  assert.equal(await page.tab.locator('#status', {hasText: 'connection lost'}).count(), 0);
+  page.forgive(/nowhere/);
+  await page.close();
+});
+
+test('a near free pose is accepted by Enter, a far one by its own key, and undo brings the old one back', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  const {keyboard, mouse} = page.tab;
+  const [x, y, z] = (await page.state()).request.keyframes[0].position;
+  const [begin, in_wall] = [await page.place_of([x, y, z]), await page.place_of([x, y, z + kToWall_m])];
+  await mouse.move(...begin);
+  await mouse.down();
+  await mouse.move(...in_wall, {steps: 3});
+  await page.until(({state}) => state.answer?.keyframe_faults?.length > 0 && !state.isPending);
+  // The hand still has it.
+  const held = (await page.state()).request;
+  await keyboard.press('Enter');
+  assert.deepEqual((await page.state()).request, held);
+  await mouse.up();
+  const fault = await page.until(({state}) => !state.isPending && !state.isDraft && state.answer?.keyframe_faults?.[0]);
+  const dropped = (await page.state()).request.keyframes[0];
+  const away_m = Math.hypot(...fault.free_pose.position.map((x, i) => x - dropped.position[i]));
+  const label = page.tab.locator('.labels [data-kind="free"]');
+  await label.waitFor();
+  assert.match(await label.innerText(), /^free, [\d.]+ m.* away: Enter$/);
+  assert.ok(away_m < 1, `${away_m} m`);
+  await keyboard.press('Enter');
+  await page.until(({state}, to) => state.request.keyframes[0].position.every((x, i) => x === to[i]), fault.free_pose.position);
+  await keyboard.press('Control+z');
+  await page.until(({state}, to) => state.request.keyframes[0].position.every((x, i) => x === to[i]), dropped.position);
+  await page.close();
+});
+
+test('an option that is refused is marked, and the path is still drawn', async () => {
+  const refused = await open_door('--scene', scene_file('office'));
+  const page = await open_page(refused.url);
+  await page.ready();
+  const [chooser] = await Promise.all([page.tab.waitForEvent('filechooser'), page.tab.keyboard.press('Control+o')]);
+  const request = JSON.parse(fs.readFileSync(request_with('office-wall-rooms', {clearance_m: -1, chord_error_m: 0.01}), 'utf8'));
+  await chooser.setFiles({name: 'wrong.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(request))});
+  await page.until(({state}) => state.unplanned && state.before.length > 0);
+  await page.show_panel('Options');
+  const field = page.tab.locator('[data-key="clearance_m"]');
+  await field.locator('xpath=..').getByText(/^Refused: it is -1; it must be from 0/).waitFor();
+  assert.equal(await field.getAttribute('aria-invalid'), 'true');
+  assert.equal(await page.tab.locator('[data-key="chord_error_m"]').getAttribute('aria-invalid'), null);
+  await field.fill('0.01');
+  await field.press('Enter');
+  await page.until(({state}) => state.answer?.status === 'ok' && !state.isPending);
+  assert.equal(await page.tab.getByText(/^Refused: /).count(), 0);
+  page.forgive(/400/);
+  await page.close();
+  assert.equal(await refused.end(), 0, refused.output);
+});
+
+test('a page with an edit is loaded again, with the request that was planned last', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  await page.tab.keyboard.press('n');
+  await page.tab.keyboard.press('Alt+PageUp');
+  await page.until(({state}) => !state.isPending && state.answer?.status === 'ok');
+  const {keyframes} = (await page.state()).request;
+  const asked = [];
+  page.tab.on('dialog', dialog => {
+    asked.push(dialog.type());
+    dialog.accept();
+  });
+  await page.tab.reload();
+  await page.ready();
+  assert.deepEqual(asked, ['beforeunload'], 'an edit that is not saved is asked for');
+  assert.deepEqual((await page.state()).request.keyframes, keyframes);
+  await page.close();
+});

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/camway/replay/compare/verdict.h"
+#include "tools/camway/replay/session.h"
+
+namespace camway::tools {
+
+/// A request with the two answers that were compared, and the verdict on them.
+struct ComparedRequest : Judgement {
+  const RecordedRequest* recorded = nullptr;  ///< its `answer` is the earlier one
+  std::optional<RecordedAnswer> now;
+  bool scene_changed = false;  ///< whether the answers are of scenes with different triangles
+};
+
+/// Verdicts that make a comparison fail.
+using Failing = std::vector<Verdict>;
+inline const Failing kFailing{Verdict::kWorse, Verdict::kDifferent, Verdict::kRegressed};
+
+std::size_t count(const std::vector<ComparedRequest>& compared, Verdict verdict);
+
+/// Whether a request has one of the verdicts that fail.
+bool has_failed(const std::vector<ComparedRequest>& compared, const Failing& failing);
+
+/// Compares the recorded answers of two logs, in the order of `then`, and after these the requests
+/// that only `now` has. Requests belong together by client and id; of those that remain, by their
+/// content, in order. Takes the answers of `now`. Both sessions must outlive the result.
+std::vector<ComparedRequest> compare(const Session& then, Session& now,
+                                     const Thresholds& thresholds);
+
+/// Returns the pair of answers as `judge` takes it; sets `scene_changed`.
+AnswerPair answers_of(ComparedRequest& compared);
+
+}  // namespace camway::tools

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/compare/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "lcmtypes/wire/channels.h"
+#include "tools/answers/scene_record.h"
+#include "tools/drawing/floor_plan.h"
+
+namespace camway::tools {
+namespace {
+
+constexpr std::size_t kPictureSamples = 1000;
+
+/// Returns the result of an answer; an empty one if there is no result.
+planning::PlanResult drawn_result(const std::optional<RecordedAnswer>& answer) {
+  if (!answer || !answer->result) return {};
+  return result_of(*answer->result);
+}
+
+/// Returns the intervals that a drawing can show. A log may hold any.
+std::vector<collision::CollisionInterval> drawable(
+    std::vector<collision::CollisionInterval> intervals) {
+  std::erase_if(intervals, [](const collision::CollisionInterval& interval) {
+    return !std::isfinite(interval.t_begin_s) || !std::isfinite(interval.t_end_s);
+  });
+  return intervals;
+}
+
+std::vector<motion::Keyframe> drawable(std::vector<motion::Keyframe> keyframes) {
+  std::erase_if(keyframes, [](const motion::Keyframe& keyframe) {
+    return !std::isfinite(keyframe.time_s) || !keyframe.pose.position.allFinite() ||
+           !keyframe.pose.orientation.coeffs().allFinite();
+  });
+  return keyframes;
+}
+
+bool is_drawn(const ComparedRequest& compared) {
+  return compared.verdict != Verdict::kNotCompared && !compared.difference.has_same_bits();
+}
+
+}  // namespace
+
+std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
+                       const ReportHead& head) {
+  const planning::PlanResult then = drawn_result(compared.recorded->answer);
+  const planning::PlanResult now = drawn_result(compared.now);
+  if (then.path.empty() && now.path.empty()) return {};
+  draw::FloorPlan plan;
+  const RecordedRequest& recorded = *compared.recorded;
+  plan.title = wire::printable(
+      fmt::format("{} {}, {}", recorded.ids.client_id, recorded.ids.request_id, recorded.scene));
+  plan.subtitle = wire::printable(divergence_text(compared.difference));
+  if (const auto scene = scene_of(recorded)) plan.mesh = *scene->mesh.share();
+  plan.path_names = {head.then, head.now};
+  if (recorded.request) {
+    plan.up = vertical_axis(std::nullopt, *recorded.request);
+    plan.corners_C = motion::near_corners_C(recorded.request->camera);
+  }
+  if (!then.path.empty()) plan.before = draw::sample(then.path, kPictureSamples);
+  if (!now.path.empty()) plan.after = draw::sample(now.path, kPictureSamples);
+  plan.keyframes = drawable(now.path.empty() ? then.keyframes : now.keyframes);
+  plan.collisions = drawable(then.remaining_collisions);
+  plan.remaining_collisions = drawable(now.remaining_collisions);
+  return draw::floor_plan_svg(plan);
+}
+
+std::vector<RequestPicture> pictures_of(const std::vector<ComparedRequest>& compared,
+                                        const SceneOf& scene_of, const ReportHead& head,
+                                        std::size_t most) {
+  std::vector<std::size_t> order(compared.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t index) { return !is_drawn(compared[index]); });
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t index) {
+    return static_cast<int>(compared[index].verdict);
+  });
+  std::vector<RequestPicture> pictures;
+  std::size_t bytes = 0;
+  for (const std::size_t index : order) {
+    if (pictures.size() == most) break;
+    std::string svg = picture_of(compared[index], scene_of, head);
+    bytes += svg.size();
+    if (bytes > kMostPictureBytes) break;
+    if (!svg.empty()) pictures.push_back({index, std::move(svg)});
+  }
+  return pictures;
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/compare/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+
+#include "daemon/correction/path/closeness.h"
+#include "daemon/service/watches/answer_quality.h"
+
+namespace camway::tools {
+namespace {
+
+using Message = plan_response_t;
+
+/// Returns why an answer cannot be compared; empty if it can. `when`: "recorded" or "now".
+std::string why_useless(const RecordedAnswer* answer, std::string_view when) {
+  if (answer == nullptr) return fmt::format("no answer {}", when);
+  if (!answer->result) return fmt::format("{}: {}", when, answer->status);
+  return {};
+}
+
+bool is_cut_short(const Message& answer) {
+  return answer.status == Message::STATUS_TIMEOUT || answer.deadline_reached != 0;
+}
+
+/// Returns why two answers cannot be compared; empty if they can.
+std::string why_not_compared(const AnswerPair& answers) {
+  if (answers.then == nullptr) return "no answer in the log";
+  std::string reason = why_useless(answers.then, "recorded");
+  if (reason.empty()) reason = why_useless(answers.now, "now");
+  if (!reason.empty()) return reason;
+  const Message& then = *answers.then->result;
+  if (is_cut_short(then)) {
+    return fmt::format(
+        "recorded: {}, cut short by its deadline, which hangs on the machine's speed",
+        answers.then->status);
+  }
+  const bool was_unknown = then.status == Message::STATUS_UNKNOWN_SCENE;
+  if (was_unknown && answers.now->result->status != then.status) return "recorded: unknown_scene";
+  return {};
+}
+
+/// Returns the body and the viewing distance of the request; those of a point and a default for a
+/// request that has none.
+Yardstick yardstick_of(const RecordedRequest& recorded) {
+  const correction::Closeness defaults;
+  Yardstick yardstick{motion::Body(motion::Camera{}), defaults.viewing_distance_m};
+  if (!recorded.request) return yardstick;
+  if (auto body = motion::Body::make(planning::body_shape(*recorded.request))) {
+    yardstick.body = std::move(*body.value);
+  }
+  const double asked_m = recorded.request->options.viewing_distance_m.value_or(0.0);
+  if (asked_m > 0.0) yardstick.viewing_distance_m = asked_m;
+  return yardstick;
+}
+
+/// Returns the rank of a status by its use for the client, the best first.
+int rank_of(std::int32_t status) {
+  constexpr std::array<std::int32_t, 6> kBestFirst{
+      Message::STATUS_OK,      Message::STATUS_INFEASIBLE, Message::STATUS_PARTIAL,
+      Message::STATUS_TIMEOUT, Message::STATUS_INVALID,    Message::STATUS_UNKNOWN_SCENE};
+  return static_cast<int>(std::ranges::find(kBestFirst, status) - kBestFirst.begin());
+}
+
+bool is_refused(std::int32_t status) { return rank_of(status) >= rank_of(Message::STATUS_INVALID); }
+
+double colliding_s(const Message& answer) {
+  double sum_s = 0.0;
+  for (const collision_interval_t& interval : answer.remaining) {
+    sum_s += interval.t_end_s - interval.t_begin_s;
+  }
+  return sum_s;
+}
+
+/// Returns whether `now` has clearly less time in collision.
+bool collides_less(const Message& now, const Message& then) {
+  return colliding_s(now) < (1.0 - service::kBetterShare) * colliding_s(then);
+}
+
+/// A verdict with its reason.
+struct Ruling {
+  Verdict verdict;
+  std::string reason;
+};
+
+/// Judges answers whose status or proof differs; nothing where both are the same.
+std::optional<Ruling> ruling_by_proof(const AnswerPair& answers) {
+  const Message& then = *answers.then->result;
+  const Message& now = *answers.now->result;
+  if (is_cut_short(now)) return Ruling{Verdict::kRegressed, "cut short by its deadline"};
+  if (then.status == now.status) {
+    if (then.certified == now.certified) return std::nullopt;
+    return now.certified != 0 ? Ruling{Verdict::kBetter, "proved free"}
+                              : Ruling{Verdict::kRegressed, "not proved free any more"};
+  }
+  const auto are = [&](std::int32_t one, std::int32_t other) {
+    return (then.status == one && now.status == other) ||
+           (then.status == other && now.status == one);
+  };
+  if (answers.has_same_scene && are(Message::STATUS_OK, Message::STATUS_INFEASIBLE)) {
+    return Ruling{Verdict::kRegressed, "one of the two proofs is wrong"};
+  }
+  const std::string change =
+      fmt::format("status {} -> {}", answers.then->status, answers.now->status);
+  if (rank_of(now.status) > rank_of(then.status)) return Ruling{Verdict::kRegressed, change};
+  // What was refused may be planned rightly or wrongly.
+  return Ruling{is_refused(then.status) ? Verdict::kDifferent : Verdict::kBetter, change};
+}
+
+/// Returns the limits that the answer exceeds now, as a text; empty if there are none.
+std::string exceeded(const Message& then, const Message& now, const Thresholds& limits) {
+  std::vector<std::string> found;
+  const bool are_proved = then.certified != 0 && now.certified != 0;
+  const double loss_m = then.clearance_lower_bound_m - now.clearance_lower_bound_m;
+  if (limits.clearance_loss_m && are_proved && loss_m > *limits.clearance_loss_m) {
+    found.push_back(fmt::format("clearance {:.4g} -> {:.4g} m", then.clearance_lower_bound_m,
+                                now.clearance_lower_bound_m));
+  }
+  if (limits.longer && then.has_measures != 0 && now.has_measures != 0 &&
+      now.measures.length_m > *limits.longer * then.measures.length_m) {
+    found.push_back(
+        fmt::format("length {:.4g} -> {:.4g} m", then.measures.length_m, now.measures.length_m));
+  }
+  if (limits.slower && now.total_ms >= kLeastSlow_ms &&
+      now.total_ms > *limits.slower * then.total_ms) {
+    found.push_back(fmt::format("time {:.4g} -> {:.4g} ms", then.total_ms, now.total_ms));
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
+}
+
+bool is_within(const Difference& difference, const Message& then, const Message& now,
+               const Thresholds& thresholds) {
+  return thresholds.tolerance_m > 0.0 && then.status == now.status &&
+         then.certified == now.certified && then.keyframes.size() == now.keyframes.size() &&
+         difference.path_m <= thresholds.tolerance_m &&
+         difference.shift_rad <= thresholds.tolerance_shift_rad;
+}
+
+/// Judges answers of one status by the measures of their paths.
+Ruling ruling_by_quality(const Message& then, const Message& now, std::int8_t objective) {
+  const auto better = [&](const Message& one, const Message& other) {
+    if (one.certified == 0) return collides_less(one, other);
+    const bool are_measured = one.has_measures != 0 && other.has_measures != 0;
+    return are_measured && service::is_better(service::AnswerQuality::of(one),
+                                              service::AnswerQuality::of(other), objective);
+  };
+  if (better(now, then)) return {Verdict::kBetter, {}};
+  return {better(then, now) ? Verdict::kWorse : Verdict::kDifferent, {}};
+}
+
+Ruling ruling_of(const RecordedRequest& recorded, const AnswerPair& answers,
+                 const Difference& difference, const Thresholds& thresholds) {
+  const Message& then = *answers.then->result;
+  const Message& now = *answers.now->result;
+  if (!difference.has_same_bits()) {
+    if (auto ruling = ruling_by_proof(answers)) return *ruling;
+  }
+  if (std::string limit = exceeded(then, now, thresholds); !limit.empty()) {
+    return {Verdict::kRegressed, limit};
+  }
+  if (difference.has_same_bits()) return {Verdict::kSame, {}};
+  if (is_within(difference, then, now, thresholds)) {
+    return {Verdict::kSame, "within the tolerances"};
+  }
+  const auto objective = recorded.request
+                             ? static_cast<std::int8_t>(recorded.request->options.objective)
+                             : plan_request_t::CLOSEST;
+  return ruling_by_quality(then, now, objective);
+}
+
+}  // namespace
+
+Judgement judge(const RecordedRequest& recorded, const AnswerPair& answers,
+                const Thresholds& thresholds) {
+  Judgement judgement;
+  judgement.note = why_not_compared(answers);
+  if (!judgement.note.empty()) return judgement;
+  judgement.difference =
+      difference_of(*answers.then->result, *answers.now->result, yardstick_of(recorded));
+  Ruling ruling = ruling_of(recorded, answers, judgement.difference, thresholds);
+  judgement.verdict = ruling.verdict;
+  judgement.note = std::move(ruling.reason);
+  return judgement;
+}
+
+}  // namespace camway::tools

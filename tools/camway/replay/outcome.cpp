@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/outcome.h"
+
+#include <fmt/format.h>
+
+#include "tools/support/output_file.h"
+
+namespace camway::tools {
+
+std::string why_unwritable(const ReportFiles& files) {
+  for (const std::string& file : {files.json, files.html}) {
+    if (file.empty()) continue;
+    if (std::string fault = why_unwritable(std::filesystem::path(file)); !fault.empty()) {
+      return fault;
+    }
+  }
+  return {};
+}
+
+std::string write_reports(const ReportHead& head, const std::vector<ComparedRequest>& compared,
+                          const SceneOf& scene_of, const ReportFiles& files) {
+  fmt::print("{}", text_report(head, compared));
+  std::string fault;
+  if (!files.json.empty()) fault = write_file(files.json, json_report(head, compared));
+  if (!fault.empty() || files.html.empty()) return fault;
+  const auto pictures = pictures_of(compared, scene_of, head, files.pictures);
+  return write_file(files.html, html_report(head, compared, pictures));
+}
+
+ExitCode code_of(const std::vector<ComparedRequest>& compared, const Failing& failing,
+                 bool is_damaged) {
+  if (has_failed(compared, failing)) return ExitCode::kNegative;
+  const bool has_any = count(compared, Verdict::kNotCompared) < compared.size();
+  return is_damaged || !has_any ? ExitCode::kInvalidInput : ExitCode::kSuccess;
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "lcmtypes/wire/channels.h"
+#include "tools/camway/replay/replay_flags.h"
+
+namespace camway::tools {
+namespace {
+
+/// Returns why a session has no requests.
+std::string why_empty(const Session& session, const std::string& log, const ReplayFlags& flags) {
+  const std::string& prefix = flags.publishing.prefix;
+  if (session.other_version > 0) {
+    return fmt::format(
+        "{}: its {} messages on {}_* are of another version of the wire types: replay it with the "
+        "camway of the version that recorded it",
+        log, session.other_version, prefix);
+  }
+  if (session.distrusted > 0) {
+    return fmt::format("{}: its {} messages on {}_* are not signed with a key of {}", log,
+                       session.distrusted, prefix, flags.key_file);
+  }
+  return fmt::format("{}: holds no planning requests on {}", log,
+                     wire::Channels{prefix}.plan_request());
+}
+
+}  // namespace
+
+ExitCode invalid_replay(std::string_view message) {
+  print_error(message);
+  return ExitCode::kInvalidInput;
+}
+
+std::optional<OpenedSession> open_session(const std::string& log, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys) {
+  base::Result<SessionFiles> files = SessionFiles::open(log);
+  if (!files) {
+    print_error(files.error);
+    return std::nullopt;
+  }
+  Session session = read_session(files->logs(), flags.publishing.prefix, keys);
+  if (!session.log.damage.empty()) print_error(session.log.damage);
+  if (session.requests.empty()) {
+    print_error(why_empty(session, log, flags));
+    return std::nullopt;
+  }
+  const std::size_t read = session.requests.size();
+  session.unwanted = select(flags.selection, session);
+  if (session.requests.empty()) {
+    print_error(fmt::format("{}: none of its {} requests is selected", log, read));
+    return std::nullopt;
+  }
+  return OpenedSession{*std::move(files.value), std::move(session)};
+}
+
+std::vector<std::string> notes_about(const Session& session, const std::string& whose) {
+  std::vector<std::string> notes = notes_of(session, whose);
+  if (session.unwanted > 0) {
+    notes.push_back(fmt::format("{}{} requests are not selected", whose, session.unwanted));
+  }
+  return notes;
+}
+
+std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys) {
+  auto scenes = open_scene_sources(flags.sources, opened.session, opened.files,
+                                   flags.publishing.prefix, keys);
+  if (scenes) return *std::move(scenes);
+  print_error(scenes.error);
+  return nullptr;
+}
+
+std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
+                                                 const ReplayFlags& flags,
+                                                 const wire::MessageKeys* keys) {
+  std::unique_ptr<ReplayScenes> scenes = open_scenes(opened, flags, keys);
+  if (!scenes) return nullptr;
+  const std::vector<std::string> missing = missing_scenes(opened.session, *scenes);
+  for (const std::string& name : missing) {
+    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE, or --root DIR",
+                            flags.log, wire::printable(name), wire::printable(name)));
+  }
+  return missing.empty() ? std::move(scenes) : nullptr;
+}
+
+SceneOf scene_of(ReplayScenes& scenes) {
+  return [&scenes](const RecordedRequest& request) { return scenes.snapshot_of(request).snapshot; };
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/base/result.h"
+
+namespace camway::tools {
+
+/// The logs of a session that somebody named: a log, a folder of recordings, or a packed session.
+class SessionFiles {
+ public:
+  /// Fails if there are none, with the reason. Unpacks a packed session into a temporary folder,
+  /// which goes with the last copy.
+  static base::Result<SessionFiles> open(const std::filesystem::path& session);
+  /// Opens several sessions as one.
+  static base::Result<SessionFiles> open(const std::vector<std::string>& sessions);
+
+  /// The logs in the order in which they were begun.
+  [[nodiscard]] const std::vector<std::filesystem::path>& logs() const { return logs_; }
+
+ private:
+  class Unpacked;
+
+  std::vector<std::filesystem::path> logs_;
+  std::vector<std::shared_ptr<const Unpacked>> unpacked_;  ///< temporary folders of `logs_`
+};
+
+}  // namespace camway::tools
