@@ -2,7 +2,6 @@
 #include "daemon/scene/snapshot/scene_change.h"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "daemon/base/parallel_chunks.h"

