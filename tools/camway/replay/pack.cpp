@@ -17,9 +17,9 @@
 #include "daemon/scene/log/source_record.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
-#include "tools/camway/replay/scene_sources.h"
+#include "tools/camway/replay/scenes/scene_sources.h"
+#include "tools/camway/replay/scenes/session_scenes.h"
 #include "tools/camway/replay/session.h"
-#include "tools/camway/replay/session_scenes.h"
 #include "tools/camway/session/session_pack.h"
 
 namespace camway::tools {

@@ -13,7 +13,7 @@
 #include "tools/camway/replay/outcome.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
-#include "tools/camway/replay/scene_sources.h"
+#include "tools/camway/replay/scenes/scene_sources.h"
 #include "tools/camway/replay/selection.h"
 #include "tools/camway/session/session_files.h"
 

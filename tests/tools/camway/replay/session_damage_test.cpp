@@ -12,7 +12,7 @@
 #include "tests/support/random.h"
 #include "tests/tools/camway/replay/recorded_wall.h"
 #include "tools/camway/replay/replay_run.h"
-#include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/replay/scenes/session_scenes.h"
 
 namespace camway::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/camway/replay/replay_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
 
 namespace camway::tools {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lcmtypes/wire/auth/message_keys.h"
-#include "tools/camway/replay/replay_scenes.h"
-#include "tools/camway/replay/root_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
+#include "tools/camway/replay/scenes/root_scenes.h"
 
 namespace camway::tools {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/root_scenes.h"
+#include "tools/camway/replay/scenes/root_scenes.h"
 
 #include <fmt/format.h>
 

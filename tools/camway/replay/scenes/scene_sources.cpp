@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/scene_sources.h"
+#include "tools/camway/replay/scenes/scene_sources.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
-#include "tools/camway/replay/root_scenes.h"
-#include "tools/camway/replay/scene_playback.h"
-#include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/replay/scenes/root_scenes.h"
+#include "tools/camway/replay/scenes/scene_playback.h"
+#include "tools/camway/replay/scenes/session_scenes.h"
 
 namespace camway::tools {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/scene_playback.h"
+#include "tools/camway/replay/scenes/scene_playback.h"
 
 #include <fmt/format.h>
 
@@ -14,10 +14,10 @@
 #include <camway/scene_response_t.hpp>
 #include <camway/upload_page_t.hpp>
 
+#include "daemon/record/event_log.h"
 #include "daemon/service/scenes/scene_operation.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
-#include "tools/camway/replay/event_log.h"
 #include "tools/camway/replay/signed_event.h"
 
 namespace camway::tools {
@@ -65,7 +65,7 @@ class Playback {
            channel.starts_with(channels_.scene_response(""));
   }
 
-  void add(LogEvent event) {
+  void add(record::LogEvent event) {
     if (open_event(keys_, event)) return;
     if (event.channel == channels_.upload()) {
       const auto page = wire::decode<upload_page_t>(event.data);
@@ -148,7 +148,7 @@ PlayedBack play_back_changes(const Session& session, const std::vector<fs::path>
     // What is damaged was said when the session was read.
     record::read_event_log(
         log, [&](std::string_view channel) { return playback.wants(channel); },
-        [&](LogEvent&& event) { playback.add(std::move(event)); });
+        [&](record::LogEvent&& event) { playback.add(std::move(event)); });
   }
   return playback.finish();
 }

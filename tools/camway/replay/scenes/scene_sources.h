@@ -9,7 +9,7 @@
 
 #include "daemon/base/result.h"
 #include "lcmtypes/wire/auth/message_keys.h"
-#include "tools/camway/replay/replay_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
 #include "tools/camway/session/session_files.h"
 
 namespace camway::tools {
