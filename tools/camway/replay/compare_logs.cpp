@@ -22,7 +22,7 @@ ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   std::ranges::move(notes_about(now->session, flags.against + ": "),
                     std::back_inserter(head.notes));
   head.thresholds = flags.run.thresholds;
-  const bool is_damaged = !then->session.log.damage.empty() || !now->session.log.damage.empty();
+  const bool is_damaged = then->session.is_damaged() || now->session.is_damaged();
   const auto compared = compare(then->session, now->session, flags.run.thresholds);
   const std::string fault = write_reports(head, compared, scene_of(*scenes), flags.reports);
   const ExitCode code = code_of(compared, flags.failing, is_damaged);

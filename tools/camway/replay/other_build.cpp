@@ -178,7 +178,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   head.notes = notes_about(session);
   head.thresholds = flags.run.thresholds;
   fault = write_reports(head, compared, scene_of(*scenes), flags.reports);
-  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, session.is_damaged());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

@@ -60,7 +60,7 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   head.thresholds = flags.run.thresholds;
   const std::string unwritten = write_reports(head, compared, scene_of(*scenes), flags.reports);
   if (fault.empty()) fault = unwritten;
-  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, session.is_damaged());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

@@ -72,6 +72,8 @@ struct Session {
 
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
   std::uint64_t scene_requests = 0;
+
+  [[nodiscard]] bool is_damaged() const { return !log.damage.empty() || damaged_events > 0; }
 };
 
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a

@@ -86,7 +86,7 @@ ExitCode replay_by_steps(const ReplayFlags& flags, const wire::MessageKeys* keys
                         return write_file(file, svg);
                       }};
   const auto seen = step_through(session, *scenes, flags.run, desk);
-  return code_of(seen, flags.failing, !session.log.damage.empty());
+  return code_of(seen, flags.failing, session.is_damaged());
 }
 
 }  // namespace camway::tools
