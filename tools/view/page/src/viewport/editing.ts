@@ -65,8 +65,8 @@ export class Editing {
   }
 
   private target(): HandleTarget | undefined {
-    const { store, extent, sceneView } = this.context;
-    const { selection, request, isReadOnly } = store.now;
+    const { store, extent } = this.context;
+    const { selection, request, isReadOnly, scene } = store.now;
     const frame = this.context.frame();
     if (!selection || !this.canEdit) return undefined;
     if ('keyframe' in selection) {
@@ -75,7 +75,7 @@ export class Editing {
       const position = frame.toLocal(keyframe.position);
       return { key: `keyframe ${selection.keyframe}`, position, orientation: toQuaternion(keyframe.orientation) };
     }
-    const facts = sceneView.factsOf(selection.object);
+    const facts = scene?.objects.find(({ name }) => name === selection.object);
     if (!facts || isReadOnly) return undefined;
     const share = extent.boxOf(facts.bounds).getSize(new Vector3()).length() / (2 * extent.sceneSphere.radius);
     if (share > kLargestMovable) return undefined;

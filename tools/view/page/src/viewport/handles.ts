@@ -58,6 +58,15 @@ export class Handles {
     return this.target ? this.controls.axis : null;
   }
 
+  /** The handle that the mouse has at a place of the view, which is in clip coordinates. */
+  axisAt(x: number, y: number): string | null {
+    const had = this.controls.axis;
+    this.controls.pointerHover({ x, y } as PointerEvent); // it reads nothing else
+    const met = this.axis;
+    this.controls.axis = had;
+    return met;
+  }
+
   get isDragging(): boolean {
     return this.controls.dragging;
   }

@@ -239,7 +239,7 @@ export class Viewport {
       const keyframe = request?.keyframes[selection.keyframe];
       if (keyframe) this.navigation.fit(this.extent.around(keyframe.position), undefined, true);
     } else if (selection) {
-      const bounds = this.sceneView.factsOf(selection.object)?.bounds;
+      const bounds = this.store.now.scene?.objects.find(({ name }) => name === selection.object)?.bounds;
       if (bounds) this.navigation.fit(this.extent.boxOf(bounds).getBoundingSphere(new Sphere()), undefined, true);
     } else {
       this.home();
@@ -268,6 +268,12 @@ export class Viewport {
     return [box.left + (place.x * 0.5 + 0.5) * box.width, box.top + (0.5 - place.y * 0.5) * box.height];
   }
 
+  /** The handle that the mouse has at a place of the page, in CSS pixels of the window; null if there is none. */
+  handleAt([x, y]: [number, number]): string | null {
+    const box = this.stage.canvas.getBoundingClientRect();
+    return this.editing.handles.axisAt((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
+  }
+
   // The state of the store.
 
   private follow(now: State, before: State): void {
@@ -277,6 +283,7 @@ export class Viewport {
       now.selection !== before.selection || now.scene !== before.scene;
     const isCursor = isContent || now.cursor_s !== before.cursor_s;
     if (now.selection !== before.selection) this.select(now);
+    if (now.scene !== before.scene) this.unpickMoved(now, before);
     this.dirty.content ||= isContent;
     this.dirty.cursor ||= isCursor;
     if (now.answer !== before.answer || now.isDraft !== before.isDraft) this.showFindings(now);
@@ -299,10 +306,6 @@ export class Viewport {
     this.navigation.setReach(this.extent.sceneSphere.radius);
     await this.sceneView.show(now.scene, this.frame);
     this.updateSection();
-    this.select(this.store.now);
-    // An object that was selected before its mesh was there has handles now.
-    this.dirty.content = true;
-    this.stage.invalidate();
   }
 
   /** Shows a request that was opened, once it is known in which scene. */
@@ -345,6 +348,12 @@ export class Viewport {
     const name = selection && 'object' in selection ? selection.object : undefined;
     if (this.picked && this.picked.name !== name) this.picked = undefined;
     this.sceneView.highlight(name, this.theme.object);
+  }
+
+  /** The place that was clicked is no more on an object that has moved. */
+  private unpickMoved(now: State, before: State): void {
+    const digestIn = ({ scene }: State): string | undefined => scene?.objects.find(({ name }) => name === this.picked?.name)?.digest;
+    if (digestIn(now) !== digestIn(before)) this.picked = undefined;
   }
 
   // Frames.
