@@ -73,6 +73,14 @@ test('a keyframe that is dragged into a wall is red, and elsewhere the path is c
   await page.tab.keyboard.press('Control+z');
   await page.until(({state}, z) => state.request.keyframes[0].position[2] === z, z);
   await page.shows('ok');
+  // A keyframe that is selected is dragged level, too: the middle of its handles leaves it to that.
+  await mouse.move(...begin);
+  await mouse.down();
+  await mouse.move(...beyond, {steps: kSteps});
+  await mouse.up();
+  await page.until(({state}, to) => Math.abs(state.request.keyframes[0].position[2] - to) < 0.05, z + kBeyondWall_m);
+  assert.ok(Math.abs((await page.state()).request.keyframes[0].position[1] - y) < 1e-9);
+  await page.shows('ok');
   await page.close();
 });
 
@@ -117,6 +125,12 @@ test('keyframes of a shot are made with the keyboard alone', async () => {
   await page.until(({state}) => state.request.keyframes.length === 1 && !state.answer);
   await keyboard.press('Control+y');
   await page.shows('ok');
+  // V leads into the building, and not onto its roof.
+  await keyboard.press('v');
+  await page.drawn();
+  await keyboard.press('k');
+  const [, , inside] = await page.until(({state}) => state.request.keyframes.length === 3 && state.request.keyframes);
+  inside.position.forEach((x, i) => assert.ok(bounds.min[i] < x && x < bounds.max[i], `${inside.position}`));
   // Panels are reached with Tab and arrows.
   const is_on_tab = () => page.tab.evaluate(() => document.activeElement?.getAttribute('role') === 'tab');
   for (let presses = 0; !(await is_on_tab()); ++presses) {

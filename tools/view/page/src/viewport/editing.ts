@@ -104,7 +104,7 @@ export class Editing {
       camera: navigation.camera,
       up: () => upVector(this.context.up()),
       canDrag: () => this.canEdit,
-      isTaken: () => this.handles.isHot || this.context.isCovered(),
+      isTaken: () => this.context.isCovered() || (this.handles.isHot && !this.isOnKeyframe()),
       keyframePlaces: () => this.context.places(),
       pick: (ray) => sceneView.pick(ray),
       onSelectKeyframe: (keyframe) => actions.select({ keyframe }),
@@ -115,8 +115,17 @@ export class Editing {
         if (this.dragged) actions.setKeyframe(index, this.dragged, 'full');
         this.dragged = undefined;
       },
-      setNavigation: (isEnabled) => (navigation.controls.enabled = isEnabled),
+      setNavigation: (isEnabled) => {
+        navigation.controls.enabled = isEnabled;
+        this.handles.isEnabled = isEnabled;
+      },
     });
+  }
+
+  /** Whether the mouse is where the handles of a keyframe leave it to a drag as that of any keyframe, which is level. */
+  private isOnKeyframe(): boolean {
+    const { selection } = this.context.store.now;
+    return this.handles.isMiddleHot && selection !== undefined && 'keyframe' in selection;
   }
 
   private dragKeyframe(index: number, place: Vector3, surface: Hit | undefined): void {

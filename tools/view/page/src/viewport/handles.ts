@@ -67,6 +67,16 @@ export class Handles {
     return met;
   }
 
+  /** Whether the mouse is over the middle, which moves in all directions at a time. */
+  get isMiddleHot(): boolean {
+    return this.axis === 'XYZ';
+  }
+
+  /** While they are disabled, the mouse has no handle. */
+  set isEnabled(isEnabled: boolean) {
+    this.controls.enabled = isEnabled;
+  }
+
   get isDragging(): boolean {
     return this.controls.dragging;
   }
