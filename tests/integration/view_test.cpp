@@ -156,6 +156,11 @@ TEST_F(ViewDaemonTest, MovedObjectsHaveTheMeshThatTheyHad) {
     EXPECT_TRUE(mesh(before) == file) << "who has an older list may still ask";
     before = moved;
   }
+  std::string twin = kTurnedBall;
+  twin.replace(twin.find("ball"), 4, "twin");
+  ASSERT_EQ(client.post(objects, twin).code, 200);
+  const json office = client.get("/v1/scenes/office").json();
+  for (const json& object : office.at("objects")) EXPECT_TRUE(object.contains("mesh_digest"));
   std::string other = kTurnedBall;
   other.replace(other.find("0.4"), 3, "0.3");
   ASSERT_EQ(client.post(objects, other).code, 200);

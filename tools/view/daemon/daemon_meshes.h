@@ -65,7 +65,7 @@ class DaemonMeshes {
     std::string digest_before;  ///< before the last move, which may still be asked for
     Fetched object;
     [[nodiscard]] bool has(const std::string& asked) const {
-      return digest == asked || digest_before == asked;
+      return !asked.empty() && (digest == asked || digest_before == asked);
     }
   };
   /// An object as it was described last.
