@@ -21,8 +21,10 @@ ROOT = Path(__file__).resolve().parents[2]
 POLICY = "docs/versions.md"
 UPDATE = "cmake --build build/dev --target abi_update"
 LISTS = {
-    "client/abi/symbols.txt": "Functions that the shared libraries export: of C with their types, of C++ with their names.",
-    "client/abi/layouts.txt": "Of C: sizes of structs, offsets and sizes of members, constants, handlers. Of C++: sizes of structs.",
+    "client/abi/symbols.txt":
+        "Functions that the shared libraries export: of C with their types, of C++ with their names.",
+    "client/abi/layouts.txt":
+        "Of C: sizes of structs, offsets and sizes of members, constants, handlers. Of C++: sizes of structs.",
     "lcmtypes/fingerprints.txt": "Fingerprints of the messages: programs with others do not understand each other.",
 }
 _NOTE = "# Compared with the build by the test client.abi; client/abi/abi.py writes it.\n"
@@ -54,7 +56,8 @@ class List:
 
     def write(self):
         released = "released: " + (f"{self.released[0]} abi {self.released[1]}" if self.released else "none")
-        lines = [("+ " if key in self.new else "") + f"{key} {value}".rstrip() for key, value in sorted(self.lines.items())]
+        lines = [("+ " if key in self.new else "") + f"{key} {value}".rstrip()
+                 for key, value in sorted(self.lines.items())]
         (ROOT / self.file).write_text(f"# {LISTS[self.file]}\n{_NOTE}{released}\n\n" + "\n".join(lines) + "\n")
 
 
@@ -74,8 +77,8 @@ def facts_program():
     lines += ["int main() {"]
     for name, members in declared.structs.items():
         lines.append(f'  std::printf("c {name} size %zu\\n", sizeof({name}));')
-        lines += [f'  std::printf("c {name}.{member} at %zu, size %zu\\n", offsetof({name}, {member}), sizeof({name}::{member}));'
-                  for member in members]
+        lines += [f'  std::printf("c {name}.{member} at %zu, size %zu\\n", '
+                  f'offsetof({name}, {member}), sizeof({name}::{member}));' for member in members]
     lines += [f'  std::printf("c {name} is %d\\n", static_cast<int>({name}));' for name in declared.constants]
     lines += [f'  std::printf("c++ camway::{name} size %zu\\n", sizeof(camway::{name}));' for name in classes]
     lines += [f'  std::printf("wire {name} %016" PRIx64 "\\n", static_cast<std::uint64_t>(camway::{name}::getHash()));'
@@ -85,11 +88,13 @@ def facts_program():
 
 def exported(library):
     """The functions that a library exports: names as in C++, and the library's name with its version."""
-    output = subprocess.run(["nm", "-DC", "--defined-only", library], check=True, capture_output=True, text=True).stdout
-    soname = re.search(r"SONAME.*\[(.*)\]", subprocess.run(["readelf", "-d", library], check=True, capture_output=True,
-                                                           text=True).stdout)[1]
+    soname = re.search(r"SONAME.*\[(.*)\]", output_of("readelf", "-d", library))[1]
     # Weak symbols are inline functions, which every program has itself.
-    return soname, sorted(set(re.findall(r" [TDB] (.*?)@@(\S+)", output)))
+    return soname, sorted(set(re.findall(r" [TDB] (.*?)@@(\S+)", output_of("nm", "-DC", "--defined-only", library))))
+
+
+def output_of(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 def built(arguments):
@@ -98,7 +103,7 @@ def built(arguments):
     found = {file: {} for file in LISTS}
     soname, symbols = exported(arguments.c_library)
     for name in declared.functions.keys() ^ {symbol for symbol, _ in symbols}:
-        sys.exit(f"{name}: a function of the C interface is declared in its headers and exported by {soname}, or neither")
+        sys.exit(f"{name}: is declared in the headers of the C interface, or exported by {soname}, but not both")
     for name, version in symbols:
         found["client/abi/symbols.txt"][f"c {name}"] = f"{soname} {version} {declared.functions[name]}"
     for name, types in declared.handlers.items():
@@ -107,7 +112,7 @@ def built(arguments):
     for name, version in symbols:
         # A key is a word: names have blanks in their types.
         found["client/abi/symbols.txt"][f"c++ {name.replace(' ', '')}"] = f"{soname} {version}"
-    for line in subprocess.run([arguments.facts], check=True, capture_output=True, text=True).stdout.splitlines():
+    for line in output_of(arguments.facts).splitlines():
         key, value = entry(line)
         struct, _, member = key.removeprefix("c ").partition(".")
         if member in declared.structs.get(struct, {}):

@@ -12,7 +12,8 @@ _FUNCTION = re.compile(r"([\w ]+?[ *]+)(camway_\w+)\(([^;{}]*)\);")
 
 
 class Declared:
-    """`structs`: members of each struct with their types, by name. `constants`: names. `functions`, `handlers`: types, by name."""
+    """`structs`: members of each struct with their types, by name. `constants`: names. `functions`, `handlers`:
+    types, by name."""
 
     def __init__(self, folder=HEADERS):
         self.structs, self.constants, self.functions, self.handlers = {}, [], {}, {}
@@ -32,8 +33,8 @@ class Declared:
 
 def _members_of(line):
     """Names and types of the members that a line declares, such as "double a[3], b" or a handler."""
-    line = " ".join(line.split())
-    pointer = re.match(r"(\w+) \(\*(\w+)\)\((.*)\)$", line)
+    line = _plain(line)
+    pointer = re.match(r"(\w+) \( ?\*(\w+)\)\((.*)\)$", line)
     if pointer:
         return [(pointer[2], _signature(pointer[1], pointer[3]))]
     base = re.match(r"((?:const )?\w+) ", line)
@@ -43,11 +44,16 @@ def _members_of(line):
 
 def _signature(result, parameters):
     """The types of a function, without the names of its parameters."""
-    return f"{' '.join(result.split())}({', '.join(map(_type_of, parameters.split(',')))})"
+    return f"{_plain(result)}({', '.join(map(_type_of, parameters.split(',')))})"
+
+
+def _plain(text):
+    """A declaration with single blanks, its stars at the names."""
+    return " ".join(re.sub(r" *(\*+) *", r" \1", text).split())
 
 
 def _type_of(parameter):
-    parameter = " ".join(parameter.split())
+    parameter = _plain(parameter)
     if parameter == "void":
         return parameter
     return re.sub(r"(.*[ *])\w+((?:\[\d+\])?)$", r"\1\2", parameter).rstrip()
@@ -56,5 +62,6 @@ def _type_of(parameter):
 def cxx_types(folder=HEADERS.parent):
     """Headers of the C++ client, and the structs and classes that they define."""
     headers = sorted(folder.glob("*.h"))
+    defined = re.compile(r"^(?:struct|class) (\w+) \{", re.MULTILINE)
     return ([header.name for header in headers],
-            [name for header in headers for name in re.findall(r"^(?:struct|class) (\w+) \{", header.read_text(), re.M)])
+            [name for header in headers for name in defined.findall(header.read_text())])

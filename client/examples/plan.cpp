@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plans several paths at a time through a scene of a daemon, in C++17, and prints what came of them.
+// Plans several paths at a time through a scene of a daemon, in C++17, and prints what came of
+// them.
 #include <camway/client.h>
 
 #include <iostream>

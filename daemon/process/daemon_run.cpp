@@ -228,7 +228,8 @@ class ServingDaemon {
   }
 
   std::optional<int> open_page_of_metrics() {
-    base::Result<std::unique_ptr<http::Server>> page = open_metrics(options_, latest_, recorder_, log_);
+    base::Result<std::unique_ptr<http::Server>> page =
+        open_metrics(options_, latest_, recorder_, log_);
     if (!page) {
       log_->error("there can be no page of metrics", {{"reason", page.error}});
       return kExitMetrics;
@@ -293,8 +294,8 @@ class ServingDaemon {
   const std::shared_ptr<service::Log>& log_;
   std::unique_ptr<service::Transport> network_;
   std::optional<record::RecordingTransport> recording_;  ///< over the network, with a recorder
-  std::shared_ptr<wire::MessageAuth> auth_;        ///< null without keys
-  std::optional<service::AuthTransport> signing_;  ///< over the network, with keys
+  std::shared_ptr<wire::MessageAuth> auth_;              ///< null without keys
+  std::optional<service::AuthTransport> signing_;        ///< over the network, with keys
   LatestStatus latest_;
   std::unique_ptr<http::Server> metrics_;  ///< null if the options ask for none
   const ServiceManager manager_;

@@ -49,8 +49,8 @@ class FleetMember {
   const FleetRole role_;
   const std::shared_ptr<service::Log> service_log_;
   const std::unique_ptr<nats::Connection> connection_;
-  /// The log alone uses it: a connection that asks a locked stream (`nats::StallWatch`) gets no other
-  /// answer either, and jobs go on meanwhile.
+  /// The log alone uses it: a connection that asks a locked stream (`nats::StallWatch`) gets no
+  /// other answer either, and jobs go on meanwhile.
   const std::unique_ptr<nats::Connection> log_connection_;
   scene::SharedLog* const shared_log_;  ///< owned by `state_`
   const std::unique_ptr<KeptState> state_;

@@ -137,10 +137,9 @@ int run_service(const process::DaemonOptions& options, const process::Reloader::
     return state_fault(options, fault, *log);
   }
   if (*recorder) record_scenes(scenes, **recorder);
-  const auto follower = keeper.fleet
-                            ? keeper.fleet->follow(scenes, options.service.log_limits, {},
-                                                   recording_of_others(recorder->get()))
-                            : nullptr;
+  const auto follower = keeper.fleet ? keeper.fleet->follow(scenes, options.service.log_limits, {},
+                                                            recording_of_others(recorder->get()))
+                                     : nullptr;
   process::ConfiguredScenes configured(scenes, log, open_cache(options, *log),
                                        state != nullptr ? &state->log() : nullptr,
                                        keeper.fleet ? process::member_id(options) : "");

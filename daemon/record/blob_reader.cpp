@@ -17,9 +17,8 @@ BlobReader::BlobReader(const std::vector<fs::path>& folders) {
 
 bool BlobReader::has_blob(const scene::BlobId& id) {
   std::error_code error;
-  return std::ranges::any_of(folders_, [&](const BlobFolder& folder) {
-    return fs::exists(folder.file_of(id), error);
-  });
+  return std::ranges::any_of(
+      folders_, [&](const BlobFolder& folder) { return fs::exists(folder.file_of(id), error); });
 }
 
 base::Result<scene::Bytes> BlobReader::blob(const scene::BlobId& id) {

@@ -166,16 +166,16 @@ LogSummary read_event_log(const std::filesystem::path& file, const WantsChannel&
   }
   summary.bytes_used = reader.good();
   if (!reader.damage().empty()) {
-    summary.damage =
-        fmt::format("{}: at byte {} of {}: {}; {} good {} before it", file.string(),
-                    summary.bytes_used, summary.bytes, reader.damage(), summary.events,
-                    summary.events == 1 ? "event" : "events");
+    summary.damage = fmt::format("{}: at byte {} of {}: {}; {} good {} before it", file.string(),
+                                 summary.bytes_used, summary.bytes, reader.damage(), summary.events,
+                                 summary.events == 1 ? "event" : "events");
   }
   return summary;
 }
 
 LogSummary read_event_log(const std::filesystem::path& file, const VisitEvent& visit) {
-  return read_event_log(file, [](std::string_view) { return true; }, visit);
+  return read_event_log(
+      file, [](std::string_view) { return true; }, visit);
 }
 
 void append_event(std::int64_t number, std::int64_t utime, std::string_view channel,

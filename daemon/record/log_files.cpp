@@ -92,8 +92,7 @@ base::Result<LogFiles> LogFiles::open(const fs::path& folder, std::string sessio
 }
 
 bool LogFiles::is_over() const {
-  return !fd_ || file_bytes_ >= limits_.file_bytes ||
-         Steady::now() - begun_ >= limits_.file_time;
+  return !fd_ || file_bytes_ >= limits_.file_bytes || Steady::now() - begun_ >= limits_.file_time;
 }
 
 AppendResult LogFiles::begin_next() {
@@ -144,7 +143,8 @@ bool LogFiles::make_room(std::uint64_t bytes) {
 
 bool LogFiles::remove_oldest() {
   const std::vector<fs::path> files = files_in(folder_);
-  const auto oldest = std::ranges::find_if(files, [&](const fs::path& file) { return file != file_; });
+  const auto oldest =
+      std::ranges::find_if(files, [&](const fs::path& file) { return file != file_; });
   if (oldest == files.end()) return false;
   const std::uint64_t size = size_of(*oldest);
   if (unlink(oldest->c_str()) != 0) return false;

@@ -11,8 +11,8 @@ namespace {
 
 using scene::AppendFault;
 using scene::AppendResult;
-using scene::Keeping;
 using scene::KeepFault;
+using scene::Keeping;
 
 /// Events that are written together.
 constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
@@ -20,12 +20,6 @@ constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
 constexpr std::chrono::seconds kRetry{1};
 /// A disk that is full, has room and is full again makes few lines.
 constexpr service::LimitedLog::Limits kWarnings{0.05, 5.0};
-
-AppendResult fault_of(const Keeping& keeping) {
-  if (keeping.fault == KeepFault::kNone) return {};
-  return {keeping.fault == KeepFault::kFull ? AppendFault::kFull : AppendFault::kBroken,
-          keeping.error};
-}
 
 }  // namespace
 
@@ -39,7 +33,9 @@ RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::st
       warnings_(log, service::LogLevel::kWarn, "recording", kWarnings),
       files_(std::move(files)),
       updates_(files_,
-               [this](scene::LogUpdate update) { add(SceneUpdate{std::move(update), digest_}); }),
+               [this](scene::LogUpdate update) {
+                 add(SceneUpdate{std::move(update), digest_});
+               }),
       recorded_(updates_) {}
 
 void RecordWriter::write(const RecordedMessage& message) {
@@ -72,14 +68,14 @@ void RecordWriter::keep(const ChangedScene& change) {
     done = recorded_.keep_removal(after, {});
   } else if (change.kind == ChangedScene::Kind::kChange && before != scenes_.end() &&
              before->second->revision == change.before) {
-    done = recorded_.keep_changes(*before->second, after, change.changes, change.note,
-                                  after.revision);
+    done =
+        recorded_.keep_changes(*before->second, after, change.changes, change.note, after.revision);
   } else {
     done = recorded_.keep_scene(after, after.revision, change.note);
   }
   const std::int64_t now = wire::utime_now();
   if (done.fault != KeepFault::kNone) {
-    fail(fault_of(done));
+    fail(updates_.fault());
     return lose(0, 1, now);
   }
   if (messages_ + changes_ == 0) first_utime_ = now;
@@ -138,7 +134,7 @@ bool RecordWriter::begin_events() {
     const Keeping done = recorded_.keep_scene(*scene, scene->revision, {});
     if (done.fault == KeepFault::kNone) continue;
     events_.clear();
-    fail(fault_of(done));
+    fail(updates_.fault());
     return false;
   }
   if (!has_begun_) updates_.end_begin();

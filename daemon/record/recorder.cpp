@@ -74,15 +74,19 @@ void Recorder::finish() {
 void Recorder::message(std::string_view channel, std::span<const std::uint8_t> bytes) {
   const std::int64_t now = wire::utime_now();
   RecordedMessage message{now, std::string(channel), {bytes.begin(), bytes.end()}};
+  bool wakes = false;
   {
     const std::lock_guard lock(mutex_);
     if (is_finishing_) return;
     const std::uint64_t size = bytes_of_item(message);
     if (waiting_bytes_ + size > options_.waiting_bytes) return drop(1, 0);
+    const bool was_crowded = is_crowded();
+    wakes = waiting_.empty();
     waiting_bytes_ += size;
     waiting_.emplace_back(std::move(message));
+    wakes = wakes || (!was_crowded && is_crowded());
   }
-  arrived_.notify_one();
+  if (wakes) arrived_.notify_one();
 }
 
 void Recorder::scene_put(const scene::Snapshot& scene, const scene::ChangeNote& note) {
@@ -124,6 +128,11 @@ void Recorder::drop(std::uint64_t messages, std::uint64_t changes) {
   all_dropped_ += messages + changes;
 }
 
+bool Recorder::is_crowded() const {
+  return waiting_bytes_ >= options_.waiting_bytes / 2 ||
+         waiting_changes_ >= options_.waiting_changes / 2;
+}
+
 void Recorder::run() {
   std::deque<Item> batch;
   bool is_last = false;
@@ -134,6 +143,7 @@ void Recorder::run() {
     {
       std::unique_lock lock(mutex_);
       arrived_.wait(lock, [this] { return !waiting_.empty() || is_finishing_; });
+      arrived_.wait_for(lock, options_.pause, [this] { return is_crowded() || is_finishing_; });
       batch.swap(waiting_);
       waiting_bytes_ = 0;
       waiting_changes_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -33,6 +34,8 @@ struct RecordOptions {
   /// What may wait for the disk. Where there is more, it is left out and counted.
   std::uint64_t waiting_bytes = std::uint64_t{64} << 20;
   std::size_t waiting_changes = 4096;  ///< the same for changes of scenes
+  /// Time between two writes, since many small ones would cost as much as the messages.
+  std::chrono::milliseconds pause{100};
 };
 
 /// Who records: for people who look at a recording.
@@ -103,6 +106,8 @@ class Recorder {
   void add(ChangedScene change);
   /// Counts what is left out. Requires that `mutex_` is held.
   void drop(std::uint64_t messages, std::uint64_t changes);
+  /// Whether so much waits that the thread must not pause. Requires that `mutex_` is held.
+  [[nodiscard]] bool is_crowded() const;
   void run();
 
   const RecordOptions options_;

@@ -3,8 +3,8 @@
 
 namespace camway::record {
 
-using scene::Keeping;
 using scene::KeepFault;
+using scene::Keeping;
 
 Keeping RecordingJournal::keep_scene(const scene::Snapshot& first, std::uint64_t before,
                                      const scene::ChangeNote& note) {

@@ -9,7 +9,11 @@ using scene::AppendResult;
 
 AppendResult UpdateLog::put_blob(const scene::BlobId& id, const scene::Blob& blob) {
   AppendResult done = files_.put_blob(id, blob.bytes);
-  if (done.fault == scene::AppendFault::kNone && !blob.needs.empty()) needs_[id] = blob.needs;
+  if (done.fault != scene::AppendFault::kNone) {
+    fault_ = done;
+  } else if (!blob.needs.empty()) {
+    needs_[id] = blob.needs;
+  }
   return done;
 }
 

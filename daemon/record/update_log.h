@@ -28,6 +28,9 @@ class UpdateLog final : public BlobLog {
   void begin_file() { older_ = std::exchange(needs_, {}); }
   void end_begin() { older_.clear(); }
 
+  /// The reason why a blob could not be put, of the last one that could not.
+  [[nodiscard]] const scene::AppendResult& fault() const { return fault_; }
+
   scene::AppendResult put_blob(const scene::BlobId& id, const scene::Blob& blob) override;
   /// Also marks the blob, and those that it needs, as used by the present file.
   bool has_blob(const scene::BlobId& id) override;
@@ -40,6 +43,7 @@ class UpdateLog final : public BlobLog {
   using Needs = std::map<scene::BlobId, std::vector<scene::BlobId>>;
 
   LogFiles& files_;
+  scene::AppendResult fault_;
   const Take take_;
   Needs needs_;  ///< of the blobs that need others
   Needs older_;  ///< the same, of the file before

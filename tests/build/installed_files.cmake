@@ -1,5 +1,5 @@
 # Installs BUILD_DIR into a prefix that its configuration does not know, and looks at what is there.
-# cmake -DBUILD_DIR= -DWORK_DIR= -DPYTHON= -DWITH_INVENTOR= -DWITH_CAD= -P installed_files.cmake
+# cmake -DBUILD_DIR= -DWORK_DIR= -DPYTHON= -DPACKAGE_PYTHON= -DWITH_INVENTOR= -DWITH_CAD= -P installed_files.cmake
 file(REMOVE_RECURSE ${WORK_DIR})
 set(prefix ${WORK_DIR}/prefix)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix}
@@ -37,6 +37,18 @@ foreach(folder ${prefix} ${WORK_DIR}/doc)
     message(SEND_ERROR "documents in ${folder}:\n${said}")
   endif()
 endforeach()
+
+# The package for Python finds the installed program that reads scenes.
+if(PACKAGE_PYTHON)
+  set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
+  set(ENV{CAMWAY_CACHE_DIR} "")
+  set(code "import camway; print(camway.__file__, camway.Scene.load('${prefix}/share/camway/scenes/office.obj'))")
+  execute_process(COMMAND ${PACKAGE_PYTHON} -B -c "${code}" WORKING_DIRECTORY / OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT said MATCHES "^${prefix}/lib/python3/dist-packages/camway/.* of 29544 triangles>")
+    message(SEND_ERROR "the installed package for Python: ${said}")
+  endif()
+  unset(ENV{PYTHONPATH})
+endif()
 
 file(READ ${prefix}/lib/systemd/system/camwayd-planner@.service unit)
 string(FIND "${unit}" "ExecStart=\"${prefix}/bin/camwayd\" --config /etc/camway/planner.toml\n" place)

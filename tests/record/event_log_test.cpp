@@ -12,9 +12,9 @@
 namespace camway::record {
 namespace {
 
+using ::testing::HasSubstr;
 using tools::LogBuilder;
 using tools::TemporaryFolder;
-using ::testing::HasSubstr;
 
 std::vector<std::uint8_t> any_data(testing::Random& random, std::size_t size) {
   std::vector<std::uint8_t> data(size);

@@ -32,6 +32,8 @@ constexpr auto kCommands = std::to_array<Command>({
     {"load", camway::tools::add_load_command},
     {"replay", camway::tools::add_replay_command},
     {"session", camway::tools::add_session_command},
+    {"pack", camway::tools::add_pack_command},
+    {"unpack", camway::tools::add_unpack_command},
     {"scene", camway::tools::add_scene_command},
     {"draw", camway::tools::add_draw_command},
     {"cache", camway::tools::add_cache_command},

@@ -65,11 +65,11 @@ install(TARGETS camway_client_installed EXPORT camway-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
 install(TARGETS camway_client_shared EXPORT camway-shared-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT client)
-install(TARGETS camway_c_shared EXPORT camway-shared-targets
+install(TARGETS camway_c_shared EXPORT camway-c-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library_c NAMELINK_COMPONENT client)
 install(TARGETS camway_authentication_installed EXPORT camway-authentication-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
-foreach(set camway camway-shared camway-authentication)
+foreach(set camway camway-shared camway-c camway-authentication)
   install(EXPORT ${set}-targets NAMESPACE camway:: DESTINATION ${camway_package_dir} COMPONENT client)
 endforeach()
 

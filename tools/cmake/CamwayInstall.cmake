@@ -23,10 +23,12 @@ install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md LICENSE SEC
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
-install(DIRECTORY client/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client COMPONENT client)
+install(DIRECTORY client/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client COMPONENT doc)
 install(FILES client/abi/symbols.txt client/abi/layouts.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/abi
-        COMPONENT client)
-install(FILES lcmtypes/fingerprints.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/lcmtypes COMPONENT client)
+        COMPONENT doc)
+install(FILES lcmtypes/fingerprints.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/lcmtypes COMPONENT doc)
+install(DIRECTORY client/python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/client/python COMPONENT doc
+        FILES_MATCHING PATTERN "*.py")
 foreach(folder daemon/paper lcmtypes tests/bench)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
 endforeach()

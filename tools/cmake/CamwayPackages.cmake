@@ -83,6 +83,9 @@ camway_package(library_c libcamway-c${camway_c_abi_major} libs SHARED
 running camwayd for paths.")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS TRUE)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(debian ${PROJECT_SOURCE_DIR}/tools/packages/debian)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/triggers)
+set(CPACK_DEBIAN_LIBRARY_C_PACKAGE_CONTROL_EXTRA ${debian}/triggers)
 set(libraries "libcamway${camway_cxx_abi} ${exact}, libcamway-c${camway_c_abi_major} ${exact}")
 camway_package(client libcamway-client-dev libdevel DEPENDS "${libraries}, liblcm-dev"
   RECOMMENDS "libsodium-dev" SUGGESTS "camway-doc"
@@ -92,8 +95,8 @@ from programs by a running camwayd; and the types of its messages as .lcm
 files, for other languages.")
 if(python IN_LIST installed)
   # Its module is for one version of the interpreter.
-  math(EXPR next "${Python3_VERSION_MINOR} + 1")
-  set(interpreter "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(interpreter "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   camway_package(python python3-camway python SHARED DEPENDS "${interpreter}, camway ${exact}"
     SUMMARY "Camway in Python: planning, and the client of the daemon"
     DESCRIPTION "Plans camera paths that are free of collision, in the process of the program or
@@ -105,10 +108,7 @@ camway_package(doc camway-doc doc ALL
 cameras, operation of the daemon, what is proved and how.")
 
 set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
-    ${PROJECT_SOURCE_DIR}/tools/packages/debian/conffiles
-    ${PROJECT_SOURCE_DIR}/tools/packages/debian/postinst
-    ${PROJECT_SOURCE_DIR}/tools/packages/debian/prerm
-    ${PROJECT_SOURCE_DIR}/tools/packages/debian/postrm)
+    ${debian}/conffiles ${debian}/postinst ${debian}/prerm ${debian}/postrm)
 
 list(JOIN camway_packages " " camway_package_list)
 # Completes the staged files of each package as Debian wants them.

@@ -39,7 +39,7 @@ class Struct:
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
-        names = [member.name for member in dataclasses.fields(self)]  # type: ignore[arg-type]
+        names = [member.name for member in dataclasses.fields(self)]
         return all(_is_equal(getattr(self, name), getattr(other, name)) for name in names)
 
 

@@ -22,13 +22,15 @@ if TYPE_CHECKING:
 
 _Answer = TypeVar("_Answer")
 
-# Threads of C++ that call Python must have ended before the interpreter does.
+# Threads of C++ that call Python must have ended before the interpreter does, and threads of Python that wait in C++
+# must not come back while it ends.
 _clients: weakref.WeakSet[Client] = weakref.WeakSet()
 
 
 def _close_all() -> None:
     for client in list(_clients):
         client.close()
+    _native.close_exit_gate()
 
 
 atexit.register(_close_all)
@@ -78,12 +80,15 @@ class Client:
         options = {name: value for name, value in locals().items() if name not in ("self", "key_file", "__class__")}
         options["key_file"] = None if key_file is None else os.fspath(key_file)
         self._native = _native.NativeClient(options)
+        self._pending: weakref.WeakSet[PendingPlan] = weakref.WeakSet()
         self._watches: weakref.WeakSet[Watch] = weakref.WeakSet()
         _clients.add(self)
 
     def close(self) -> None:
         """Ends all calls, and the client's thread. May be repeated. Pending plans end with NoAnswer."""
         self._native.close()
+        for pending in list(self._pending):
+            pending._abandon()
         for watch in list(self._watches):
             watch._end()
 
@@ -121,6 +126,7 @@ class Client:
         pending = PendingPlan(self._native)
         request_id = self._native.plan_async(request, pending._take, on_progress)
         pending._request_id = request_id
+        self._pending.add(pending)
         return pending
 
     def cancel(self, request_id: int) -> None:

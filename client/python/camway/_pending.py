@@ -49,8 +49,15 @@ class PendingPlan(_FutureOfAnswer):
         return asyncio.wrap_future(self).__await__()
 
     def _take(self, answer: _types.Answer) -> None:
+        if self.done():
+            return
         self._request_id = answer.request_id
         if answer.status in _errors.RESULTS:
             self.set_result(answer)
         else:
             self.set_exception(_errors.error_of(answer.status, answer.error, answer))
+
+    def _abandon(self) -> None:
+        """Ends the future of a client that was closed while another thread waited in it."""
+        if not self.done():
+            self.set_exception(_errors.NoAnswer("the client was closed before the answer came"))

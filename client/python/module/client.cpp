@@ -13,6 +13,7 @@
 
 #include "client/python/module/callback.h"
 #include "client/python/module/convert.h"
+#include "client/python/module/exit_gate.h"
 #include "client/python/module/interruption.h"
 #include "client/python/module/module.h"
 
@@ -65,8 +66,9 @@ ClientOptions options_of(const py::dict& arguments) {
 class NativeClient {
  public:
   explicit NativeClient(const py::dict& arguments) : process_(::getpid()) {
+    const CountedCall counted;
     const ClientOptions options = options_of(arguments);
-    const py::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     client_ = std::make_shared<Client>(options);
     if (client_->good()) return;
     const Status status = fails_by_network() ? Status::kNetworkUnusable : Status::kInvalid;
@@ -78,6 +80,7 @@ class NativeClient {
 
   /// Ends all calls. Handlers need the GIL to end, so it is released.
   void close() {
+    const CountedCall counted;
     std::shared_ptr<Client> client = std::exchange(client_, nullptr);
     if (!client) return;
     if (process_ != ::getpid()) {
@@ -86,9 +89,12 @@ class NativeClient {
       new std::shared_ptr<Client>(std::move(client));
       return;
     }
-    const py::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     client->cancel_scene_calls();
+    // Other threads that wait for an answer hold the client. Then its handlers stay, and do
+    // nothing.
     client.reset();
+    gate_->close();
   }
 
   [[nodiscard]] bool is_closed() const { return !client_; }
@@ -106,14 +112,15 @@ class NativeClient {
 
   py::object plan(py::handle request_object, std::optional<double> timeout_s,
                   const py::object& on_progress) {
+    const CountedCall counted;
     const auto request = argument<PlanRequest>(request_object, "request");
     const std::shared_ptr<Client> client = this->client();
     PendingPlan pending = start(*client, request, handlers_for(on_progress, py::none()));
     const auto cancel = [&] { client->cancel(pending.request_id); };
     const auto end = timeout_s ? after(*timeout_s) : no_end();
-    if (wait_for(pending.answer, end, cancel, [] {})) return to_python(pending.answer.get());
+    if (wait_for(pending.answer, end, cancel)) return to_python(pending.answer.get());
     cancel();
-    if (wait_for(pending.answer, steady_clock::now() + kCancelGrace, cancel, [] {})) {
+    if (wait_for(pending.answer, steady_clock::now() + kCancelGrace, cancel)) {
       const PlanResponse answer = pending.answer.get();
       if (answer.status != Status::kCancelled) return to_python(answer);
     }
@@ -127,16 +134,18 @@ class NativeClient {
 
   std::int64_t plan_async(py::handle request_object, const py::object& on_answer,
                           const py::object& on_progress) {
+    const CountedCall counted;
     const auto request = argument<PlanRequest>(request_object, "request");
     const std::shared_ptr<Client> client = this->client();
     return start(*client, request, handlers_for(on_progress, on_answer)).request_id;
   }
 
   std::int64_t watch(py::handle request_object, const py::function& on_event) {
+    const CountedCall counted;
     const auto request = argument<PlanRequest>(request_object, "request");
     const std::shared_ptr<Client> client = this->client();
-    const Callback handler(on_event);
-    const py::gil_scoped_release others_may_run;
+    const Callback handler(gate_, on_event);
+    const WithoutGil others_may_run;
     return client->watch(request, [handler](const WatchEvent& event) { handler(event); });
   }
 
@@ -144,6 +153,7 @@ class NativeClient {
   /// if it is not waited for, and holds the client until then.
   template <class Ask>
   auto wait_for_call(Ask ask) {
+    const CountedCall counted;
     using Answer = decltype(ask(*client_));
     const std::shared_ptr<Client> client = this->client();
     auto task = std::make_shared<std::packaged_task<Answer()>>(
@@ -154,12 +164,12 @@ class NativeClient {
         });
     std::future<Answer> answer = task->get_future();
     std::thread([task] { (*task)(); }).detach();
-    wait_for(
-        answer, no_end(), [&] { client->cancel_scene_calls(); }, [] {});
+    wait_for(answer, no_end(), [&] { client->cancel_scene_calls(); });
     return answer.get();
   }
   template <class Ask>
   py::object ask(Ask ask) {
+    const CountedCall counted;
     return to_python(wait_for_call(std::move(ask)));
   }
 
@@ -169,13 +179,15 @@ class NativeClient {
     return client_->status(0.0).status == Status::kNetworkUnusable;
   }
 
-  static PlanHandlers handlers_for(const py::object& on_progress, const py::object& on_answer) {
+  PlanHandlers handlers_for(const py::object& on_progress, const py::object& on_answer) const {
     PlanHandlers handlers;
     if (!on_progress.is_none()) {
-      handlers.on_progress = [call = Callback(on_progress)](const PlanProgress& now) { call(now); };
+      handlers.on_progress = [call = Callback(gate_, on_progress)](const PlanProgress& now) {
+        call(now);
+      };
     }
     if (!on_answer.is_none()) {
-      handlers.on_answer = [call = Callback(on_answer)](const PlanResponse& answer) {
+      handlers.on_answer = [call = Callback(gate_, on_answer)](const PlanResponse& answer) {
         call(answer);
       };
     }
@@ -183,11 +195,12 @@ class NativeClient {
   }
 
   static PendingPlan start(Client& client, const PlanRequest& request, PlanHandlers handlers) {
-    const py::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     return client.plan_async(request, std::move(handlers));
   }
 
   std::shared_ptr<Client> client_;
+  std::shared_ptr<CallGate> gate_ = std::make_shared<CallGate>();
   pid_t process_;
 };
 
@@ -285,8 +298,9 @@ void add_scene_calls(py::class_<NativeClient>& type) {
           },
           py::arg("scene"), py::arg("revision"), py::arg("restore_as"))
       .def("cancel_scene_calls", [](NativeClient& mine) {
+        const CountedCall counted;
         const std::shared_ptr<Client> client = mine.client();
-        const py::gil_scoped_release others_may_run;
+        const WithoutGil others_may_run;
         client->cancel_scene_calls();
       });
 }

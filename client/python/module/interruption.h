@@ -3,10 +3,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
-#include <memory>
-#include <utility>
+#include <type_traits>
+
+#include "client/python/module/exit_gate.h"
 
 namespace camway::python {
 
@@ -14,16 +16,33 @@ namespace camway::python {
 /// only then.
 inline constexpr std::chrono::milliseconds kSignalPeriod{50};
 
-/// Waits for `answer` without the GIL, until `end` at the latest. Runs the handlers of signals
-/// meanwhile; if one raises, calls `stop`, waits no longer and throws what it raised. Calls `look`
-/// with the GIL after each period. Returns whether the answer came. Requires the GIL.
-template <class Answer, class Stop, class Look>
+/// Whether this is the thread in which Python runs the handlers of signals.
+inline bool is_main_thread() {
+  const pybind11::module_ threading = pybind11::module_::import("threading");
+  return threading.attr("main_thread")().attr("ident").cast<unsigned long>() ==
+         PyThread_get_thread_ident();
+}
+
+/// A `look` of `wait_for` that is none.
+struct NoLook {
+  void operator()() const {}
+};
+
+/// Waits for `answer` without the GIL, until `end` at the latest. In the main thread, runs the
+/// handlers of signals meanwhile; if one raises, calls `stop`, waits no longer and throws what it
+/// raised. Calls `look` with the GIL after each period. Other threads without a `look` take the GIL
+/// at the end alone: a thread that takes it while the interpreter ends is killed. Returns whether
+/// the answer came. Requires the GIL.
+template <class Answer, class Stop, class Look = NoLook>
 bool wait_for(std::future<Answer>& answer, std::chrono::steady_clock::time_point end,
-              const Stop& stop, const Look& look) {
+              const Stop& stop, const Look& look = {}) {
   const auto comes_within = [&](std::chrono::nanoseconds time) {
-    const pybind11::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     return answer.wait_for(time) == std::future_status::ready;
   };
+  if (std::is_same_v<Look, NoLook> && !is_main_thread()) {
+    return comes_within(end - std::chrono::steady_clock::now());
+  }
   while (true) {
     const auto rest = end - std::chrono::steady_clock::now();
     if (comes_within(std::min<std::chrono::nanoseconds>(rest, kSignalPeriod))) return true;
@@ -31,7 +50,7 @@ bool wait_for(std::future<Answer>& answer, std::chrono::steady_clock::time_point
     if (!is_interrupted) look();
     if (is_interrupted) {
       const pybind11::error_already_set raised;
-      const pybind11::gil_scoped_release others_may_run;
+      const WithoutGil others_may_run;
       stop();
       throw raised;
     }

@@ -2,6 +2,7 @@
 #include "client/python/module/module.h"
 
 #include "client/python/module/convert.h"
+#include "client/python/module/exit_gate.h"
 #include "client/python/module/faults.h"
 
 PYBIND11_MODULE(_native, module) {
@@ -22,4 +23,6 @@ PYBIND11_MODULE(_native, module) {
       },
       py::arg("types"), py::arg("errors"),
       "Looks up the classes of data and of errors. Called once, by the package.");
+  module.def("close_exit_gate", &close_exit_gate,
+             "Has calls of other threads end or wait for the end of the process. Called at exit.");
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/python/module/convert.h"
+#include "client/python/module/exit_gate.h"
 #include "client/python/module/module.h"
 
 namespace camway::python {
@@ -38,11 +39,12 @@ Path make_path(py::handle list) {
 
 /// Evaluates the path at an array of times of any shape.
 py::tuple evaluate(const Path& path, py::handle times) {
+  const CountedCall counted;
   using Times = py::array_t<double, py::array::c_style | py::array::forcecast>;
   const Times given = Times::ensure(times);
   if (!given) {
     forget_error();
-    refuse_type("times_s: must be an array of numbers, not " + type_name(times));
+    throw py::type_error("times_s: must be an array of numbers, not " + type_name(times));
   }
   std::vector<py::ssize_t> shape(given.shape(), given.shape() + given.ndim());
   shape.push_back(3);
@@ -54,7 +56,7 @@ py::tuple evaluate(const Path& path, py::handle times) {
   double* orientation = orientations.mutable_data();
   const py::ssize_t count = given.size();
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     for (py::ssize_t i = 0; i < count; ++i) {
       const Pose pose = path.pose(time[i]);
       position = std::copy_n(pose.position_m.data(), 3, position);

@@ -9,6 +9,7 @@
 
 #include "client/python/module/convert.h"
 #include "client/python/module/documents.h"
+#include "client/python/module/exit_gate.h"
 #include "client/python/module/interruption.h"
 #include "client/python/module/module.h"
 #include "client/python/module/scene.h"
@@ -49,19 +50,20 @@ auto run(double deadline_s, const py::object& on_progress, const Work& work) {
     try {
       on_progress(to_python(now));
     } catch (const py::error_already_set&) {
-      const py::gil_scoped_release others_may_run;
+      const WithoutGil others_may_run;
       end();
       throw;
     }
   };
   wait_for(answer, no_end(), end, look);
-  const py::gil_scoped_release others_may_run;
+  const WithoutGil others_may_run;
   thread.join();
   return answer.get();
 }
 
 py::tuple plan_given(const LoadedScene& scene, const tools::RequestFile& request,
                      const py::object& on_progress) {
+  const CountedCall counted;
   tools::PlanAnswer answer;
   answer.scene_reading = scene.reading;
   run(request.options.deadline_s, on_progress, [&](const base::Deadline& deadline) {
@@ -97,6 +99,7 @@ py::tuple plan_json(const LoadedScene& scene, const std::string& text, const std
 /// Checks a path against a scene; both documents are JSON texts.
 py::tuple check(const LoadedScene& scene, const std::string& request_text,
                 const std::string& path_text, const std::string& folder) {
+  const CountedCall counted;
   const tools::RequestFile request = read_request(request_text, "request", folder);
   const auto file = tools::parse_as<tools::PathFile>(path_text, "answer");
   if (!file) throw Failed{Status::kInvalid, file.error};

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "client/python/module/convert.h"
+#include "client/python/module/exit_gate.h"
 #include "client/python/module/interruption.h"
 #include "client/python/module/module.h"
 #include "daemon/base/named_enum.h"
@@ -50,10 +51,9 @@ LoadedScene made(Make make, std::optional<scene::ImportOptions> reading) {
   std::future<SnapshotResult> made = task.get_future();
   std::jthread thread(std::move(task));
   // The thread is joined before the exception leaves, and ends soon after the stop.
-  wait_for(
-      made, no_end(), [&] { stop.request_stop(), thread.join(); }, [] {});
+  wait_for(made, no_end(), [&] { stop.request_stop(), thread.join(); });
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutGil others_may_run;
     thread.join();
   }
   SnapshotResult result = made.get();
@@ -65,6 +65,7 @@ LoadedScene made(Make make, std::optional<scene::ImportOptions> reading) {
 LoadedScene load(const std::string& file, double scale, const std::string& up,
                  const std::string& unknown, std::optional<double> voxel_m, py::handle body_bounds,
                  bool use_cache) {
+  const CountedCall counted;
   if (!(scale > 0.0)) throw py::value_error("scale: must be above 0");
   SnapshotOptions options;
   options.import.scale = scale;
@@ -82,6 +83,7 @@ LoadedScene load(const std::string& file, double scale, const std::string& up,
 
 LoadedScene from_arrays(py::handle vertices_m, py::handle triangles, const std::string& name,
                         py::handle body_bounds) {
+  const CountedCall counted;
   const auto points = argument<std::vector<std::array<double, 3>>>(vertices_m, "vertices_m");
   const auto corners = argument<std::vector<std::array<std::int64_t, 3>>>(triangles, "triangles");
   scene::Mesh mesh;

@@ -67,7 +67,7 @@ class LatticeWays {
  private:
   LatticeResult searched(const Level& level, bool from_end) {
     const double coarse_m = std::max(ball_.radius_m, (ball_.to_W - ball_.from_W).norm() / 8.0);
-    LatticeOptions options{ball_.radius_m, level.spacing * coarse_m,
+    LatticeOptions options{ball_.radius_m, ball_.coarseness * level.spacing * coarse_m,
                            std::min(level.max_points, ball_.max_points)};
     // Preferring a polyline expands more nodes, and wide lattices search far from it anyway.
     if (!level.is_wide) options.about_W = about_W_;

@@ -22,6 +22,7 @@ struct BallMotion {
   double max_cost_m = std::numeric_limits<double>::infinity();  ///< limit of the cost of a way
   /// Limit of the points visited in each lattice. The lattice has a limit of its own as well.
   std::size_t max_points = std::numeric_limits<std::size_t>::max();
+  double coarseness = 1.0;  ///< factor to the spacing of each lattice [Limit: value > 0]
 };
 
 /// The lattices on which a way is searched.

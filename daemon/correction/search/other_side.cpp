@@ -11,10 +11,12 @@ namespace {
 using geometry::Vec3;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kAlike = 1.6;        // cost of another way, relative to the first
-constexpr double kLeastApart = 1.5;   // of another way from the apex of the first, in radii, ...
-constexpr double kApartOfApex = 0.7;  // ... or as a share of the apex's distance from the path
-constexpr double kFarther = 1.4;      // a way whose apex is so much farther off was never worth it
+// Of the ways beyond these limits, few were cheaper when drawn.
+constexpr double kAlike = 1.25;         // cost of another way, relative to the first
+constexpr double kLeastApart = 1.5;     // of another way from the apex of the first, in radii, ...
+constexpr double kApartOfApex = 0.7;    // ... or as a share of the apex's distance from the path
+constexpr double kFarther = 1.1;        // a way whose apex is so much farther off is not drawn
+constexpr double kCoarser = 1.3;        // of its lattices: most searches find no way to be drawn
 constexpr std::size_t kMorePoints = 8;  // of the search of another way, relative to the first
 
 }  // namespace
@@ -39,6 +41,7 @@ BallMotion OtherSide::limited(BallMotion ball) const {
   ball.avoided = {
       {apex_.place_W, std::max(kLeastApart * ball.radius_m, kApartOfApex * apex_.away_m)}};
   ball.max_cost_m = kAlike * first_cost_m_;
+  ball.coarseness = kCoarser;
   ball.max_points = kMorePoints * first_points_;
   return ball;
 }

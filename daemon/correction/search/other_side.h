@@ -26,7 +26,7 @@ class OtherSide {
   OtherSide(const LatticeResult& first, const std::vector<geometry::Vec3>& about_W);
 
   /// Returns `ball` with the ball to avoid, and with limits of cost and points that are multiples
-  /// of those of the first way.
+  /// of those of the first way, on coarser lattices.
   [[nodiscard]] BallMotion limited(BallMotion ball) const;
 
   /// Returns whether a second way leads so much farther from the path than the first that it is not

@@ -71,10 +71,10 @@ void check_record(const DaemonOptions& options, std::vector<std::string>& faults
   const record::RecordLimits& limits = options.record.limits;
   if (limits.file_bytes <= limits.most_bytes / kLeastFiles) return;
   const bool blames_file = options.set_at.contains("record.file_bytes");
-  faults.push_back(fmt::format(
-      "{}: is {}, but record.most_bytes must be at least {} times record.file_bytes",
-      options.where(blames_file ? "record.file_bytes" : "record.most_bytes"),
-      blames_file ? limits.file_bytes : limits.most_bytes, kLeastFiles));
+  faults.push_back(
+      fmt::format("{}: is {}, but record.most_bytes must be at least {} times record.file_bytes",
+                  options.where(blames_file ? "record.file_bytes" : "record.most_bytes"),
+                  blames_file ? limits.file_bytes : limits.most_bytes, kLeastFiles));
 }
 
 void check_fleet(const DaemonOptions& options, std::vector<std::string>& faults) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -95,6 +96,18 @@ json json_of(const ObjectOptions& options) {
   return value;
 }
 
+/// Largest distance field to accept, of the options of a record.
+constexpr std::size_t kMostFieldBytes = std::size_t{1} << 30;
+
+bool are_possible(const ObjectOptions& options) {
+  const bool has_voxels =
+      !options.occupancy_resolution_m ||
+      (std::isfinite(*options.occupancy_resolution_m) && *options.occupancy_resolution_m > 0.0);
+  return options.index.threshold >= 1 && options.index.max_depth <= kMaxIndexDepth &&
+         options.index.max_duplication >= 0.0 && has_voxels &&
+         (!options.field || options.field->memory_limit_bytes <= kMostFieldBytes);
+}
+
 ObjectOptions object_options_from(const json& value) {
   ObjectOptions options;
   options.index.threshold = value.at("index_threshold").get<std::uint32_t>();
@@ -108,6 +121,7 @@ ObjectOptions object_options_from(const json& value) {
     options.field->memory_limit_bytes = value.at("field_bytes").get<std::size_t>();
   }
   if (value.contains("voxel_m")) options.occupancy_resolution_m = value.at("voxel_m").get<double>();
+  if (!are_possible(options)) throw NoRecord{};
   return options;
 }
 
@@ -146,10 +160,54 @@ RecordedScene recorded_scene_from(const json& value) {
     scene.objects.push_back({object.at(0).get<std::string>(), blob_id_from(object.at(1)),
                              placement_from(object.at(2))});
   }
+  const auto is_not_before = [](const RecordedObject& a, const RecordedObject& b) {
+    return a.name >= b.name;
+  };
+  if (std::ranges::adjacent_find(scene.objects, is_not_before) != scene.objects.end()) {
+    throw NoRecord{};
+  }
   for (const json& revision : value.at("revisions")) {
     scene.revisions.push_back(recorded_revision_from(revision));
   }
   return scene;
+}
+
+/// Records nest less deep.
+constexpr std::size_t kMostLevels = 16;
+
+/// Returns whether items of CBOR nest deeper than a record, or are of kinds that it has not. The
+/// JSON library calls itself for each level, so bytes of a stranger could use up the stack.
+bool nests_too_deep(const Bytes& bytes) {
+  std::vector<std::uint64_t> left;  // items that each level still has
+  std::size_t at = 0;
+  while (at < bytes.size()) {
+    const auto first = std::to_integer<unsigned>(bytes[at++]);
+    const unsigned kind = first >> 5;
+    std::uint64_t value = first & 31;
+    if (value > 27) return true;
+    if (value >= 24) {
+      const std::size_t count = std::size_t{1} << (value - 24);
+      value = 0;
+      for (std::size_t i = 0; i < count && at < bytes.size(); ++i) {
+        value = value << 8 | std::to_integer<std::uint64_t>(bytes[at++]);
+      }
+    }
+    if (!left.empty()) --left.back();
+    constexpr unsigned kBytes = 2;
+    constexpr unsigned kText = 3;
+    constexpr unsigned kArray = 4;
+    constexpr unsigned kMap = 5;
+    constexpr unsigned kTag = 6;
+    if (kind == kTag) return true;
+    if (kind == kBytes || kind == kText) {
+      at += static_cast<std::size_t>(std::min<std::uint64_t>(value, bytes.size() - at));
+    } else if (kind == kArray || kind == kMap) {
+      if (value > bytes.size() || left.size() == kMostLevels) return true;
+      left.push_back(kind == kMap ? 2 * value : value);
+    }
+    while (!left.empty() && left.back() == 0) left.pop_back();
+  }
+  return false;
 }
 
 Bytes cbor_of(const json& value) {
@@ -219,6 +277,9 @@ Bytes change_record_of(const RecordedRevision& revision) {
 
 base::Result<ChangeRecord> change_record_from(const Bytes& bytes) {
   const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  if (nests_too_deep(bytes)) {
+    return base::Failure{"a record of a change is damaged: it nests too deep"};
+  }
   try {
     const json value = json::from_cbor(begin, begin + bytes.size());
     if (value.contains("scene")) return ChangeRecord(recorded_scene_from(value.at("scene")));

@@ -119,7 +119,8 @@ class SceneHistory {
   [[nodiscard]] std::vector<KeptRevision> revisions() const;
 
   /// Rebuilds a revision from the sources and placements of its objects: equal to the original in
-  /// everything. Returns null if `revision` is not kept or if a stop is requested.
+  /// everything. Returns null if `revision` is not kept, if an object cannot be placed where it is
+  /// said to be, or if a stop is requested.
   [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision,
                                                         const std::stop_token& stop = {}) const;
 

@@ -176,6 +176,10 @@ StoreResult SceneStore::adopt(SceneHistory history) {
 
 StoreResult SceneStore::take(const std::string&, SceneHistory history) {
   std::shared_ptr<const Snapshot> newest = history.rebuild(history.newest_revision());
+  if (newest == nullptr) {
+    return {nullptr, StoreFault::kInvalid,
+            "scene '" + history.name() + "': an object cannot be placed where it is said to be"};
+  }
   const Usage usage = usage_of(*newest);
   if (std::optional<StoreResult> fault = reserve(*newest, usage, {})) return *fault;
   return publish({std::move(newest), usage, std::move(history)});

@@ -135,8 +135,8 @@ remove_and_purge() {
   ! grep -E '^dpkg: warning' dpkg.log || fail "dpkg warns"
   ! getent passwd "$user" >/dev/null || fail "the user $user is still there"
   local left
-  left=$(find / -xdev \( -path "$PWD" -o -path /proc -o -path /sys -o -path /var/lib/dpkg -o -path /var/log \) \
-    -prune -o -iname '*camway*' -newer start -print 2>/dev/null | head)
+  left=$(find /etc /usr /var \( -path /var/lib/dpkg -o -path /var/log \) -prune -o -iname '*camway*' -newer start -print |
+    head)
   [[ -z $left ]] || fail "a purge leaves $left"
 }
 

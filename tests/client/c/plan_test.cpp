@@ -197,6 +197,8 @@ TEST_F(CPlanTest, HandlersGetProgressAndTheAnswerOnce) {
   // Both are answers of their own, though all else is freed.
   camway_answer* const copy = taken.copy.get_future().get();
   client.free();
+  daemon.stop();
+  EXPECT_EQ(daemon.plan_requests().size(), 1u) << "the call that was refused was sent";
   EXPECT_STREQ(camway_answer_message(copy), camway_answer_message(waited));
   camway_answer_free(waited);
   EXPECT_STREQ(camway_answer_message(copy), "all is well");

@@ -2,7 +2,7 @@
 # pkg-config, and the programs of EXAMPLES.
 # cmake -DBUILD_DIR= -DWORK_DIR= -DEXAMPLE= -DEXAMPLES= -P test.cmake
 file(REMOVE_RECURSE ${WORK_DIR})
-foreach(component client library)
+foreach(component client library library_c)
   execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix
                           --component ${component}
                   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -52,12 +52,14 @@ TEST(OtherSide, LimitsTheSearchByWhatTheFirstWayTook) {
   EXPECT_LT(ball.max_cost_m, 10.0);
   EXPECT_GT(ball.max_points, 100U);
   EXPECT_LT(ball.max_points, 1000U);
+  EXPECT_GT(ball.coarseness, 1.0);
+  EXPECT_LT(ball.coarseness, 2.0);
 }
 
 TEST(OtherSide, DrawsNoWayThatLeadsMuchFartherOff) {
   const OtherSide side(way_off(2.0), kStraight_W);
   EXPECT_FALSE(side.is_too_far(way_off(1.0)));
-  EXPECT_FALSE(side.is_too_far(way_off(2.5)));
+  EXPECT_FALSE(side.is_too_far(way_off(2.1)));
   EXPECT_TRUE(side.is_too_far(way_off(4.0)));
 }
 

@@ -40,6 +40,39 @@ std::string edited(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
+TEST(JsonRequest, WritesWhatItReads) {
+  for (const char* options :
+       {R"({})", R"({"method": "keyframe_insertion", "objective": "safest", "seed": 7})",
+        R"({"orientation": {"policy": "level", "up": [0, 0, 1], "max_turn_deg": 20.5}})",
+        R"({"orientation": {"policy": "target", "target": [1, 2, 3], "cone_deg": 12.25}})",
+        R"({"limits": {"speed_m_per_s": 2, "turn_rate_deg_per_s": 33, "retime": true}})",
+        R"({"bounds": {"min": [null, -1, null], "max": [10, null, 3]}, "clearance_m": 0.02})"}) {
+    for (const char* body : {R"({"type": "box", "size": [1, 2, 3], "center": [0, 0.5, 0]})",
+                             R"({"type": "convex", "points": [[0, 0, 0], [1, 0, 0.1]]})",
+                             R"({"type": "mesh", "solid": true, "triangles": [[0, 1, 2]],
+                                 "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]})",
+                             R"({"type": "camera"})"}) {
+      const std::string text = edited(
+          R"("options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance_m": 0.25, "chord_error_m": 0.01,
+              "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7})",
+          std::string(R"("body": )") + body + R"(, "options": )" + options);
+      const auto read = parse_as<RequestFile>(text, "R.json");
+      ASSERT_TRUE(read) << read.error;
+      const auto written = write_plan_request(*read);
+      ASSERT_TRUE(written) << written.error;
+      const auto again = parse_as<RequestFile>(*written, "again");
+      ASSERT_TRUE(again) << again.error << *written;
+      EXPECT_EQ(again->options, read->options) << *written;
+      EXPECT_EQ(*write_plan_request(*again), *written);
+      EXPECT_EQ(again->keyframes.back().time_s, read->keyframes.back().time_s);
+    }
+  }
+  const auto read = parse_as<RequestFile>(kGoodRequest, "R.json");
+  planning::PlanRequest endless = *read;
+  endless.options.deadline_s = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(write_plan_request(endless).error, HasSubstr("options.deadline_s: is not finite"));
+}
+
 TEST(JsonRequest, ReadsEveryField) {
   const auto parsed = parse_as<RequestFile>(kGoodRequest, "R.json");
   ASSERT_TRUE(parsed.value) << parsed.error;

@@ -61,9 +61,11 @@ class Pages(unittest.TestCase):
         text = shown(MADE / "man/man5/camwayd.toml.5")[0]
         for name, table in tomllib.loads(SAMPLE.read_text()).items():
             keys = table[0] if isinstance(table, list) else table
-            self.assertIn(f"[{name}]", text)
+            # The table, up to the next one: other tables have keys of the same names.
+            part = text.partition(f"   [{name}]\n" if isinstance(table, dict) else f"   [[{name}]]\n")[2]
+            part = re.split(r"(?m)^   \[", part)[0]
             for key in keys:
-                self.assertRegex(text, rf"(?m)^ +{key} = \S")
+                self.assertTrue(re.search(rf"(?m)^ +{key} = \S", part), f"[{name}] {key}")
 
     def test_each_page_has_its_parts(self):
         for page in sorted(MADE.glob("man/man1/*")):

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "daemon/base/named_enum.h"
+#include "daemon/record/event_log.h"
 #include "lcmtypes/wire/channels.h"
-#include "tools/camway/replay/event_log.h"
 #include "tools/json/json_document.h"
 #include "tools/lcm_types/message_reader.h"
 
@@ -210,7 +210,7 @@ class PoseCollector {
   PoseCollector(const LcmTypes& types, const LogTrackOptions& options)
       : types_(types), options_(options) {}
 
-  void take(const LogEvent& event) {
+  void take(const record::LogEvent& event) {
     ++channels_[event.channel];
     const bool is_wanted =
         options_.channel.empty() ? channels_.size() == 1 : event.channel == options_.channel;
@@ -353,7 +353,7 @@ std::string add_keys(const PoseCollector& collected, const LogTrackOptions& opti
   return "";
 }
 
-void add_notes(const PoseCollector& collected, const LogSummary& log,
+void add_notes(const PoseCollector& collected, const record::LogSummary& log,
                const LogTrackOptions& options, CameraTrack& track) {
   if (collected.unread() > 0) {
     track.notes.push_back(fmt::format("{} of its messages cannot be read and are left out: {}",
@@ -382,7 +382,8 @@ base::Result<CameraTrack> read_log_track(const std::string& file, const LogTrack
   const auto types = all_types(options.types);
   if (!types) return Failure{types.error};
   PoseCollector collected(*types, options);
-  const LogSummary log = read_event_log(file, [&](LogEvent&& event) { collected.take(event); });
+  const record::LogSummary log =
+      record::read_event_log(file, [&](record::LogEvent&& event) { collected.take(event); });
   const auto fail = [&](const std::string& reason) { return Failure{file + ": " + reason}; };
   if (log.events == 0) return Failure{log.damage.empty() ? file + ": is empty" : log.damage};
   const bool is_missing =

@@ -33,6 +33,8 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_load_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);
 void add_session_command(CLI::App& app, ExitCode& exit_code);
+void add_pack_command(CLI::App& app, ExitCode& exit_code);
+void add_unpack_command(CLI::App& app, ExitCode& exit_code);
 void add_scene_command(CLI::App& app, ExitCode& exit_code);
 void add_draw_command(CLI::App& app, ExitCode& exit_code);
 void add_cache_command(CLI::App& app, ExitCode& exit_code);

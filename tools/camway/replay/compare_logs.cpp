@@ -13,7 +13,7 @@ ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys) {
     return invalid_replay(fault);
   }
   // Only pictures show scenes.
-  const std::unique_ptr<ReplayScenes> scenes = open_scenes(*then, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_scenes(*then, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;
   ReportHead head{.title = flags.baseline + " and " + flags.against,
                   .then = "baseline",
@@ -22,7 +22,7 @@ ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   std::ranges::move(notes_about(now->session, flags.against + ": "),
                     std::back_inserter(head.notes));
   head.thresholds = flags.run.thresholds;
-  const bool is_damaged = !then->session.log.damage.empty() || !now->session.log.damage.empty();
+  const bool is_damaged = then->session.is_damaged() || now->session.is_damaged();
   const auto compared = compare(then->session, now->session, flags.run.thresholds);
   const std::string fault = write_reports(head, compared, scene_of(*scenes), flags.reports);
   const ExitCode code = code_of(compared, flags.failing, is_damaged);

@@ -69,10 +69,11 @@ std::vector<std::string> command_of(const ReplayFlags& flags, const std::string&
       flags.baseline_build,    "replay",    flags.log,
       "--responses",           responses,   "--prefix",
       flags.publishing.prefix, "--threads", std::to_string(flags.run.threads)};
-  for (const std::string& scene : flags.scenes) {
-    command.emplace_back("--scene");
-    command.push_back(scene);
-  }
+  const auto add = [&](const std::string& flag, const std::vector<std::string>& values) {
+    for (const std::string& value : values) command.insert(command.end(), {flag, value});
+  };
+  add("--scene", flags.sources.scenes);
+  add("--root", flags.sources.roots);
   if (!flags.key_file.empty()) {
     command.emplace_back("--key-file");
     command.push_back(flags.key_file);
@@ -152,7 +153,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (const std::string fault = why_unwritable(flags.reports); !fault.empty()) {
     return invalid_replay(fault);
   }
-  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;
   // The requests with the answers of the other build.
   std::vector<RecordedRequest> requests = session.requests;
@@ -177,7 +178,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   head.notes = notes_about(session);
   head.thresholds = flags.run.thresholds;
   fault = write_reports(head, compared, scene_of(*scenes), flags.reports);
-  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, session.is_damaged());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

@@ -17,12 +17,12 @@
 #include <camway/plan_response_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
+#include "daemon/record/event_log.h"
 #include "lcmtypes/wire/auth/message_auth.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/envelope.h"
 #include "lcmtypes/wire/local_traffic.h"
-#include "tools/camway/replay/event_log.h"
 #include "tools/camway/replay/signed_event.h"
 #include "tools/camway/session/session_files.h"
 
@@ -42,13 +42,13 @@ class Publisher {
         ->setQueueCapacity(kQueueCapacity);
   }
 
-  [[nodiscard]] bool is_request(const LogEvent& event) const {
+  [[nodiscard]] bool is_request(const record::LogEvent& event) const {
     return event.channel == channels_.plan_request() ||
            event.channel == channels_.occupancy_request();
   }
 
   /// Sends an event; `id_shift` is added to the id of a planning request.
-  bool send(LogEvent event, std::uint64_t id_shift) {
+  bool send(record::LogEvent event, std::uint64_t id_shift) {
     if (event.channel == channels_.plan_request()) {
       auto decoded = wire::decode<plan_request_t>(event.data);
       if (decoded.message) {
@@ -77,7 +77,7 @@ class Publisher {
   }
 
   /// Whether an event is a page of the planning request that was sent last.
-  [[nodiscard]] bool continues_last(const LogEvent& event, std::uint64_t id_shift) const {
+  [[nodiscard]] bool continues_last(const record::LogEvent& event, std::uint64_t id_shift) const {
     if (event.channel != channels_.plan_request()) return false;
     const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
     const auto id = sender ? static_cast<std::uint64_t>(sender->request_id) + id_shift : 0;
@@ -132,7 +132,8 @@ Clock::duration seconds(double value) {
 
 /// Returns the time from `first` to the sending of the event. The times of a log are not trusted:
 /// as doubles their difference cannot overflow, and the wait is limited to what a clock can hold.
-Clock::duration due_after(const LogEvent& first, const LogEvent& event, double speed) {
+Clock::duration due_after(const record::LogEvent& first, const record::LogEvent& event,
+                          double speed) {
   constexpr double kLongest_s = 1e8;
   const double recorded_us = static_cast<double>(event.utime) - static_cast<double>(first.utime);
   return seconds(std::clamp(recorded_us * 1e-6 / speed, 0.0, kLongest_s));
@@ -140,12 +141,12 @@ Clock::duration due_after(const LogEvent& first, const LogEvent& event, double s
 
 /// The requests of a log, and what is wrong with it.
 struct LoggedRequests {
-  std::vector<LogEvent> events;
+  std::vector<record::LogEvent> events;
   std::uint64_t distrusted = 0;  ///< messages left out: their signature is missing or not good
   std::string damage;            ///< why the log could not be read to its end; else empty
 };
 
-bool is_wanted(const LogEvent& event, const PublishOptions& options) {
+bool is_wanted(const record::LogEvent& event, const PublishOptions& options) {
   if (!options.wanted) return true;
   const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
   return sender && options.wanted->contains({sender->client_id, sender->request_id});
@@ -159,7 +160,7 @@ LoggedRequests read_requests(const std::filesystem::path& log, const Publisher& 
   if (!files) requests.damage = files.error;
   if (!files) return requests;
   for (const std::filesystem::path& file : files->logs()) {
-    LogSummary summary = read_event_log(file, [&](LogEvent&& event) {
+    record::LogSummary summary = record::read_event_log(file, [&](record::LogEvent&& event) {
       if (!publisher.is_request(event)) return;
       if (open_event(keys, event)) {
         ++requests.distrusted;
@@ -182,9 +183,9 @@ void print_faults(const std::filesystem::path& log, const LoggedRequests& reques
 
 /// Returns the distance by which ids are shifted from one time to the next: more than the largest
 /// difference of two ids.
-std::uint64_t id_shift_of(const std::vector<LogEvent>& events) {
+std::uint64_t id_shift_of(const std::vector<record::LogEvent>& events) {
   std::optional<std::int64_t> least, most;
-  for (const LogEvent& event : events) {
+  for (const record::LogEvent& event : events) {
     const auto sender = wire::peek_sender(wire::layout_of<plan_request_t>(), event.data);
     if (!sender) continue;
     least = std::min(least.value_or(sender->request_id), sender->request_id);
@@ -196,14 +197,14 @@ std::uint64_t id_shift_of(const std::vector<LogEvent>& events) {
 
 /// Sends the events once, with the pauses between them, divided by the speed, or in lockstep.
 /// Returns false if LCM refused one.
-bool send_once(const std::vector<LogEvent>& events, std::uint64_t id_shift,
+bool send_once(const std::vector<record::LogEvent>& events, std::uint64_t id_shift,
                const PublishOptions& options, Publisher& publisher) {
   const Clock::time_point start = Clock::now();
   const auto wait_for_last = [&] {
     publisher.listen_until(Clock::now() + seconds(options.wait_s),
                            [&] { return publisher.is_last_answered(); });
   };
-  for (const LogEvent& event : events) {
+  for (const record::LogEvent& event : events) {
     if (options.lockstep && !publisher.continues_last(event, id_shift)) wait_for_last();
     if (!options.lockstep && options.speed > 0.0) {
       publisher.listen_until(start + due_after(events.front(), event, options.speed),
@@ -219,7 +220,7 @@ bool send_once(const std::vector<LogEvent>& events, std::uint64_t id_shift,
 }
 
 /// Sends the events as often as wanted, and waits for answers. Returns false if LCM refused one.
-bool send_all(const std::vector<LogEvent>& events, const PublishOptions& options,
+bool send_all(const std::vector<record::LogEvent>& events, const PublishOptions& options,
               Publisher& publisher) {
   const std::uint64_t shift = id_shift_of(events);
   for (int turn = 0; turn < options.times; ++turn) {

@@ -7,7 +7,6 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/settings/scene_argument.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/replay/replay_flags.h"
 #include "tools/json/json_angle.h"
@@ -168,13 +167,7 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
-  command
-      .add_option("--scene", flags.scenes,
-                  "A scene by the name that the requests use; may stand several times; as "
-                  "camwayd's")
-      ->type_name(process::kSceneArgumentForm)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_scene_source_flags(command, flags.sources);
   command
       .add_option("--threads", flags.run.threads,
                   "Requests planned at the same time; the output does not depend on it")

@@ -13,6 +13,7 @@
 #include "tools/camway/replay/outcome.h"
 #include "tools/camway/replay/publish.h"
 #include "tools/camway/replay/replay_run.h"
+#include "tools/camway/replay/scenes/scene_sources.h"
 #include "tools/camway/replay/selection.h"
 #include "tools/camway/session/session_files.h"
 
@@ -24,7 +25,7 @@ struct ReplayFlags {
   std::string baseline;        ///< log of earlier answers, compared with `against`
   std::string against;         ///< log of later answers
   std::string baseline_build;  ///< program whose answers are compared
-  std::vector<std::string> scenes;
+  SceneSourceFlags sources;
   ReplayOptions run;
   Failing failing = kFailing;
   Selection selection;
@@ -56,13 +57,16 @@ std::optional<OpenedSession> open_session(const std::string& log, const ReplayFl
 /// Returns the notes of a report about a session, that on unwanted requests included.
 std::vector<std::string> notes_about(const Session& session, const std::string& whose = {});
 
-/// Opens the scenes of `--scene`, which go before what was recorded, and those of the session. On
-/// an error, prints it and returns null. `opened` must outlive the result.
-std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags);
+/// Opens the scenes that the flags name, which go before what was recorded, and those of the
+/// session. On an error, prints it and returns null. `opened` must outlive the result; `keys` may
+/// be null.
+std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys);
 
 /// Opens them, and checks that they are all that the session needs.
 std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
-                                                 const ReplayFlags& flags);
+                                                 const ReplayFlags& flags,
+                                                 const wire::MessageKeys* keys);
 
 /// Returns the scenes as pictures take them. `scenes` must outlive the result.
 SceneOf scene_of(ReplayScenes& scenes);

@@ -3,11 +3,8 @@
 
 #include <utility>
 
-#include "daemon/process/settings/scene_argument.h"
 #include "lcmtypes/wire/channels.h"
-#include "tools/camway/common/scene_flags.h"
 #include "tools/camway/replay/replay_flags.h"
-#include "tools/camway/replay/session_scenes.h"
 
 namespace camway::tools {
 namespace {
@@ -27,31 +24,6 @@ std::string why_empty(const Session& session, const std::string& log, const Repl
   }
   return fmt::format("{}: holds no planning requests on {}", log,
                      wire::Channels{prefix}.plan_request());
-}
-
-/// Loads the scenes of `--scene`. On an error, prints it and returns nothing.
-std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
-  Scenes scenes;
-  for (const std::string& argument : arguments) {
-    const auto parsed = process::parse_scene_argument(argument);
-    if (!parsed) {
-      print_error("--scene " + argument + ": " + parsed.error);
-      return std::nullopt;
-    }
-    // Planning does not use the occupancy map, so none is made.
-    scene::SnapshotOptions options = parsed->options;
-    options.occupancy_resolution_m.reset();
-    LoadedScene loaded = load_timed(parsed->name, parsed->file.string(), options);
-    if (!loaded.result.snapshot) {
-      print_error(loaded.result.error);
-      return std::nullopt;
-    }
-    if (!scenes.emplace(parsed->name, std::move(loaded.result.snapshot)).second) {
-      print_error("--scene " + argument + ": the name stands twice");
-      return std::nullopt;
-    }
-  }
-  return scenes;
 }
 
 }  // namespace
@@ -91,25 +63,24 @@ std::vector<std::string> notes_about(const Session& session, const std::string& 
   return notes;
 }
 
-std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags) {
-  std::optional<Scenes> named = load_scenes(flags.scenes);
-  if (!named) return nullptr;
-  auto scenes = std::make_unique<SceneChain>();
-  scenes->add(std::make_unique<NamedScenes>(*std::move(named)));
-  const auto blobs = blob_folders_of(opened.files.logs());
-  scenes->add(std::make_unique<SessionScenes>(opened.session, blobs));
-  scenes->add(std::make_unique<DigestScenes>(opened.session, blobs));
-  return scenes;
+std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags,
+                                          const wire::MessageKeys* keys) {
+  auto scenes = open_scene_sources(flags.sources, opened.session, opened.files,
+                                   flags.publishing.prefix, keys);
+  if (scenes) return *std::move(scenes);
+  print_error(scenes.error);
+  return nullptr;
 }
 
 std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
-                                                 const ReplayFlags& flags) {
-  std::unique_ptr<ReplayScenes> scenes = open_scenes(opened, flags);
+                                                 const ReplayFlags& flags,
+                                                 const wire::MessageKeys* keys) {
+  std::unique_ptr<ReplayScenes> scenes = open_scenes(opened, flags, keys);
   if (!scenes) return nullptr;
   const std::vector<std::string> missing = missing_scenes(opened.session, *scenes);
   for (const std::string& name : missing) {
-    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
-                            wire::printable(name), wire::printable(name)));
+    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE, or --root DIR",
+                            flags.log, wire::printable(name), wire::printable(name)));
   }
   return missing.empty() ? std::move(scenes) : nullptr;
 }

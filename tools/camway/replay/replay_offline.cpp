@@ -49,7 +49,7 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   std::string fault = make_responses_dir(flags.responses_dir);
   if (fault.empty()) fault = why_unwritable(flags.reports);
   if (!fault.empty()) return invalid_replay(fault);
-  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;
   std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
   if (!flags.responses_dir.empty()) fault = write_responses(flags, replayed);
@@ -60,7 +60,7 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   head.thresholds = flags.run.thresholds;
   const std::string unwritten = write_reports(head, compared, scene_of(*scenes), flags.reports);
   if (fault.empty()) fault = unwritten;
-  const ExitCode code = code_of(compared, flags.failing, !session.log.damage.empty());
+  const ExitCode code = code_of(compared, flags.failing, session.is_damaged());
   return fault.empty() ? code : worse(code, invalid_replay(fault));
 }
 

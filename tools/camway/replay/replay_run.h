@@ -5,7 +5,7 @@
 
 #include "daemon/planning/result/result.h"
 #include "tools/camway/replay/compare/comparison.h"
-#include "tools/camway/replay/replay_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
 #include "tools/camway/replay/session.h"
 
 namespace camway::tools {

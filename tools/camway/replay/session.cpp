@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/session.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <utility>
 
@@ -44,7 +46,7 @@ class SessionBuilder {
   /// Each file says for itself in which recording it stands.
   void begin_file() { recording_.clear(); }
 
-  void add(LogEvent event) {
+  void add(record::LogEvent event) {
     if (is_first_) session_.begin_utime = event.utime;
     is_first_ = false;
     // As doubles the difference cannot overflow.
@@ -78,7 +80,7 @@ class SessionBuilder {
   }
 
  private:
-  void add_session_event(const LogEvent& event) {
+  void add_session_event(const record::LogEvent& event) {
     base::Result<record::SessionEvent> read = record::session_event_from(event.data);
     if (!read) {
       ++session_.damaged_events;
@@ -93,7 +95,8 @@ class SessionBuilder {
   }
 
   template <typename Message, typename UseWhole>
-  void add_page(const LogEvent& event, wire::PageAssembly<Message>& pages, UseWhole use_whole) {
+  void add_page(const record::LogEvent& event, wire::PageAssembly<Message>& pages,
+                UseWhole use_whole) {
     wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
     if (!decoded.message) {
       ++session_.malformed;
@@ -178,12 +181,12 @@ Session read_session(const std::filesystem::path& log, const std::string& prefix
 Session read_session(const std::vector<std::filesystem::path>& logs, const std::string& prefix,
                      const wire::MessageKeys* keys) {
   SessionBuilder builder(prefix, keys);
-  LogSummary all;
+  record::LogSummary all;
   for (const std::filesystem::path& log : logs) {
     builder.begin_file();
-    const LogSummary summary = read_event_log(
+    const record::LogSummary summary = record::read_event_log(
         log, [&](std::string_view channel) { return builder.wants(channel); },
-        [&](LogEvent&& event) { builder.add(std::move(event)); });
+        [&](record::LogEvent&& event) { builder.add(std::move(event)); });
     all.events += summary.events;
     all.bytes_used += summary.bytes_used;
     all.bytes += summary.bytes;

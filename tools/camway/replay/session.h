@@ -9,9 +9,9 @@
 
 #include "daemon/messages/plan.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/record/event_log.h"
 #include "daemon/record/session_events.h"
 #include "lcmtypes/wire/auth/message_keys.h"
-#include "tools/camway/replay/event_log.h"
 
 namespace camway::tools {
 
@@ -52,7 +52,7 @@ struct RecordedUpdate {
 
 /// The planning requests of a log, in the order in which they first came completely.
 struct Session {
-  LogSummary log;
+  record::LogSummary log;
   std::int64_t begin_utime = 0;  ///< time of the first event that is read, microseconds since 1970
   std::vector<RecordedRequest> requests;
   std::uint64_t malformed = 0;  ///< messages on Camway's channels that cannot be read
@@ -72,6 +72,8 @@ struct Session {
 
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
   std::uint64_t scene_requests = 0;
+
+  [[nodiscard]] bool is_damaged() const { return !log.damage.empty() || damaged_events > 0; }
 };
 
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a

@@ -7,7 +7,7 @@
 
 namespace camway::tools {
 
-std::optional<wire::Distrust> open_event(const wire::MessageKeys* keys, LogEvent& event) {
+std::optional<wire::Distrust> open_event(const wire::MessageKeys* keys, record::LogEvent& event) {
   if (keys != nullptr) {
     wire::MessageAuth::Opened opened = wire::open_recorded(*keys, event.channel, event.data);
     if (!opened.message) return opened.why;

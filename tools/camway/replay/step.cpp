@@ -80,13 +80,13 @@ ExitCode replay_by_steps(const ReplayFlags& flags, const wire::MessageKeys* keys
   const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys);
   if (!opened) return ExitCode::kInvalidInput;
   const Session& session = opened->session;
-  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags);
+  const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;
   const StepDesk desk{std::cin, std::cout, [](const std::string& file, const std::string& svg) {
                         return write_file(file, svg);
                       }};
   const auto seen = step_through(session, *scenes, flags.run, desk);
-  return code_of(seen, flags.failing, !session.log.damage.empty());
+  return code_of(seen, flags.failing, session.is_damaged());
 }
 
 }  // namespace camway::tools

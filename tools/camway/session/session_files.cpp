@@ -65,7 +65,7 @@ base::Result<SessionFiles> SessionFiles::open(const fs::path& session) {
       return base::Failure{std::move(fault)};
     }
     folder = unpacked->sessions();
-    files.unpacked_ = unpacked;
+    files.unpacked_.push_back(unpacked);
   } else if (!fs::is_directory(session, error)) {
     // The reader of logs says what is wrong with a file.
     files.logs_.push_back(session);
@@ -76,6 +76,17 @@ base::Result<SessionFiles> SessionFiles::open(const fs::path& session) {
     return base::Failure{session.string() + ": holds no file *" + record::kLogEnding};
   }
   return files;
+}
+
+base::Result<SessionFiles> SessionFiles::open(const std::vector<std::string>& sessions) {
+  SessionFiles all;
+  for (const std::string& session : sessions) {
+    base::Result<SessionFiles> files = open(fs::path(session));
+    if (!files) return files;
+    all.logs_.insert(all.logs_.end(), files->logs_.begin(), files->logs_.end());
+    all.unpacked_.insert(all.unpacked_.end(), files->unpacked_.begin(), files->unpacked_.end());
+  }
+  return all;
 }
 
 }  // namespace camway::tools

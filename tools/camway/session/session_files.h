@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "daemon/base/result.h"
@@ -15,6 +16,8 @@ class SessionFiles {
   /// Fails if there are none, with the reason. Unpacks a packed session into a temporary folder,
   /// which goes with the last copy.
   static base::Result<SessionFiles> open(const std::filesystem::path& session);
+  /// Opens several sessions as one.
+  static base::Result<SessionFiles> open(const std::vector<std::string>& sessions);
 
   /// The logs in the order in which they were begun.
   [[nodiscard]] const std::vector<std::filesystem::path>& logs() const { return logs_; }
@@ -23,7 +26,7 @@ class SessionFiles {
   class Unpacked;
 
   std::vector<std::filesystem::path> logs_;
-  std::shared_ptr<const Unpacked> unpacked_;  ///< null if nothing was unpacked
+  std::vector<std::shared_ptr<const Unpacked>> unpacked_;  ///< temporary folders of `logs_`
 };
 
 }  // namespace camway::tools

@@ -145,7 +145,8 @@ std::string write_members(PackWriter& writer, const json& list,
     auto left = list.at("members").at(i).at("bytes").get<std::uint64_t>();
     writer.add(files[i].name, left);
     const std::string fault = read_chunks(files[i].file, [&](std::string_view chunk) {
-      chunk = chunk.substr(0, static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), left)));
+      chunk =
+          chunk.substr(0, static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), left)));
       left -= chunk.size();
       return writer.write(chunk) && left > 0;
     });
@@ -165,7 +166,8 @@ base::Result<Members> members_from(const std::string& text) {
     for (const json& each : list.at("members")) {
       const auto name = each.at("name").get<std::string>();
       if (!is_pack_name(name)) {
-        return base::Failure{"'" + wire::printable(name) + "': is no name of a member of a session"};
+        return base::Failure{"'" + wire::printable(name) +
+                             "': is no name of a member of a session"};
       }
       const Member member{each.at("bytes").get<std::uint64_t>(),
                           each.at("xxh128").get<std::string>()};

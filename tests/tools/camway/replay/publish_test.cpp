@@ -12,7 +12,7 @@
 
 #include "lcmtypes/wire/check.h"
 #include "tests/tools/camway/cli_runner.h"
-#include "tools/camway/replay/event_log.h"
+#include "daemon/record/event_log.h"
 
 namespace camway::tools {
 namespace {
@@ -114,7 +114,7 @@ TEST_F(Publish, SendsTheRecordedRequestsByteForByteAndCountsAnswers) {
   const auto received = listener.received(8);
   ASSERT_EQ(received.size(), 8U);
   std::size_t at = 0;
-  read_event_log(file_, [&](LogEvent&& event) {
+  record::read_event_log(file_, [&](record::LogEvent&& event) {
     if (event.channel == "OTHER_CHANNEL") return;
     EXPECT_EQ(received[at].channel, event.channel);
     EXPECT_EQ(received[at].data, event.data);

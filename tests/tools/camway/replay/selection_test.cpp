@@ -41,7 +41,7 @@ Session five_requests() {
     request.ids = {i % 2 == 0 ? "even" : "odd", i, 0};
     request.scene = i < 3 ? "office" : "maze";
     request.received_s = i;
-    if (i < 4) request.answer = RecordedAnswer{i == 1 ? "partial" : "ok", {}, {}};
+    if (i < 4) request.answer.emplace().status = i == 1 ? "partial" : "ok";
   }
   return session;
 }

@@ -32,14 +32,16 @@ constexpr std::array<std::string_view, 3> kLeftOut{"message", "tried", "deadline
 /// Members that are times, which a slowed path has from its slowing.
 constexpr std::array<std::string_view, 4> kTimes{"t_begin", "t_end", "changed", "time"};
 
-/// The members that each stage leaves, by their paths. Members without a stage are the answer's.
+/// The members that each stage leaves, by their paths; a part of a member goes before it. Members
+/// without a stage are the answer's.
 struct StageOfMember {
   std::string_view member;
   Stage stage;
 };
-constexpr std::array<StageOfMember, 17> kStages{{
+constexpr std::array<StageOfMember, 18> kStages{{
     {"bounds", Stage::kRequest},
     {"keyframe_faults", Stage::kRequest},
+    {"measures.before.clearance_lower_bound_m", Stage::kProof},
     {"measures.before", Stage::kInterpolation},
     {"collisions", Stage::kCollisions},
     {"corrections", Stage::kCorrection},
@@ -141,7 +143,10 @@ class MessageComparer {
 
   /// Whether the member at `path_` or one in it is of the stage that is compared.
   [[nodiscard]] bool is_of_stage() const {
-    if (!stage_ || path_ == "measures") return true;
+    if (!stage_) return true;
+    for (const StageOfMember& each : kStages) {
+      if (each.stage == *stage_ && each.member.starts_with(path_ + '.')) return true;
+    }
     for (const StageOfMember& each : kStages) {
       if (!path_.starts_with(each.member)) continue;
       const std::string_view rest = std::string_view(path_).substr(each.member.size());

@@ -63,8 +63,10 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
   add(session.unasked, "answers to requests that are not in the log");
   add(session.damaged_events, "events about the recorded session cannot be read");
   for (const record::Gap& gap : session.gaps) {
-    notes.push_back(fmt::format("{}the recording lacks {} messages and {} changes of scenes: {}",
-                                whose, gap.messages, gap.changes, gap.reason));
+    const double seconds = static_cast<double>(gap.to_utime - gap.from_utime) * 1e-6;
+    notes.push_back(fmt::format(
+        "{}the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}", whose,
+        gap.messages, gap.changes, seconds, wire::printable(gap.reason)));
   }
   if (!session.log.damage.empty()) {
     notes.push_back(fmt::format("{}the log is damaged: {} good events were used, {} of {} bytes",

@@ -230,6 +230,8 @@ TEST(Difference, NamesTheFirstStageThatDiffers) {
             "request: status ok -> invalid");
   EXPECT_EQ(after([](Result& b) { b.measures_before->length_m = 1.0; }),
             "interpolation: measures.before.length_m 0 -> 1");
+  EXPECT_EQ(after([](Result& b) { b.measures_before->clearance_lower_bound_m = 1.0; }),
+            "proof: measures.before.clearance_lower_bound_m 0 -> 1");
   EXPECT_EQ(after([](Result& b) { b.measures->largest_turn_rate_rad_per_s = std::numbers::pi; }),
             "measures: measures.after.largest_turn_rate_deg_per_s 0 -> 180");
   EXPECT_EQ(after([](Result& b) { b.certificate.certified = true; }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/session_scenes.h"
+#include "tools/camway/replay/scenes/session_scenes.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/camway/replay/replay_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
 
 namespace camway::tools {
 

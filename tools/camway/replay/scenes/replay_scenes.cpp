@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/replay_scenes.h"
+#include "tools/camway/replay/scenes/replay_scenes.h"
 
 #include <algorithm>
 #include <set>

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Measures `camway.Client.plan` of Python beside `camway::Client::plan` of C++: both plan the same requests of one
+daemon over the loopback, by turns, from the call to the answer.
+
+Must: the median of Python at most 0.3 ms above that of C++. Exit code: 0 met, 1 not met or a plan failed.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+MUST_MS = 0.3
+REQUESTS = ("office-free-straight", "office-graze-column", "office-graze-slalom")
+SCENE = "office"
+
+
+def start_daemon(programs):
+    daemon = subprocess.Popen([programs / "camwayd", "--scene", f"{SCENE}={ROOT / 'scenes' / 'office.obj'}"],
+                              stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+    for line in daemon.stderr:
+        if "[info] ready" in line:
+            break
+    # What it writes later must not fill the pipe.
+    subprocess.Popen(["cat"], stdin=daemon.stderr, stdout=subprocess.DEVNULL)
+    return daemon
+
+
+def processor_ms(process):
+    """Processor time of all threads of a process, which a busy machine changes little."""
+    tasks = pathlib.Path(f"/proc/{process}/task").iterdir()
+    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks) / 1e6
+
+
+def measure(client, peer, request, count):
+    """Milliseconds of Python and of C++ for `count` pairs of calls. Who is first changes from pair to pair: the second
+    finds warm caches in the daemon."""
+
+    def by_python(seed):
+        request.seed = seed
+        begin_s = time.perf_counter()
+        answer = client.plan(request)
+        mine.append(1000 * (time.perf_counter() - begin_s))
+        return answer.ok
+
+    def by_cpp(seed):
+        print(seed, file=peer.stdin, flush=True)
+        taken_ms, is_ok = peer.stdout.readline().split()
+        theirs.append(float(taken_ms))
+        return is_ok == "1"
+
+    mine, theirs = [], []
+    for i in range(count):
+        for plan in (by_python, by_cpp) if i % 2 == 0 else (by_cpp, by_python):
+            if not plan(i + 1):
+                raise SystemExit("a plan failed")
+    return mine, theirs
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder of the build")
+    parser.add_argument("--count", type=int, default=400, help="pairs of calls for each request")
+    parser.add_argument("--json", help="file for the numbers")
+    arguments = parser.parse_args()
+    sys.path.insert(0, str(arguments.build / "python"))
+    import camway
+
+    programs = (arguments.build / "bin").resolve()
+    daemon = start_daemon(programs)
+    rows = []
+    try:
+        with camway.Client() as client:
+            for name in REQUESTS:
+                file = ROOT / "scenes" / "requests" / f"{name}.json"
+                with subprocess.Popen([programs / "bench_python_peer", file, SCENE], stdin=subprocess.PIPE,
+                                      stdout=subprocess.PIPE, text=True) as peer:
+                    request = camway.Request.load(file)
+                    request.scene = SCENE
+                    before = processor_ms("self"), processor_ms(peer.pid)
+                    mine, theirs = measure(client, peer, request, arguments.count)
+                    after = processor_ms("self"), processor_ms(peer.pid)
+                    peer.stdin.close()
+                # Writing to the peer and reading from it counts for Python here.
+                processor = [(after[i] - before[i]) / arguments.count for i in (0, 1)]
+                medians = statistics.median(mine), statistics.median(theirs)
+                rows.append({"request": name, "python_ms": medians[0], "cpp_ms": medians[1],
+                             "more_ms": medians[0] - medians[1], "processor_more_ms": processor[0] - processor[1]})
+                line = ("{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms; "
+                        "{processor_more_ms:+.3f} ms of processor time")
+                print(line.format(**rows[-1]))
+    finally:
+        daemon.terminate()
+        daemon.wait()
+    if arguments.json:
+        pathlib.Path(arguments.json).write_text(json.dumps(rows, indent=2) + "\n")
+    is_met = all(row["more_ms"] <= MUST_MS for row in rows)
+    print(f"at most {MUST_MS} ms more: {'met' if is_met else 'NOT met'}")
+    return 0 if is_met else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
