@@ -14,7 +14,6 @@ const kHandleStep_px = 2;
 
 const door = await open_door('--scene', scene_file('office'), '--request', request_file('office-wall-rooms'));
 after(async () => {
-  await shared.close();
   await browser.close();
   assert.equal(await door.end(), 0, door.output);
 });
@@ -196,6 +195,7 @@ test('keys alone lead from a path through a wall to one that is corrected and pr
   await keyboard.press('k');
   const {keyframes, bounds} = await page.until(({state: {request: {keyframes}, scene}}) => keyframes.length === 3 && {keyframes, bounds: scene.scene.bounds});
   keyframes[2].position.forEach((x, i) => assert.ok(bounds.min[i] < x && x < bounds.max[i], `${keyframes[2].position}`));
+  await page.close();
 });
 
 test('a page that may only read shows and plans, and changes no scene', async () => {

@@ -12,7 +12,6 @@ const kToWall_m = 2.55;  // as in editing_test.mjs
 
 const door = await open_door('--scene', scene_file('office'), '--request', request_file('office-wall-rooms'));
 after(async () => {
-  await shared.close();
   await browser.close();
   assert.equal(await door.end(), 0, door.output);
 });
@@ -102,6 +101,7 @@ test('a near free pose is accepted by Enter, a far one by its own key, and undo 
   await keyboard.press('Control+z');
   await page.until(({state}, to) => state.request.keyframes[0].position.every((x, i) => x === to[i]), [x, y, z]);
   await page.until(({state}) => !state.isPending && state.answer?.status === 'ok');
+  await page.close();
 });
 
 test('an option that is refused is marked, and the path is still drawn', async () => {
