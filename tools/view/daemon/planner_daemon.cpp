@@ -300,7 +300,10 @@ void PlannerDaemon::stop_calls() {
 
 void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
   call(callers_, std::move(done), [this, order = std::move(order)] {
-    Answer answer = ask_daemon_scene(*client_, order);
+    Answer answer = ask_daemon_scene(*client_, order,
+                                     [this](const SceneInfo& scene, const SceneObject& object) {
+                                       return meshes_->mesh_digest(scene, object);
+                                     });
     if (order.is_change() && answer.code == code::kOk) {
       // Heartbeats tell of it as well, up to a second later.
       const SceneAnswer list = client_->list_scenes();

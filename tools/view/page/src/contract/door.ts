@@ -16,7 +16,7 @@ export interface ObjectFacts {
   name: string;
   kind: string;
   digest: string;
-  /** Of its mesh in its own frame, which moves do not change; not with a daemon, nor for occupancy maps. */
+  /** A name of its mesh in its own frame, which moves do not change; not for occupancy maps. */
   mesh_digest?: string;
   triangles: number;
   position: Vec3;

@@ -82,7 +82,7 @@ export function openDoor(store: Store, page: PageParts): Backing {
     const { request, watched, unplanned } = store.now;
     if (request && (isChanged ? watched === 'off' : unplanned !== '')) planner.plan(request, 'full');
   });
-  const watch = new PathWatch(socket, store);
+  const watch = new PathWatch(socket, store, (request) => planner.asking(request));
   const sceneEditor = new SceneEditor(nameNow, () => void scenes.refresh(), onError);
 
   async function start(): Promise<void> {

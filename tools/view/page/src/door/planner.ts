@@ -29,11 +29,6 @@ export function completed(answer: Answer): Answer {
   };
 }
 
-/** The request with the profile that colours the path, if the door has that option. */
-function withProfile(request: PlanRequest): PlanRequest {
-  return { ...request, options: { [kProfileOption]: true, ...request.options } };
-}
-
 function draftOf(request: PlanRequest): PlanRequest {
   const asked = request.options?.['deadline_s'];
   const deadline_s = Math.min(typeof asked === 'number' ? asked : kDefaultDeadline_s, kDraftDeadline_s);
@@ -145,9 +140,14 @@ export class Planner {
     this.store.set({ isPending: false, isDraft: false, message: sentence, ...left });
   }
 
+  /** The request as it is asked for: with the profile that colours the path, if the door has that option. */
+  asking(request: PlanRequest): PlanRequest {
+    return this.hasProfile ? { ...request, options: { [kProfileOption]: true, ...request.options } } : request;
+  }
+
   private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
     const isDraft = kind === 'draft';
-    const asking = this.hasProfile ? withProfile(request) : request;
+    const asking = this.asking(request);
     const question = isDraft
       ? { do: 'plan', drag: kDrag, finish: true, request: draftOf(asking) }
       : { do: 'plan', drag: kDrag, progress: true, request: asking };
