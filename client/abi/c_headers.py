@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the headers of the C interface declare, read from their text."""
+"""The declarations in the headers of the C interface, read from their text."""
 import re
 from pathlib import Path
 

@@ -25,7 +25,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Ways through the office, each of which something stands in now and then.
+/// Paths through the office, each of which an obstacle blocks now and then.
 constexpr std::array<const char*, 4> kWays{"office-free-door", "office-graze-door",
                                            "office-free-corridor", "office-graze-column"};
 constexpr std::array<std::array<double, 3>, 4> kPlaces{

@@ -356,7 +356,7 @@ void PlannerDaemon::mesh(std::string scene, std::string digest, MeshDone done) {
     done(std::move(*found));
   };
   run(callers_, report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
-    // One that is kept here needs no daemon.
+    // A mesh that is kept here needs no daemon.
     if (heartbeats_->is_silent() && !meshes_->keeps(digest)) return no_daemon();
     *found = meshes_->mesh(scene, digest);
     return unless_silent({found->code, {}, found->error});

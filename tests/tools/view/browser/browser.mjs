@@ -153,7 +153,7 @@ export class Page {
     return read_png(await this.tab.screenshot({clip: await this.tab.locator('#viewport').boundingBox()}));
   }
 
-  /// Waits until all that was asked for is drawn, and one frame more, which puts it on the screen.
+  /// Waits until all requested frames are drawn, and one frame more, which puts it on the screen.
   async drawn() {
     await this.tab.evaluate(() => new Promise(requestAnimationFrame));
     await this.until(({isDrawn}) => isDrawn);

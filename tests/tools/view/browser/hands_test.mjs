@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What people do with the page beside dragging keyframes: handles, objects, storeys, exports, two tabs, and keys alone.
+// Use of the page beside dragging keyframes: handles, objects, storeys, exports, two tabs, and keys alone.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test, {after} from 'node:test';
@@ -167,7 +167,7 @@ test('each export is chosen with the keyboard, and has its extension; what is re
     assert.equal(download.suggestedFilename(), `request${extension}`);
     assert.ok(fs.statSync(await download.path()).size > 100, value);
   }
-  // One that the door refuses is said.
+  // The page shows a refusal of the door.
   await page.tab.route(/\/v1\/export/, route => route.continue({url: route.request().url().replace(/format=\w+/, 'format=none')}), {times: 1});
   await page.button('Export').click();
   await page.tab.locator('#message', {hasText: 'is none of'}).waitFor();

@@ -30,7 +30,7 @@ test('an object that another process moves breaks the watched path, and heals it
   await page.tab.getByRole('checkbox', {name: /watch/i}).check();
   await page.until(({state}) => state.watched === 'ok');
   await page.tab.getByText('watched path: free').waitFor();
-  // Where the connection is lost, the path is watched again when it is back.
+  // The path is watched again after a lost connection.
   await page.drop_socket();
   await page.until(({state}) => window.sockets.length === 2 && state.connection === 'open' && state.watched === 'ok');
   const before = await revision(page);

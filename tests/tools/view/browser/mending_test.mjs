@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must not be lost: edits when the connection drops or the page is loaded again, and poses to a stray key.
+// Nothing is lost: no edits when the connection drops or the page is loaded again, and no pose by a stray key.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test, {after} from 'node:test';

@@ -71,7 +71,7 @@ class Door:
 
 
 def drop(connection, dice):
-    """Ends a connection as a program that crashes does, or one that says goodbye."""
+    """Ends a connection as a program does that crashes, or that closes it."""
     if dice.random() < 0.5:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     connection.close()
@@ -97,7 +97,7 @@ def send(connection, data, dice):
 
 
 def read_to_end(connection):
-    """Returns the first bytes of what comes until the other side closes."""
+    """Returns the first bytes that come until the other side closes."""
     first = b""
     try:
         while part := connection.recv(1 << 16):
@@ -293,7 +293,7 @@ class Process:
                 len(list((folder / "fd").iterdir())))
 
     def end(self):
-        """Returns what was wrong with its end."""
+        """Ends the program. Returns the faults of its end."""
         self.running.send_signal(signal.SIGINT)
         try:
             said = self.running.communicate(timeout=LONGEST_S)[1]
@@ -313,7 +313,7 @@ def plan_of(door, request):
 
 
 def tidy(door):
-    """Takes out what hostile clients left, and returns why that was not possible."""
+    """Removes the objects of hostile clients. Returns why that was not possible."""
     code, described = door.ask("GET", "/v1/scenes/office")
     names = [each["name"] for each in described.get("objects", [])]
     for name in names:
@@ -329,7 +329,7 @@ def tidy(door):
 
 
 def calm(process, before):
-    """Waits until the files and threads of a program are those of before; returns what is wrong."""
+    """Waits until the files and threads of a program are those of before. Returns the excess."""
     deadline = time.monotonic() + LONGEST_S
     while time.monotonic() < deadline:
         _, threads, files = process.state()

@@ -59,7 +59,7 @@ class Interpolation {
     this.isAsking = false;
   }
 
-  /** An option that is refused does not keep the path from being seen; the answer to the request says what is wrong. */
+  /** Shows the path without an option that is refused; the answer to the request names the fault. */
   private async pathOf(request: PlanRequest): Promise<readonly Segment[]> {
     for (let asked: PlanRequest | undefined = request; asked; ) {
       try {

@@ -32,7 +32,7 @@ export class SceneEditor {
       const [name, pose] = next;
       this.moving = this.change((scene) => moveObject(scene, name, pose));
       if (!(await this.moving)) {
-        // Nobody has heard of it: it is sent again by `resume`, unless the object was moved on since.
+        // The door has not received it: `resume` sends it again, unless the object was moved on since.
         if (!this.waiting.has(name)) this.waiting.set(name, pose);
         break;
       }
@@ -65,7 +65,7 @@ export class SceneEditor {
     });
   }
 
-  /** Returns false where the door was not reached. What it refuses is said, and done with. */
+  /** Returns false where the door was not reached. A refusal is shown, and not sent again. */
   private async change(act: (scene: string) => Promise<void>): Promise<boolean> {
     const scene = this.sceneName();
     if (!scene) return true;
@@ -78,7 +78,7 @@ export class SceneEditor {
         return false;
       }
       this.onError(error.message);
-      this.onChanged(); // what was shown while it was dragged goes back
+      this.onChanged(); // the object that was shown dragged goes back
     }
     return true;
   }

@@ -29,7 +29,7 @@ export interface Hit {
   normal: Vector3;
 }
 
-/** What tells meshes apart: two objects of one mesh, or one that moves, need it once. */
+/** The key of a mesh, which is fetched once for all objects that share it, and for one that moves. */
 function meshKey({ digest, mesh_digest }: ObjectFacts): string {
   return mesh_digest ?? digest;
 }

@@ -47,7 +47,7 @@ const kWalkFade_m = 0.8;
 /** New objects are put that far off the surface that the view looks at, and that far ahead if there is none. */
 const kOffSurface_m = 0.3;
 const kAhead_m = 3;
-/** What is that near to a click on a surface was clicked. */
+/** A part of the path this near to the point of a click on a surface was clicked. */
 const kPartReach_m = 0.01;
 /** Of a person who stands. */
 const kEyeHeight_m = 1.6;
@@ -85,7 +85,7 @@ export class Viewport {
     private readonly actions: Actions,
     private readonly sources: Sources,
     private readonly onDrawn: (report: ViewReport) => void,
-    /** Hears that what the last report is of is on the screen. */
+    /** Called when the frame of the last report is on the screen. */
     onFinished: () => void,
   ) {
     this.host = host;

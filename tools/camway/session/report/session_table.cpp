@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/recording/session_table.h"
+#include "tools/camway/session/report/session_table.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 
 #include "lcmtypes/wire/channels.h"
-#include "tools/camway/recording/answer_columns.h"
+#include "tools/camway/session/report/answer_columns.h"
 
 namespace camway::tools {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/camway/replay/session.h"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,9 +9,8 @@
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
-#include "tools/camway/recording/session_mcap.h"
-#include "tools/camway/recording/session_table.h"
-#include "tools/camway/replay/session.h"
+#include "tools/camway/session/report/session_mcap.h"
+#include "tools/camway/session/report/session_table.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -56,11 +57,10 @@ ExitCode run_session(const SessionFlags& flags) {
 
 void add_session_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<SessionFlags>();
-  CLI::App* command =
-      app.add_subcommand("session", "Show what a recorded session holds, or write it as CSV or MCAP");
+  CLI::App* command = app.add_subcommand(
+      "session", "Show what a recorded session holds, or write it as CSV or MCAP");
   command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
-  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")
-      ->capture_default_str();
+  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
   command
       ->add_option("--key-file", flags->key_file,
                    "Use only messages that were signed with a key of this file")
