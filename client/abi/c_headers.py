@@ -49,7 +49,7 @@ def _signature(result, parameters):
 
 def _plain(text):
     """A declaration with single blanks, its stars at the names."""
-    return " ".join(re.sub(r" *(\*+) *", r" \1", text).split())
+    return " ".join(re.sub(r"\s*(\*+)\s*", r" \1", text).split())
 
 
 def _type_of(parameter):

@@ -64,11 +64,10 @@ typedef struct camway_plan_request {
   const char* scene;  ///< name of a scene that the daemon holds
   const camway_keyframe* keyframes;
   size_t num_keyframes;
-  const camway_body*
-      body;          ///< the body that must not collide; NULL: the camera's near quadrilateral
-  double fov_x_rad;  ///< full horizontal field of view; 90 degrees
-  double fov_y_rad;  ///< full vertical field of view; 60 degrees
-  double near_m;     ///< distance from the eye to the near plane; 0.1
+  const camway_body* body;  ///< the moving body; NULL: the camera's near quadrilateral
+  double fov_x_rad;         ///< full horizontal field of view; 90 degrees
+  double fov_y_rad;         ///< full vertical field of view; 60 degrees
+  double near_m;            ///< distance from the eye to the near plane; 0.1
 
   double clearance_m;  ///< required distance between body and scene
   double deadline_s;   ///< from the daemon's receipt to its answer, waiting included
