@@ -4,7 +4,8 @@
 //   node --experimental-websocket page.mjs PAGE_PACKAGES [--loads N] [--count N] [--house FILE] [--json FILE]
 //
 // ready   from the begin of the navigation until the whole scene with its plan is drawn, in a browser that keeps nothing:
-//         the mark `camway-ready` of the page; there is no GPU, so Chromium draws with the processor
+//         the mark `camway-ready` of the page; there is no GPU, so Chromium draws with the processor, and with
+//         CAMWAY_ANGLE=null not at all: that is the time without the drawing
 // drag    from a draft of a drag until its answer is in the model of the page, one after the other, without drawing: the
 //         planner, socket and store of the page, run by node
 //

@@ -16,9 +16,10 @@ const {chromium} = createRequire(path.join(process.env.CAMWAY_NPM, 'package.json
 
 // A test runs in a network of its own, often as the root of its own namespace: there is no sandbox inside of that.
 // WebGL 2 is computed by SwiftShader, and without smooth edges: those take most of the time, and only pictures need them.
+// With CAMWAY_ANGLE=null nothing is drawn, for measurements.
 export const browser = await chromium.launch({
   executablePath: kBrowser,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  args: ['--no-sandbox', `--use-angle=${process.env.CAMWAY_ANGLE ?? 'swiftshader'}`, '--enable-unsafe-swiftshader',
          ...(process.env.CAMWAY_PICTURES ? [] : ['--webgl-antialias-mode=none'])],
 });
 
