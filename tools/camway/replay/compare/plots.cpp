@@ -154,7 +154,7 @@ std::string by_request_plot(const std::string& title, const std::vector<PlotMark
   std::string content = tick_y(y, low, "0") + tick_y(y, high + 1.0, "none");
   const double step = std::max(1.0, std::ceil((high - low) / 5.0));
   for (double decade = high; decade > low; decade -= step) {
-    content += tick_y(y, decade, fmt::format("{:.0e}", std::pow(10.0, decade)));
+    content += tick_y(y, decade, fmt::format("{:g}", std::pow(10.0, decade)));
   }
   for (const PlotMark& mark : worst_last(marks)) {
     const double height = mark.y > 0.0 ? std::log10(mark.y) : low;
