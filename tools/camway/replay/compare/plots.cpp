@@ -129,8 +129,8 @@ std::string then_now_plot(const std::string& title, const std::vector<PlotMark>&
   const PlotAxis y = y_axis(0.0, most);
   std::string content;
   for (double tick = 0.0; tick <= most; tick += step_of(most)) {
-    content += tick_x(x, tick, fmt::format("{:.3g}", tick));
-    content += tick_y(y, tick, fmt::format("{:.3g}", tick));
+    content += tick_x(x, tick, fmt::format("{:g}", tick));
+    content += tick_y(y, tick, fmt::format("{:g}", tick));
   }
   content += line(x.px(0.0), y.px(0.0), x.px(most), y.px(most), "equal");
   for (const PlotMark& mark : worst_last(shown))
