@@ -24,7 +24,7 @@ LISTS = {
     "client/abi/symbols.txt":
         "Functions that the shared libraries export: of C with their types, of C++ with their names.",
     "client/abi/layouts.txt":
-        "Of C: sizes of structs, offsets and sizes of members, constants, handlers. Of C++: sizes of structs.",
+        "C: sizes of structs, offsets and sizes of members, constants, handlers. C++: sizes of structs.",
     "lcmtypes/fingerprints.txt": "Fingerprints of the messages: programs with others do not understand each other.",
 }
 _NOTE = "# Compared with the build by the test client.abi; client/abi/abi.py writes it.\n"
@@ -98,7 +98,7 @@ def output_of(*command):
 
 
 def built(arguments):
-    """What the build has, by list."""
+    """Returns the lines of the build, by list."""
     declared = Declared()
     found = {file: {} for file in LISTS}
     soname, symbols = exported(arguments.c_library)
@@ -122,7 +122,7 @@ def built(arguments):
 
 
 def may_grow(key, before, now, structs):
-    """Whether a change of a struct's size is that of a struct that gets members at its end."""
+    """Returns whether a struct may change its size: it begins with `struct_size`, and gets larger."""
     name = key.removeprefix("c ")
     if "struct_size" not in structs.get(name, {}):
         return False
@@ -130,7 +130,7 @@ def may_grow(key, before, now, structs):
 
 
 def needed(key, is_added, released, now):
-    """What a difference to a release needs that has not been done, in words; or nothing."""
+    """Returns the increment of a version that a difference to a release still needs, in words; None if it needs none."""
     same_minor = released[0].rsplit(".", 1)[0] == now[0].rsplit(".", 1)[0]
     if not key.startswith("c "):
         return "a new minor version of Camway" if same_minor else None

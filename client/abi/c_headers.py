@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the headers of the C interface declare, read from their text."""
+"""The declarations in the headers of the C interface, read from their text."""
 import re
 from pathlib import Path
 
@@ -49,7 +49,7 @@ def _signature(result, parameters):
 
 def _plain(text):
     """A declaration with single blanks, its stars at the names."""
-    return " ".join(re.sub(r" *(\*+) *", r" \1", text).split())
+    return " ".join(re.sub(r"\s*(\*+)\s*", r" \1", text).split())
 
 
 def _type_of(parameter):

@@ -2,9 +2,7 @@
 #include <camway/camway.h>
 #include <camway/client.h>
 
-#include <algorithm>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "client/c/handles.h"
@@ -52,7 +50,7 @@ camway_daemon_status daemon_status_of(const DaemonStatus& from) {
   return status;
 }
 
-/// A client without a network cannot tell a bad option by its status, but by what it says.
+/// A client without a network has one status for all faults: only its text tells of a bad option.
 camway_status why_unusable(Client& client) {
   return returned(client.status(0.0).status, client.error());
 }

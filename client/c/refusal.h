@@ -9,7 +9,7 @@
 
 namespace camway::c {
 
-/// Why a function of the C interface does not do what it was called for. Thrown inside of it only.
+/// The failure of a function of the C interface: thrown inside it, and returned as its status.
 struct Refusal {
   camway_status status;
   std::string text;

@@ -49,7 +49,7 @@ void require_size(std::size_t size) {
 }
 
 /// Writes `value` into a struct of `size` bytes of the caller, as far as that goes, and zeros
-/// behind it. `struct_size` tells what was set.
+/// behind it. `struct_size` tells how many bytes were set.
 template <class T>
 void write_sized(T value, T* target, std::size_t size) {
   require(target, "the struct");

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes what C++ and Python must agree on, from the public headers of the C++ client.
+"""Writes the types on which C++ and Python must agree, from the public headers of the C++ client.
 
     generate_types.py --headers FOLDER --python _types.py --cpp described.h
 
 Each struct of the headers becomes a data class with the same members, defaults and comments, and a
 table of its members for the module in C++. Each enumeration becomes a set of strings. So Python has
-what C++ has, and a member that is added there is here as well.
+the members of C++, and a member that is added there is here as well.
 """
 import argparse
 import pathlib

@@ -85,7 +85,7 @@ def _statements(text):
         elif text.startswith("//", position):
             end = text.find("\n", position)
             line = text[position:end]
-            # A comment that is no documentation, or of what is not read, begins anew.
+            # Another comment ends the documentation before it.
             doc = doc + [line[3:]] if line.startswith("///") else []
             position = end
         elif text[position] == "#":

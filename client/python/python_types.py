@@ -15,7 +15,7 @@ ROWS = {
     "OccupancyDistance": "point x, y, z, largest distance",
     "OccupancySpherePath": "from x, y, z, to x, y, z, radius",
 }
-#: Structs that users fill: what NumPy can make an array of will do for their arrays.
+#: Structs that users fill: their arrays may be anything of which NumPy makes an array.
 _INPUTS = {"Camera", "Body", "Keyframe", "PathEnd", "PathFrame", "Orientation", "MotionLimits", "Bounds",
            "PlanRequest", "OccupancyBatch", "SceneBox", "ScenePoints", "SceneMesh", "Pose", "Segment"}
 #: Functions of the classes, which `_functions.py` has.

@@ -14,7 +14,7 @@ bool asks_for_help_tree(int argc, const char* const* argv);
 /// Returns all that `app` and its subcommands say in their help, as a line of JSON. A command has
 /// `name`, `description`, `footer`, `options` and `commands`. An option has `names` (`--scale`;
 /// empty for a positional, whose word is `word`), `form` (of its value; empty for a switch),
-/// `check` (which values it takes: "above 0", "a|b"), `description`, `default`, `group`,
+/// `check` (the values that it takes: "above 0", "a|b"), `description`, `default`, `group`,
 /// `required`, `repeats`, `needs` and `excludes`.
 std::string help_tree(const CLI::App& app);
 

@@ -154,7 +154,7 @@ class WebSocket final : public Place, public std::enable_shared_from_this<WebSoc
   beast::flat_buffer buffer_;
   bool is_open_ = false;
   bool is_writing_ = false;
-  bool closes_ = false;      ///< to be closed once what waits is sent
+  bool closes_ = false;      ///< to be closed once all waiting messages are sent
   bool is_closing_ = false;  ///< the close frame is on its way, and nothing is sent after it
 };
 

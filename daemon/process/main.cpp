@@ -46,7 +46,7 @@ int record_fault(const process::DaemonOptions& options, const std::string& reaso
   return kExitFault;
 }
 
-/// What hears of the changes of the scenes.
+/// The journals that are told of the changes of the scenes.
 class Journals {
  public:
   /// Both may be null.
@@ -74,7 +74,7 @@ void record_scenes(const scene::SceneStore& scenes, record::Recorder& recorder) 
   for (const auto& scene : scenes.list()) recorder.scene_put(*scene, {});
 }
 
-/// Records what other processes change. The journal of the store does not hear of that.
+/// Records the changes of other processes, of which the journal of the store does not hear.
 scene::SceneFollower::Changed recording_of_others(record::Recorder* recorder) {
   if (recorder == nullptr) return {};
   return [recorder](const scene::Snapshot& scene, bool is_removed) {

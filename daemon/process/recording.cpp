@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <string_view>
-#include <utility>
 
 #include "daemon/process/scene_origins.h"
 #include "daemon/process/settings/daemon_settings.h"

@@ -7,10 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "daemon/base/big_endian.h"
 #include "daemon/base/file_descriptor.h"
 
 namespace camway::record {
@@ -22,12 +25,6 @@ constexpr std::size_t kHeaderBytes = 28;
 constexpr std::uint64_t kMaxChannelBytes = 1024;
 /// Bytes that are read at a time. Messages that are not wanted and longer are not read at all.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
-
-std::uint64_t big_endian(const std::uint8_t* bytes, int count) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
-  return value;
-}
 
 void append_big_endian(std::uint64_t value, int count, std::vector<std::uint8_t>& bytes) {
   for (int i = count - 1; i >= 0; --i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
@@ -92,13 +89,16 @@ class LogReader {
     if (source_.left() < kHeaderBytes) {
       return damaged("the log breaks off inside the head of the event");
     }
-    std::uint8_t head[kHeaderBytes];
+    std::array<std::uint8_t, kHeaderBytes> head;
+    const auto number_at = [&](std::size_t offset, std::size_t count) {
+      return base::big_endian(std::span(head).subspan(offset, count));
+    };
     const std::uint64_t left = source_.left();
-    if (!source_.read(head, kHeaderBytes)) return damaged("the file cannot be read");
-    if (big_endian(head, 4) != kSyncWord) return damaged("there is no event here");
+    if (!source_.read(head.data(), kHeaderBytes)) return damaged("the file cannot be read");
+    if (number_at(0, 4) != kSyncWord) return damaged("there is no event here");
     // A negative length becomes a huge one and fails the same checks.
-    const std::uint64_t channel_bytes = big_endian(&head[20], 4);
-    const std::uint64_t data_bytes = big_endian(&head[24], 4);
+    const std::uint64_t channel_bytes = number_at(20, 4);
+    const std::uint64_t data_bytes = number_at(24, 4);
     if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxLogDataBytes) {
       return damaged(
           fmt::format("impossible lengths (channel {}, data {} bytes)", channel_bytes, data_bytes));
@@ -114,8 +114,8 @@ class LogReader {
       return true;
     }
     LogEvent& event = wanted.emplace();
-    event.number = static_cast<std::int64_t>(big_endian(&head[4], 8));
-    event.utime = static_cast<std::int64_t>(big_endian(&head[12], 8));
+    event.number = static_cast<std::int64_t>(number_at(4, 8));
+    event.utime = static_cast<std::int64_t>(number_at(12, 8));
     event.channel = channel_;
     event.data.resize(data_bytes);
     return read(event.data) || damaged("the file cannot be read");

@@ -27,9 +27,9 @@ constexpr char kNameBegin[] = "camway-";
 constexpr char kTimeForm[] = "%Y%m%dT%H%M%SZ";
 
 /// Names sort by the time when their files were begun.
-std::string file_name(Clock::time_point begun, const std::string& session, std::uint64_t part) {
+std::string file_name(Clock::time_point begun, const std::string& recording, std::uint64_t part) {
   return fmt::format("{}{:%Y%m%dT%H%M%SZ}-{}-{:04}{}", kNameBegin,
-                     fmt::gmtime(Clock::to_time_t(begun)), session, part, kLogEnding);
+                     fmt::gmtime(Clock::to_time_t(begun)), recording, part, kLogEnding);
 }
 
 /// Returns when a file was begun; nothing for a file that no recorder has written.
@@ -62,10 +62,10 @@ std::uint64_t size_of(const fs::path& file) {
 
 }  // namespace
 
-LogFiles::LogFiles(fs::path folder, std::string session, const RecordLimits& limits,
+LogFiles::LogFiles(fs::path folder, std::string recording, const RecordLimits& limits,
                    base::FileDescriptor lock)
     : folder_(std::move(folder)),
-      session_(std::move(session)),
+      recording_(std::move(recording)),
       limits_(limits),
       lock_(std::move(lock)),
       blobs_(folder_ / kBlobFolder),
@@ -73,7 +73,7 @@ LogFiles::LogFiles(fs::path folder, std::string session, const RecordLimits& lim
   for (const fs::path& file : files_in(folder_)) all_bytes_ += size_of(file);
 }
 
-base::Result<LogFiles> LogFiles::open(const fs::path& folder, std::string session,
+base::Result<LogFiles> LogFiles::open(const fs::path& folder, std::string recording,
                                       const RecordLimits& limits) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -88,7 +88,7 @@ base::Result<LogFiles> LogFiles::open(const fs::path& folder, std::string sessio
   if (flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
     return base::Failure{folder.string() + ": another daemon records into it"};
   }
-  return LogFiles(folder, std::move(session), limits, std::move(lock));
+  return LogFiles(folder, std::move(recording), limits, std::move(lock));
 }
 
 bool LogFiles::is_over(std::size_t waiting_bytes) const {
@@ -97,7 +97,7 @@ bool LogFiles::is_over(std::size_t waiting_bytes) const {
 }
 
 AppendResult LogFiles::begin_next() {
-  const fs::path file = folder_ / file_name(Clock::now(), session_, part_ + 1);
+  const fs::path file = folder_ / file_name(Clock::now(), recording_, part_ + 1);
   constexpr mode_t kMode = S_IRUSR | S_IWUSR | S_IRGRP;
   base::FileDescriptor fd(
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, kMode));
@@ -115,7 +115,7 @@ AppendResult LogFiles::append(std::span<const std::uint8_t> events) {
     return {AppendFault::kFull, folder_.string() + ": has reached record.most_bytes"};
   }
   if (const int why = write_all(fd_->get(), events.data(), events.size()); why != 0) {
-    // A part of an event would end the reading of all that follow.
+    // A torn event would end the reading of the file, with all events behind it.
     if (ftruncate(fd_->get(), static_cast<off_t>(file_bytes_)) != 0) fd_.reset();
     return append_result(file_, why);
   }
@@ -150,7 +150,8 @@ bool LogFiles::remove_oldest() {
   const std::uint64_t size = size_of(*oldest);
   if (unlink(oldest->c_str()) != 0) return false;
   all_bytes_ -= std::min(all_bytes_, size);
-  // Each file marks what it needs when it begins, and then whatever it comes to need.
+  // A file marks a blob as used when it begins or when a change needs it, so no remaining file
+  // needs a blob that was last used before the first of them began.
   std::optional<Clock::time_point> first;
   for (const fs::path& file : files) {
     if (file == *oldest) continue;

@@ -23,11 +23,11 @@ inline constexpr char kBlobFolder[] = "blobs";
 
 /// The size of a recording.
 struct RecordLimits {
-  /// A file that is as large, or as old, is followed by the next.
+  /// Size and age at which a file ends and the next one begins.
   std::size_t file_bytes = std::size_t{256} << 20;
   std::chrono::milliseconds file_time{3'600'000};
-  /// Limit of all files and blobs. The oldest files, and the blobs that no other needs, are removed
-  /// where it would be exceeded.
+  /// Limit of all files and blobs together. Before it is exceeded, the oldest files are removed,
+  /// and the blobs that no other file needs.
   std::size_t most_bytes = std::size_t{8} << 30;
 };
 
@@ -37,11 +37,11 @@ class LogFiles {
  public:
   /// Makes the folder, and locks it. Fails if it cannot be written, or if another process records
   /// into it.
-  static base::Result<LogFiles> open(const std::filesystem::path& folder, std::string session,
+  static base::Result<LogFiles> open(const std::filesystem::path& folder, std::string recording,
                                      const RecordLimits& limits);
 
-  /// Whether the present file is too old, or too large with the bytes that wait to be appended, or
-  /// there is none.
+  /// Returns whether the present file is too old, or too large with the bytes that wait to be
+  /// appended, or there is none.
   [[nodiscard]] bool is_over(std::size_t waiting_bytes = 0) const;
   /// Begins the next file.
   scene::AppendResult begin_next();
@@ -60,7 +60,7 @@ class LogFiles {
  private:
   using Steady = std::chrono::steady_clock;
 
-  LogFiles(std::filesystem::path folder, std::string session, const RecordLimits& limits,
+  LogFiles(std::filesystem::path folder, std::string recording, const RecordLimits& limits,
            base::FileDescriptor lock);
 
   /// Removes old files until there is room. Returns false if there is none.
@@ -68,7 +68,7 @@ class LogFiles {
   bool remove_oldest();
 
   std::filesystem::path folder_;
-  std::string session_;
+  std::string recording_;
   RecordLimits limits_;
   base::FileDescriptor lock_;
   BlobFolder blobs_;

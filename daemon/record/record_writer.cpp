@@ -23,12 +23,12 @@ constexpr service::LimitedLog::Limits kWarnings{0.05, 5.0};
 
 }  // namespace
 
-RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::string session,
+RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::string recording,
                            LogFiles files, const std::shared_ptr<service::Log>& log)
     : prefix_(prefix),
       channel_(session_channel(prefix)),
       facts_(std::move(facts)),
-      session_(std::move(session)),
+      recording_(std::move(recording)),
       log_(log),
       warnings_(log, service::LogLevel::kWarn, "recording", kWarnings),
       files_(std::move(files)),
@@ -47,7 +47,8 @@ void RecordWriter::write(const RecordedMessage& message) {
 }
 
 void RecordWriter::write(const ChangedScene& change) {
-  // The next file, or what follows a gap, begins with all scenes as they were before this change.
+  // The next file, or what follows an omission, begins with all scenes as they were before this
+  // change.
   const bool ready = is_ready();
   if (ready) keep(change);
   if (change.kind == ChangedScene::Kind::kRemove) {
@@ -82,13 +83,13 @@ void RecordWriter::keep(const ChangedScene& change) {
   ++changes_;
 }
 
-void RecordWriter::skip(const Gap& gap, const SceneMap& scenes) {
+void RecordWriter::skip(const Omission& omission, const SceneMap& scenes) {
   flush();
   warnings_.write("not all is recorded: the disk is too slow",
-                  {{"messages", gap.messages}, {"changes", gap.changes}});
-  note_gap(gap);
+                  {{"messages", omission.messages}, {"changes", omission.changes}});
+  note_omission(omission);
   // The changes that were left out are in the scenes only.
-  if (gap.changes > 0) scenes_ = scenes;
+  if (omission.changes > 0) scenes_ = scenes;
 }
 
 void RecordWriter::flush() { write_events(); }
@@ -96,7 +97,7 @@ void RecordWriter::flush() { write_events(); }
 void RecordWriter::finish() {
   flush();
   retry_at_ = {};
-  if (gap_) is_ready();
+  if (omission_) is_ready();
   warnings_.report_suppressed();
 }
 
@@ -105,8 +106,8 @@ RecordCounts RecordWriter::counts() const {
 }
 
 bool RecordWriter::is_ready() {
-  if (gap_ && Steady::now() < retry_at_) return false;
-  if (!gap_ && has_begun_ && !files_.is_over(events_.size())) return true;
+  if (omission_ && Steady::now() < retry_at_) return false;
+  if (!omission_ && has_begun_ && !files_.is_over(events_.size())) return true;
   if (!write_events()) return false;
   if (files_.is_over()) {
     if (const AppendResult done = files_.begin_next(); done.fault != AppendFault::kNone) {
@@ -119,15 +120,15 @@ bool RecordWriter::is_ready() {
   }
   if (!begin_events() || !write_events()) return false;
   has_begun_ = true;
-  gap_.reset();
+  omission_.reset();
   if (is_failing_.exchange(false)) log_->info("the recording goes on");
   return true;
 }
 
 bool RecordWriter::begin_events() {
-  if (!has_begun_) add(FileBegin{session_, files_.part(), facts_.version, facts_.settings});
-  if (gap_) add(*gap_);
-  if (has_begun_ && !(gap_ && gap_->changes > 0)) return true;
+  if (!has_begun_) add(FileBegin{recording_, files_.part(), facts_.version, facts_.settings});
+  if (omission_) add(*omission_);
+  if (has_begun_ && !(omission_ && omission_->changes > 0)) return true;
   if (!has_begun_) updates_.begin_file();
   for (const auto& [name, scene] : scenes_) {
     digest_ = scene->digest;
@@ -167,20 +168,20 @@ bool RecordWriter::write_events() {
   return false;
 }
 
-void RecordWriter::note_gap(const Gap& gap) {
-  if (!gap_) {
-    gap_ = gap;
+void RecordWriter::note_omission(const Omission& omission) {
+  if (!omission_) {
+    omission_ = omission;
     return;
   }
-  gap_->from_utime = std::min(gap_->from_utime, gap.from_utime);
-  gap_->to_utime = std::max(gap_->to_utime, gap.to_utime);
-  gap_->messages += gap.messages;
-  gap_->changes += gap.changes;
+  omission_->from_utime = std::min(omission_->from_utime, omission.from_utime);
+  omission_->to_utime = std::max(omission_->to_utime, omission.to_utime);
+  omission_->messages += omission.messages;
+  omission_->changes += omission.changes;
 }
 
 void RecordWriter::lose(std::uint64_t messages, std::uint64_t changes, std::int64_t utime) {
   lost_ += messages + changes;
-  note_gap({utime, std::max(utime, wire::utime_now()), messages, changes, fault_});
+  note_omission({utime, std::max(utime, wire::utime_now()), messages, changes, fault_});
 }
 
 void RecordWriter::fail(const AppendResult& why) {
@@ -189,7 +190,7 @@ void RecordWriter::fail(const AppendResult& why) {
   if (!is_failing_.exchange(true)) {
     warnings_.write("not all is recorded", {{"reason", why.error}});
   }
-  note_gap({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
+  note_omission({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
 }
 
 }  // namespace camway::record

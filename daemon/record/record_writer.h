@@ -21,26 +21,26 @@
 
 namespace camway::record {
 
-/// Writes the events of a recording. Where that fails, tries again after a while, and then writes
-/// what is missing.
+/// Writes the events of a recording. After a failed write it tries again a while later, and records
+/// the omission.
 /// Not thread-safe, but for `counts`: for the thread that writes.
 class RecordWriter {
  public:
   using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
 
-  RecordWriter(const std::string& prefix, RecordFacts facts, std::string session, LogFiles files,
+  RecordWriter(const std::string& prefix, RecordFacts facts, std::string recording, LogFiles files,
                const std::shared_ptr<service::Log>& log);
 
   void write(const RecordedMessage& message);
   void write(const ChangedScene& change);
-  /// Takes note of events that were left out after all others, and of the scenes after them.
-  void skip(const Gap& gap, const SceneMap& scenes);
+  /// Records an omission after all events so far, and the scenes as they are after it.
+  void skip(const Omission& omission, const SceneMap& scenes);
   /// Writes all events to the disk, as far as that is possible.
   void flush();
-  /// Does the same, and writes what is missing.
+  /// Flushes, and records an omission that is still open.
   void finish();
 
-  /// Thread-safe. Without what was left out for want of time.
+  /// Returns the counts without events that never reached the writer (`skip`). Thread-safe.
   [[nodiscard]] RecordCounts counts() const;
 
  private:
@@ -49,7 +49,7 @@ class RecordWriter {
   /// Makes the files ready for another event: begins the next one, or tries again after a failure.
   /// Returns false if that is not possible now.
   bool is_ready();
-  /// Adds what stands at the beginning of a file, and after a gap.
+  /// Adds the events at the beginning of a file and after an omission.
   bool begin_events();
   void keep(const ChangedScene& change);
   void add(const SessionEvent& event);
@@ -58,28 +58,28 @@ class RecordWriter {
   bool write_events();
   /// Counts events that are not recorded since `fail`; the first one is of this time.
   void lose(std::uint64_t messages, std::uint64_t changes, std::int64_t utime);
-  void note_gap(const Gap& gap);
-  /// Takes note of a failed write, after which nothing is written for a while.
+  void note_omission(const Omission& omission);
+  /// Handles a failed write, after which nothing is written for a while.
   void fail(const scene::AppendResult& why);
 
   const std::string prefix_;
   const std::string channel_;
   const RecordFacts facts_;
-  const std::string session_;
+  const std::string recording_;
   const std::shared_ptr<service::Log> log_;
   service::LimitedLog warnings_;
   LogFiles files_;
   UpdateLog updates_;
   scene::DurableScenes recorded_;
-  SceneMap scenes_;     ///< as they are after what was written or lost
+  SceneMap scenes_;     ///< as they are after the last event, written or lost
   std::string digest_;  ///< of the scene that is being recorded
   std::vector<std::uint8_t> events_;
   std::uint64_t messages_ = 0;  ///< in `events_`
   std::uint64_t changes_ = 0;   ///< in `events_`
   std::int64_t first_utime_ = 0;
   std::int64_t number_ = 0;
-  bool has_begun_ = false;  ///< whether the present file has its first events
-  std::optional<Gap> gap_;  ///< what is missing since the last event
+  bool has_begun_ = false;            ///< whether the present file has its first events
+  std::optional<Omission> omission_;  ///< the omission since the last event
   Steady::time_point retry_at_{};
   std::string fault_;  ///< of the last write that failed
   std::atomic<std::uint64_t> recorded_count_ = 0;

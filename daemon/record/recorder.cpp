@@ -13,10 +13,11 @@
 namespace camway::record {
 namespace {
 
-/// What a change of a scene counts in memory, beside meshes, which the store has too.
+/// Memory that a waiting change of a scene counts as, without meshes, which the store holds too.
+/// [Units: bytes]
 constexpr std::uint64_t kBytesOfAChange = 1024;
 
-/// Returns the snapshot without what is made of its objects for planning.
+/// Returns the snapshot without mesh and trees, which are made of its objects for planning.
 std::shared_ptr<const scene::Snapshot> light(const scene::Snapshot& snapshot) {
   auto copy = std::make_shared<scene::Snapshot>();
   copy->name = snapshot.name;
@@ -27,7 +28,7 @@ std::shared_ptr<const scene::Snapshot> light(const scene::Snapshot& snapshot) {
   return copy;
 }
 
-std::string new_session() { return fmt::format("{:08x}", std::random_device()()); }
+std::string new_recording_id() { return fmt::format("{:08x}", std::random_device()()); }
 
 std::uint64_t bytes_of_item(const RecordedMessage& message) {
   return sizeof message + message.channel.size() + message.bytes.size();
@@ -41,10 +42,10 @@ std::uint64_t bytes_of_item(const ChangedScene& change) {
 base::Result<std::unique_ptr<Recorder>> Recorder::open(const RecordOptions& options,
                                                        RecordFacts facts,
                                                        std::shared_ptr<service::Log> log) {
-  const std::string session = new_session();
-  base::Result<LogFiles> files = LogFiles::open(options.folder, session, options.limits);
+  const std::string recording = new_recording_id();
+  base::Result<LogFiles> files = LogFiles::open(options.folder, recording, options.limits);
   if (!files) return base::Failure{std::move(files.error)};
-  auto writer = std::make_unique<RecordWriter>(options.prefix, std::move(facts), session,
+  auto writer = std::make_unique<RecordWriter>(options.prefix, std::move(facts), recording,
                                                *std::move(files), log);
   return std::unique_ptr<Recorder>(new Recorder(options, std::move(writer)));
 }
@@ -137,7 +138,7 @@ void Recorder::run() {
   std::deque<Item> batch;
   bool is_last = false;
   while (!is_last) {
-    Gap dropped;
+    Omission dropped;
     SceneMap scenes;
     batch.clear();
     {

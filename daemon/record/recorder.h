@@ -31,14 +31,14 @@ struct RecordOptions {
   std::filesystem::path folder;
   std::string prefix = "CAMWAY";  ///< of the daemon's channels
   RecordLimits limits;
-  /// What may wait for the disk. Where there is more, it is left out and counted.
+  /// Most that waits for the disk. Messages beyond it are left out and counted.
   std::uint64_t waiting_bytes = std::uint64_t{64} << 20;
   std::size_t waiting_changes = 4096;  ///< the same for changes of scenes
   /// Time between two writes, since many small ones would cost as much as the messages.
   std::chrono::milliseconds pause{100};
 };
 
-/// Who records: for people who look at a recording.
+/// Facts about the daemon that records, for people who look at a recording.
 struct RecordFacts {
   std::string version;
   std::map<std::string, std::string> settings;  ///< without secrets
@@ -47,7 +47,7 @@ struct RecordFacts {
 /// Numbers since the start.
 struct RecordCounts {
   std::uint64_t recorded = 0;  ///< messages and changes of scenes in files
-  std::uint64_t bytes = 0;     ///< of these events
+  std::uint64_t bytes = 0;     ///< of the recorded events
   std::uint64_t dropped = 0;   ///< left out: the disk is full, or too slow
   std::uint64_t files = 0;     ///< files that were begun
   bool is_failing = false;     ///< whether the last write failed
@@ -71,9 +71,9 @@ struct RecordedMessage {
 };
 
 /// Records the messages of a daemon and the changes of its scenes into files of a folder, which
-/// `camway replay` plans again, and which the tools of LCM read. A thread of its own writes: where
-/// the disk is full or slow, messages are left out, which the recording says, and nothing waits.
-/// Thread-safe.
+/// `camway replay` plans again, and which the tools of LCM read. A thread of its own writes, so no
+/// caller waits for the disk: where it is full or slow, messages are left out, and the recording
+/// has an `Omission` for them. Thread-safe.
 class Recorder {
  public:
   /// Fails if the folder cannot be used, with the reason. `log` gets warnings, within limits.
@@ -94,7 +94,7 @@ class Recorder {
                      const scene::SceneChanges& changes, const scene::ChangeNote& note);
   void scene_removed(const scene::Snapshot& last);
 
-  /// Writes what waits, and ends. What comes later is left out.
+  /// Writes all that waits, and ends. Later messages are left out.
   void finish();
 
   [[nodiscard]] RecordCounts counts() const;
@@ -104,9 +104,9 @@ class Recorder {
   using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
   Recorder(const RecordOptions& options, std::unique_ptr<RecordWriter> writer);
   void add(ChangedScene change);
-  /// Counts what is left out. Requires that `mutex_` is held.
+  /// Counts events that are left out. Requires that `mutex_` is held.
   void drop(std::uint64_t messages, std::uint64_t changes);
-  /// Whether so much waits that the thread must not pause. Requires that `mutex_` is held.
+  /// Returns whether so much waits that the thread must not pause. Requires that `mutex_` is held.
   [[nodiscard]] bool is_crowded() const;
   void run();
 
@@ -117,7 +117,7 @@ class Recorder {
   std::deque<Item> waiting_;
   std::uint64_t waiting_bytes_ = 0;
   std::size_t waiting_changes_ = 0;
-  Gap dropped_;  ///< since the last batch
+  Omission dropped_;  ///< since the last batch
   std::uint64_t all_dropped_ = 0;
   SceneMap scenes_;  ///< newest scenes
   bool is_finishing_ = false;

@@ -2,7 +2,6 @@
 #include "daemon/record/session_events.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "daemon/scene/log/byte_stream.h"
@@ -15,14 +14,14 @@ using scene::ByteReader;
 using scene::ByteWriter;
 
 constexpr std::uint8_t kFormat = 1;
-/// Longest texts to accept: above all that a daemon writes.
+/// Longest texts to accept; a daemon writes shorter ones. [Units: bytes]
 constexpr std::size_t kMostNameBytes = 4096;
 constexpr std::size_t kMostTextBytes = std::size_t{1} << 20;
 
 // The kind of an event is the index in the variant.
 
 void put(const FileBegin& begin, ByteWriter& writer) {
-  writer.put_text(begin.session);
+  writer.put_text(begin.recording);
   writer.put<std::uint64_t>(begin.part);
   writer.put_text(begin.version);
   writer.put_count(begin.settings.size());
@@ -33,7 +32,7 @@ void put(const FileBegin& begin, ByteWriter& writer) {
 }
 
 void get(FileBegin& begin, ByteReader& reader) {
-  begin.session = reader.get_text(kMostNameBytes);
+  begin.recording = reader.get_text(kMostNameBytes);
   begin.part = reader.get<std::uint64_t>();
   begin.version = reader.get_text(kMostNameBytes);
   constexpr std::size_t kLeastSettingBytes = 2 * sizeof(std::uint64_t);
@@ -71,20 +70,20 @@ void get(SceneUpdate& change, ByteReader& reader) {
   for (BlobId& id : update.entry.needs) reader.get_array(std::span<std::byte>(id));
 }
 
-void put(const Gap& gap, ByteWriter& writer) {
-  writer.put<std::int64_t>(gap.from_utime);
-  writer.put<std::int64_t>(gap.to_utime);
-  writer.put<std::uint64_t>(gap.messages);
-  writer.put<std::uint64_t>(gap.changes);
-  writer.put_text(gap.reason);
+void put(const Omission& omission, ByteWriter& writer) {
+  writer.put<std::int64_t>(omission.from_utime);
+  writer.put<std::int64_t>(omission.to_utime);
+  writer.put<std::uint64_t>(omission.messages);
+  writer.put<std::uint64_t>(omission.changes);
+  writer.put_text(omission.reason);
 }
 
-void get(Gap& gap, ByteReader& reader) {
-  gap.from_utime = reader.get<std::int64_t>();
-  gap.to_utime = reader.get<std::int64_t>();
-  gap.messages = reader.get<std::uint64_t>();
-  gap.changes = reader.get<std::uint64_t>();
-  gap.reason = reader.get_text(kMostTextBytes);
+void get(Omission& omission, ByteReader& reader) {
+  omission.from_utime = reader.get<std::int64_t>();
+  omission.to_utime = reader.get<std::int64_t>();
+  omission.messages = reader.get<std::uint64_t>();
+  omission.changes = reader.get<std::uint64_t>();
+  omission.reason = reader.get_text(kMostTextBytes);
 }
 
 /// Reads an event of this kind.
@@ -125,7 +124,7 @@ base::Result<SessionEvent> session_event_from(std::span<const std::uint8_t> byte
     case 1:
       return event_of<SceneUpdate>(reader);
     case 2:
-      return event_of<Gap>(reader);
+      return event_of<Omission>(reader);
     default:
       return base::Failure{"an event of the session is of an unknown kind"};
   }

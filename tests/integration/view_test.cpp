@@ -122,6 +122,52 @@ class DoorHere {
   std::unique_ptr<view::Door> door_;
 };
 
+constexpr char kTurnedBall[] =
+    R"({"name": "ball", "position": [5, 6, 7], "orientation": [0.8, 0, 0, 0.6],
+        "form": {"type": "sphere", "radius_m": 0.4}})";
+
+TEST_F(ViewDaemonTest, MovedObjectsHaveTheMeshThatTheyHad) {
+  start_daemon();
+  open_door();
+  HttpClient client = http();
+  const std::string objects = "/v1/scenes/office/objects";
+  ASSERT_EQ(client.post(objects, kTurnedBall).code, 200);
+  const auto ball = [&client] {
+    const json office = client.get("/v1/scenes/office").json();
+    for (const json& object : office.at("objects")) {
+      if (object.at("name") == "ball") return object;
+    }
+    return json();
+  };
+  const auto mesh = [&client](const json& object) {
+    return client.get("/v1/scenes/office/meshes/" + object.at("digest").get<std::string>()).body;
+  };
+  const json added = ball();
+  EXPECT_EQ(ball().at("mesh_digest"), added.at("mesh_digest"));
+  const std::string file = mesh(added);
+  json before = added;
+  for (const std::string pose : {R"({"position": [1, 2, 3]})", R"({"orientation": [0, 0, 1, 0]})",
+                                 R"({"position": [5, 6, 7], "orientation": [0.8, 0, 0, 0.6]})"}) {
+    ASSERT_EQ(client.send("PATCH", objects + "/ball", pose).code, 200);
+    const json moved = ball();
+    EXPECT_NE(moved.at("digest"), before.at("digest"));
+    EXPECT_EQ(moved.at("mesh_digest"), added.at("mesh_digest"));
+    EXPECT_TRUE(mesh(moved) == file);
+    EXPECT_TRUE(mesh(before) == file) << "who has an older list may still ask";
+    before = moved;
+  }
+  std::string twin = kTurnedBall;
+  twin.replace(twin.find("ball"), 4, "twin");
+  ASSERT_EQ(client.post(objects, twin).code, 200);
+  const json office = client.get("/v1/scenes/office").json();
+  for (const json& object : office.at("objects")) EXPECT_TRUE(object.contains("mesh_digest"));
+  std::string other = kTurnedBall;
+  other.replace(other.find("0.4"), 3, "0.3");
+  ASSERT_EQ(client.post(objects, other).code, 200);
+  EXPECT_NE(ball().at("mesh_digest"), added.at("mesh_digest"));
+  EXPECT_FALSE(mesh(ball()) == file);
+}
+
 constexpr char kTurnedCrate[] =
     R"({"name": "crate", "position": [5, 6, 7], "orientation": [0.8, 0, 0, 0.6],
         "form": {"type": "sphere", "radius_m": 0.5}})";

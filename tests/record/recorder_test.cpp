@@ -57,7 +57,7 @@ std::uint64_t bytes_below(const fs::path& folder) {
   return bytes;
 }
 
-/// What a file says.
+/// The messages and events of a file.
 struct Read {
   std::vector<std::string> messages;
   std::vector<SessionEvent> events;
@@ -88,13 +88,13 @@ std::vector<Event> all(const std::vector<SessionEvent>& events) {
   return found;
 }
 
-/// Sums up what all gaps of a folder say is missing.
-Gap missing_in(const fs::path& folder) {
-  Gap sum;
+/// Sums up the omissions of all files of a folder.
+Omission missing_in(const fs::path& folder) {
+  Omission sum;
   for (const fs::path& log : logs_of(folder)) {
-    for (const Gap& gap : all<Gap>(read(log).events)) {
-      sum.messages += gap.messages;
-      sum.changes += gap.changes;
+    for (const Omission& omission : all<Omission>(read(log).events)) {
+      sum.messages += omission.messages;
+      sum.changes += omission.changes;
     }
   }
   return sum;
@@ -173,7 +173,7 @@ TEST_F(RecorderTest, EachFileBeginsWithTheScenesAndNoMessageIsLost) {
     EXPECT_EQ(updates.front().update.entry.revision, revision);
     EXPECT_EQ(updates.front().update.entry.before, updates.front().update.entry.revision);
     revision = updates.back().update.entry.revision;
-    EXPECT_TRUE(all<Gap>(file.events).empty());
+    EXPECT_TRUE(all<Omission>(file.events).empty());
   }
   EXPECT_GT(part, 4U);
   EXPECT_EQ(heard, said);
@@ -209,7 +209,7 @@ TEST_F(RecorderTest, RemovesOldFilesAndWhatTheyAloneNeed) {
   EXPECT_EQ(read(logs.back()).messages.back().substr(0, 3), "999");
   EXPECT_GT(all<FileBegin>(read(logs.front()).events).front().part, 1U);
   EXPECT_EQ(blobs_in(recorded()), 2U) << "the larger box is gone";
-  // What the scenes of the last files need is there.
+  // The blobs that the scenes of the last file need are there.
   for (const SceneUpdate& update : all<SceneUpdate>(read(logs.back()).events)) {
     for (const scene::BlobId& id : update.update.entry.needs) {
       EXPECT_TRUE(BlobFolder(recorded() / kBlobFolder).get(id));
@@ -241,7 +241,7 @@ TEST_F(RecorderTest, SaysWhatWasLostOnAFullDiskAndGoesOn) {
   }));
   recorder->finish();
   const RecordCounts counts = recorder->counts();
-  const Gap missing = missing_in(options.folder);
+  const Omission missing = missing_in(options.folder);
   EXPECT_EQ(missing.messages + missing.changes, counts.dropped);
   EXPECT_EQ(missing.changes, 1U);
   const Read file = read(logs_of(options.folder).back());
@@ -274,7 +274,7 @@ TEST_F(RecorderTest, CountsWhatDoesNotFitTheQueue) {
   const RecordCounts counts = recorder->counts();
   EXPECT_EQ(counts.recorded + counts.dropped, kMessages + 11);
   EXPECT_GT(counts.dropped, 0U);
-  const Gap missing = missing_in(recorded());
+  const Omission missing = missing_in(recorded());
   EXPECT_EQ(missing.messages + missing.changes, counts.dropped);
   const auto updates = all<SceneUpdate>(read(logs_of(recorded()).back()).events);
   EXPECT_EQ(updates.back().digest, store.find("wall")->digest);
@@ -297,8 +297,9 @@ TEST(SessionEvents, ReadsWhatItWritesAndRefusesTheRest) {
   update.update.scene = "office";
   update.update.entry = {3, 4, {std::byte{1}, std::byte{2}}, {scene::BlobId{}}};
   update.digest = "abc";
-  const std::vector<SessionEvent> events{FileBegin{"session", 2, "build", {{"a", "b"}, {"c", ""}}},
-                                         update, Gap{1, 2, 3, 4, "full"}};
+  const std::vector<SessionEvent> events{
+      FileBegin{"recording", 2, "build", {{"a", "b"}, {"c", ""}}}, update,
+      Omission{1, 2, 3, 4, "full"}};
   for (const SessionEvent& event : events) {
     const std::vector<std::uint8_t> bytes = bytes_of(event);
     const auto again = session_event_from(bytes);

@@ -8,11 +8,9 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/answers/scene_record.h"
@@ -20,6 +18,7 @@
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/camway/review_file.h"
+#include "tools/drawing/answer_plan.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/scene_plan.h"
 #include "tools/drawing/side_by_side.h"
@@ -31,8 +30,6 @@
 namespace camway::tools {
 namespace {
 
-constexpr std::size_t kDrawnSamples = 1500;
-
 struct DrawFlags {
   SceneFlags scene;
   std::string request;
@@ -41,34 +38,6 @@ struct DrawFlags {
   std::optional<draw::SceneUp> vertical;
   bool is_side_by_side = false;
 };
-
-std::vector<motion::Keyframe> given_keyframes(const planning::PlanResult& result) {
-  std::vector<motion::Keyframe> given = result.keyframes;
-  std::erase_if(given, [](const motion::Keyframe& keyframe) {
-    return keyframe.origin == motion::KeyframeOrigin::kInserted;
-  });
-  return given;
-}
-
-draw::FloorPlan floor_plan(const DrawFlags& flags, const planning::PlanRequest& request,
-                           const planning::PlanResult& result, const scene::Mesh& mesh) {
-  draw::FloorPlan plan;
-  plan.title = std::filesystem::path(flags.response).stem().string();
-  plan.subtitle = fmt::format("{}: {}", planning::to_string(result.status), result.message);
-  plan.mesh = mesh;
-  plan.corners_C = motion::near_corners_C(request.camera);
-  plan.keyframes = result.keyframes;
-  plan.before = draw::sample(motion::interpolate(given_keyframes(result)), kDrawnSamples);
-  plan.after = draw::sample(result.path, kDrawnSamples);
-  plan.collisions = result.collisions;
-  plan.remaining_collisions = result.remaining_collisions;
-  for (const correction::Correction& correction : result.corrections) {
-    if (correction.kind == correction::CorrectionKind::kNone) continue;
-    plan.corrected.push_back({correction.t_begin_s, correction.t_end_s});
-  }
-  if (result.infeasibility) plan.barrier = draw::barrier_of(*result.infeasibility, mesh);
-  return plan;
-}
 
 draw::PictureFiles files_of(const DrawFlags& flags) {
   const std::filesystem::path picture(flags.picture);
@@ -172,7 +141,8 @@ ExitCode draw_response(const DrawFlags& flags) {
   if (std::filesystem::path(flags.picture).extension() == ".html") {
     return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
   }
-  draw::FloorPlan plan = floor_plan(flags, *request, *response, *snapshot.mesh.share());
+  draw::FloorPlan plan = draw::plan_of_answer(request->camera, *response, *snapshot.mesh.share());
+  plan.title = std::filesystem::path(flags.response).stem().string();
   plan.up = flags.vertical ? *flags.vertical
             : response->vertical_axis
                 ? *response->vertical_axis

@@ -60,7 +60,7 @@ camway_installed_library(camway_authentication_installed STATIC camway_authentic
   $<TARGET_OBJECTS:camway_wire>)
 target_link_libraries(camway_authentication_installed INTERFACE LCM::lcm PkgConfig::SODIUM)
 
-# Sets of their own, as a package may have the one without the other.
+# The targets are in sets of their own, as a package may have the one without the other.
 install(TARGETS camway_client_installed EXPORT camway-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
 install(TARGETS camway_client_shared EXPORT camway-shared-targets
@@ -73,7 +73,7 @@ foreach(set camway camway-shared camway-c camway-authentication)
   install(EXPORT ${set}-targets NAMESPACE camway:: DESTINATION ${camway_package_dir} COMPONENT client)
 endforeach()
 
-# For pkg-config. The prefix is found from the place of the file, so the files can be moved.
+# Files for pkg-config. The prefix is found from the place of the file, so the files can be moved.
 file(RELATIVE_PATH camway_prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 foreach(library client c)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/camway-${library}.pc.in ${PROJECT_BINARY_DIR}/camway-${library}.pc

@@ -1,5 +1,5 @@
-# Debian packages by CPack: `cpack --config build/release/CPackConfig.cmake`, or tools/scripts/release.sh. What is
-# installed is in CamwayInstall.cmake; here is what goes into which package. A package of a component that this
+# Debian packages by CPack: `cpack --config build/release/CPackConfig.cmake`, or tools/scripts/release.sh. CamwayInstall.cmake
+# lists the installed files; this file has the package of each. A package of a component that this
 # build does not install is left out.
 set(CAMWAY_PACKAGE_MAINTAINER "Camway maintainers <maintainers@camway.example.org>"
     CACHE STRING "Name and address of who answers for the packages")
@@ -31,8 +31,8 @@ set(CPACK_THREADS 1)  # the bytes of a package do not depend on the number of co
 set(exact "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 # camway_package(COMPONENT NAME SECTION [SHARED] [ALL] [DEPENDS ...] [RECOMMENDS ...] [SUGGESTS ...]
-#                SUMMARY ... DESCRIPTION ...): the package of a component. SHARED: its programs and libraries say
-# which packages of shared libraries it depends on. ALL: it is the same for every architecture.
+#                SUMMARY ... DESCRIPTION ...): the package of a component. SHARED: it depends on the
+# packages of the shared libraries that its programs and libraries need. ALL: it is the same for every architecture.
 macro(camway_package component name section)
   cmake_parse_arguments(arg "SHARED;ALL" "DEPENDS;RECOMMENDS;SUGGESTS;SUMMARY;DESCRIPTION" "" ${ARGN})
   string(TOUPPER ${component} upper)

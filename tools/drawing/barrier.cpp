@@ -2,7 +2,6 @@
 #include "tools/drawing/barrier.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 

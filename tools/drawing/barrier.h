@@ -9,7 +9,8 @@
 
 namespace camway::draw {
 
-/// What no motion passes: the proof of an answer that there is no path.
+/// A surface that no motion passes, and the two keyframes that it separates: the proof of an answer
+/// that there is no path.
 struct Barrier {
   scene::Mesh surface;               ///< the closed surface, or the box of a cage
   std::size_t keyframe_inside = 0;   ///< number of a given keyframe, as in messages

@@ -7,14 +7,17 @@
 #include <map>
 #include <utility>
 
+#include "daemon/base/big_endian.h"
+
 namespace camway::tools {
 namespace {
 
 constexpr std::size_t kFingerprintBytes = 8;
-/// Structs in each other: deeper ones are a type that holds itself.
+/// Deepest nesting of structs to accept: a deeper type holds itself.
 constexpr int kDeepest = 64;
-/// Elements of arrays, those of outer dimensions too, that a message may have: some for each byte,
-/// and as many that take no bytes. More, which only arrays of nothing have, would take for ever.
+/// Most elements of arrays, those of outer dimensions included, that a message may have: some for
+/// each byte, and as many that take no bytes. Only arrays of empty structs have more, and would be
+/// read for ever.
 constexpr double kElementsPerByte = 4.0;
 constexpr double kEmptyElements = 1e6;
 
@@ -93,7 +96,7 @@ class Walk {
  private:
   using Counts = std::map<std::string_view, double>;
 
-  /// Reads what the sizes of `member` from number `dimension` on count.
+  /// Reads the elements of `member`, from the size with the number `dimension` on.
   bool read_dimension(const LcmMember& member, std::size_t dimension,
                       const std::vector<Wanted>& wanted, const Counts& counts, int depth) {
     if (dimension == member.sizes.size()) return read_element(member, wanted, depth);
@@ -164,8 +167,7 @@ class Walk {
 
   bool take(const LcmMember& member, std::size_t bytes, std::uint64_t& value) {
     if (bytes > left_.size()) return fail("the message breaks off in '" + member.name + "'");
-    value = 0;
-    for (std::size_t i = 0; i < bytes; ++i) value = value << 8U | left_[i];
+    value = base::big_endian(left_.first(bytes));
     left_ = left_.subspan(bytes);
     return true;
   }
@@ -252,9 +254,7 @@ base::Result<std::vector<std::vector<double>>> LcmMessageReader::read(
 
 std::optional<std::uint64_t> lcm_fingerprint_of(std::span<const std::uint8_t> message) {
   if (message.size() < kFingerprintBytes) return std::nullopt;
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < kFingerprintBytes; ++i) value = value << 8U | message[i];
-  return value;
+  return base::big_endian(message.first(kFingerprintBytes));
 }
 
 }  // namespace camway::tools

@@ -27,7 +27,7 @@ class LcmSelector {
     std::vector<std::optional<std::uint64_t>> indices;
   };
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
-  /// Whether the numbers are whole: those of times in a unit that a type does not name.
+  /// Returns whether the numbers are of an integer type, as times in microseconds are.
   [[nodiscard]] bool is_whole() const { return is_whole_; }
 
  private:
@@ -46,7 +46,7 @@ class LcmMessageReader {
 
   /// Returns the numbers of each selector. Whole numbers above 2^53 are rounded. Fails if the
   /// message has another fingerprint, breaks off, has bytes behind its end, or a count below 0.
-  /// What it does is bounded by the size of the message, whatever the counts in it say.
+  /// Takes time and memory bounded by the size of the message, whatever the counts in it say.
   [[nodiscard]] base::Result<std::vector<std::vector<double>>> read(
       std::span<const std::uint8_t> message, std::span<const LcmSelector> selectors) const;
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 namespace camway::tools {
@@ -180,8 +179,8 @@ class TypeFileReader {
   std::string fault_;
 };
 
-/// LCM's hash: each character is added to the value before, which is shifted by a byte. Arithmetic
-/// as of a signed number, whose sign is drawn into the lower bits.
+/// LCM's hash: each character is added to the value before, which is shifted by a byte. The shift
+/// to the right is arithmetic: it repeats the sign.
 class Hash {
  public:
   void add(std::uint8_t byte) {
@@ -213,7 +212,7 @@ std::uint64_t own_hash(const LcmStruct& type) {
   return hash.value();
 }
 
-/// Most structs that one holds, each counted as often as it occurs. Types in use have tens.
+/// Most structs that a struct may hold, each counted as often as it occurs. Types in use have tens.
 constexpr std::size_t kMostNestedStructs = 10'000;
 
 /// A walk through a struct and all structs in it.

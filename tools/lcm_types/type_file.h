@@ -34,11 +34,11 @@ struct LcmStruct {
 /// Structs by name.
 using LcmTypes = std::map<std::string, LcmStruct, std::less<>>;
 
-/// Whether `type` is one of LCM's own: int8_t, ..., double, string, boolean, byte.
+/// Returns whether `type` is one of LCM's own: int8_t, ..., double, string, boolean, byte.
 bool is_lcm_primitive(std::string_view type);
 
 /// Reads the text of a `.lcm` file and adds its structs to `types`. Constants are left out. Returns
-/// what is wrong with it, with the line; empty if nothing is.
+/// its fault, with the line; empty without one.
 std::string read_lcm_types(std::string_view text, LcmTypes& types);
 
 /// Returns the 8 bytes that a message of this struct begins with, as LCM computes them of the names

@@ -5,7 +5,7 @@ _HEAD = """\
 # Completions of {name} for bash. Made from its help: do not edit.
 # shellcheck shell=bash
 
-# What may follow a command, by its path: commands and flags.
+# The commands and the flags that may follow a command, by its path.
 declare -gA _{name}_commands=(
 {commands})
 declare -gA _{name}_flags=(

@@ -36,7 +36,7 @@ def _synopsis(command):
 
 
 def _remarks(option):
-    """What a help shows beside the description: range, default, other flags."""
+    """Yields the remarks beside the description of an option: range, default, other flags."""
     if option.required and option.names:
         yield "Required."
     if option.check and not option.choices:
@@ -97,7 +97,7 @@ def _sections(command, heading=".SH"):
 
 
 def _subcommands(command):
-    """Those of `camway` have pages of their own, those below stand in the page of their command."""
+    """Yields the commands below a command: those of `camway` have pages of their own, others stand in its page."""
     yield ".SH COMMANDS"
     if " " not in command.path:
         for sub in command.commands:

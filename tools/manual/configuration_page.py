@@ -53,7 +53,7 @@ def _entry(comment, keys):
 
 
 def _scene(comment, keys):
-    """The text of [[scene]] has a line for each key."""
+    """List entries of [[scene]], whose text has a line for each key."""
     values = dict(key.split(" = ", 1) for key in keys)
     about, name = [], None
     texts = {}

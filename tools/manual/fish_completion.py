@@ -2,7 +2,7 @@
 """Completions of a program for fish: a line for each flag of each command."""
 
 _CODE = r"""
-# Whether the words before the cursor are the command of that path: `__NAME_at scene load`.
+# Tests whether the words before the cursor are the command of a path: `__NAME_at scene load`.
 function __NAME_at
     set -l path
     for word in (commandline -opc)[2..]

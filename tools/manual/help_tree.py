@@ -6,7 +6,7 @@ import json
 import re
 import subprocess
 
-# Forms of values that are names of files and of folders. Others are written by whoever calls.
+# Forms of values that are names of files and of folders.
 _FILES = {"FILE", "PATH"}
 _FOLDERS = {"DIR", "FOLDER"}
 
@@ -15,8 +15,8 @@ _FOLDERS = {"DIR", "FOLDER"}
 class Option:
     names: list          # ["-h", "--help"]; empty for a positional
     word: str            # the name of a positional
-    form: str            # of its value, "" for a switch
-    check: str           # which values it takes
+    form: str            # the form of its value; "" for a switch
+    check: str           # the values that it takes
     description: str
     default: str
     group: str
@@ -27,20 +27,20 @@ class Option:
 
     @property
     def choices(self):
-        """The words that it takes; empty if it takes others as well."""
+        """The words that the option takes; empty if it takes others as well."""
         words = self.check.split("|")
         return words if len(words) > 1 and all(re.fullmatch(r"[\w-]+", word) for word in words) else []
 
     @property
     def kind(self):
-        """Of its value: "file", "folder", "choice", "any", or "" without one."""
+        """The kind of the option's value: "file", "folder", "choice", "any"; "" without a value."""
         if self.choices:
             return "choice"
         return {"": ""}.get(self.form, "file" if self.form in _FILES else "folder" if self.form in _FOLDERS else "any")
 
     @property
     def short_description(self):
-        """Its first clause, for lists."""
+        """The first clause of the description, for lists."""
         return re.split(r"[;:.] | [(\[]", self.description)[0].strip()
 
 

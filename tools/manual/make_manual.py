@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the pages of the manual and the completions of shells, from what the programs' help says.
+"""Writes the pages of the manual and the completions of shells, from the help of the programs.
 
     make_manual.py --programs DIR --sample FILE --version V --out DIR
 

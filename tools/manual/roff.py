@@ -5,7 +5,7 @@ import re
 
 
 def escaped(text):
-    """Plain text: every character stands for itself, also for who copies from the page."""
+    """Plain text: every character stands for itself, also in a copy from the page."""
     text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("`", "\\(ga")
     return text.replace("^", "\\(ha").replace("~", "\\(ti")
 
@@ -30,7 +30,7 @@ def italic(text):
 
 
 def verbatim(lines):
-    """Lines as they are."""
+    """Lines that are set as they are."""
     return [".PP", ".nf", ".RS 4", *(line(escaped(text)) for text in lines), ".RE", ".fi"]
 
 

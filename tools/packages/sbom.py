@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes a bill of materials (SPDX 2.3, JSON) of the built programs, from what they are really made of: the
+"""Writes a bill of materials (SPDX 2.3, JSON) of the built programs, from their real parts: the
 shared libraries that the loader finds, the static libraries and the headers that the build read, and the packages
 of npm in the page of `camway view`.
 

@@ -35,7 +35,7 @@ def packed_time():
 
 
 def changelog(package, version, maintainer):
-    """The changelog that Debian wants. What changed stands in CHANGELOG.md."""
+    """Writes the changelog that Debian wants, which refers to CHANGELOG.md."""
     return (f"{package} ({version}) unstable; urgency=medium\n\n"
             f"  * Packages of Camway {version.split('-')[0]}. CHANGELOG.md in camway-doc says what changed.\n\n"
             f" -- {maintainer}  {formatdate(packed_time())}\n")
@@ -51,14 +51,14 @@ def add_documents(root, package, version, maintainer):
 
 
 def stage_daemon(root):
-    """The sample is the configuration, until somebody edits it."""
+    """Installs the sample as the configuration, until somebody edits it."""
     configuration = root / "etc/camway/camwayd.toml"
     configuration.parent.mkdir(parents=True)
     shutil.copy(root / "usr/share/camway/camwayd.toml", configuration)
 
 
 def add_sbom(root, options):
-    """The bill of materials of all packages, in the one that all others need."""
+    """Puts the bill of materials of all packages into the one that all others need."""
     made = options.build / "build.ninja"
     if not made.exists():
         return  # only Ninja knows which headers a program is made of
@@ -82,7 +82,7 @@ def programs_of(options):
 
 
 def stage_client(root):
-    """Nobody debugs the library without its sources: strip what CPack does not."""
+    """Strips the files that CPack does not, since nobody debugs the library without its sources."""
     for archive in sorted(root.rglob("*.a")):
         subprocess.run(["strip", "--strip-debug", "--enable-deterministic-archives", archive], check=True)
 
@@ -91,13 +91,13 @@ STAGES = {"daemon": stage_daemon, "client": stage_client}
 
 
 def is_program(path, root):
-    """A program, a shared object, or a script that says what runs it."""
+    """Returns whether a file is a program, a shared object, or a script with an interpreter."""
     head = path.read_bytes()[:4]
     return path.relative_to(root).parts[:2] == ("usr", "bin") or (head[:2] == b"#!" and path.stat().st_mode & 0o100)
 
 
 def settle(root):
-    """Modes and times that do not depend on who builds, and when."""
+    """Sets modes and times that do not depend on the user and the time of the build."""
     when = packed_time()
     for path in [root, *root.rglob("*")]:
         if path.is_symlink():

@@ -24,7 +24,8 @@ wanted=()
 # The bits of sines and cosines depend on the processor (the C library chooses variants), so answers are
 # compared within a tenth of a millimetre and a hundredth of a degree.
 readonly kTolerances=(--tolerance-m 1e-4 --tolerance-shift-deg 0.01)
-# Far longer than any of the requests takes, with sanitizers, too: no answer hangs on the machine.
+# The least deadline is far longer than any request takes, with sanitizers, too, so that no answer depends on
+# the speed of the machine.
 readonly kDeadline_s=600
 
 say() { printf 'golden_sessions: %s\n' "$*"; }
@@ -178,7 +179,7 @@ record_session() {
   local logger=$!
   eventually grep -qs CAMWAY_STATUS "$log.all" || fail "lcm-logger does not hear the daemon"
   ask_all "$session" "$log"
-  sleep 0.3  # the logger writes what it heard
+  sleep 0.3  # the logger writes all messages
   kill "$logger" || true
   wait "$logger" || true
   keep_planning "$log.all" "$log"

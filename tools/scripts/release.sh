@@ -33,7 +33,7 @@ done
 
 version=$(sed -n 's/^project(camway VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 readonly version
-# Whatever the user has set: times, order and modes of files do not depend on it.
+# Times, order and modes of files must not depend on settings of the user.
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH TZ=UTC LC_ALL=C.UTF-8
 umask 022
@@ -46,7 +46,7 @@ pack_sources() {
     >"$out/camway-$version.tar.gz"
 }
 
-# quietly LOG COMMAND...: shows what the command says only if it fails.
+# quietly LOG COMMAND...: shows the output of the command only if it fails.
 quietly() {
   local log=$1
   shift
@@ -57,7 +57,7 @@ has_page() {
   [[ $(<build/release/tools/view/page/embed/made/parts.json) != '[]' ]] || { say "the page was not built"; return 1; }
 }
 
-# build_packages FOLDER OUT: of the tarball, so that it is complete. `step` turns `set -e` off, so each
+# build_packages FOLDER OUT: builds the tarball, which tests that it is complete. `step` turns `set -e` off, so each
 # command is tested.
 build_packages() {
   local sources=$1/camway-$version to packed
@@ -98,7 +98,7 @@ build_again() {
   rm -rf "$again"
 }
 
-# Debian's rules. The maintainer's address and the bug that an upload closes are for who uploads.
+# Checks Debian's rules, but for the maintainer's address and the bug that an upload closes.
 run_lintian() {
   lintian --no-cfg --fail-on error "$out"/*.deb
 }

@@ -32,7 +32,7 @@ kPackages=(
   libsodium-dev
   # scenes that outlive the daemon
   libsqlite3-dev
-  # recorded sessions in one file
+  # packs of recorded sessions
   libarchive-dev
   # messages between daemons, and the log that they share; the certificates of their connections
   libnats-dev libssl-dev

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the classes of data have in common."""
+"""The base of the classes of data."""
 from __future__ import annotations
 
 import dataclasses

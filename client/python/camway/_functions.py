@@ -127,7 +127,7 @@ class RequestFunctions:
         return _native.request_from_json(read_text(file), name, folder)
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the request as a request file has it, without what is for a daemon alone. Options that have
+        """Returns the request as a request file has it, without members that are for a daemon alone. Options that have
         their default are left out. Raises InvalidRequest for a request that is wrong."""
         made: dict[str, Any] = json.loads(_native.request_to_json(self))
         return made

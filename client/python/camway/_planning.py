@@ -89,7 +89,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """What the import of the file left out or rounded, a sentence each."""
+        """Sentences about parts of the file that the import left out or rounded."""
         return self._native.warnings
 
     def __repr__(self) -> str:

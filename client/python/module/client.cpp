@@ -334,6 +334,17 @@ void add_object_calls(py::class_<NativeClient>& type) {
           },
           py::arg("scene"), py::arg("object"))
       .def(
+          "object_triangles",
+          [](NativeClient& mine, Text scene, Text digest) {
+            return mine.ask([scene = scene, digest = digest](Client& client) {
+              return client.object_triangles(scene, digest);
+            });
+          },
+          py::arg("scene"), py::arg("digest"));
+}
+
+void add_map_calls(py::class_<NativeClient>& type) {
+  type.def(
           "insert_scan",
           [](NativeClient& mine, Text scene, Text object, py::handle points_m,
              py::handle origin_m) {
@@ -358,15 +369,7 @@ void add_object_calls(py::class_<NativeClient>& type) {
               return client.export_map_to(scene, file);
             });
           },
-          py::arg("scene"), py::arg("file"))
-      .def(
-          "object_triangles",
-          [](NativeClient& mine, Text scene, Text digest) {
-            return mine.ask([scene = scene, digest = digest](Client& client) {
-              return client.object_triangles(scene, digest);
-            });
-          },
-          py::arg("scene"), py::arg("digest"));
+          py::arg("scene"), py::arg("file"));
 }
 
 }  // namespace
@@ -379,6 +382,7 @@ void add_client(py::module_& module) {
   add_plan_calls(type);
   add_scene_calls(type);
   add_object_calls(type);
+  add_map_calls(type);
   module.def(
       "latency_quantile_s",
       [](py::handle latency, double q) {

@@ -25,8 +25,7 @@ Value value_of(base::Result<Value> result) {
   return *std::move(result.value);
 }
 
-/// An answer and a path of these times need a daemon or planning to be of use, so their scene is
-/// what the document says.
+/// Reads an answer. The document has the digest of its scene, but neither name nor revision.
 PlanResponse answer_from_json(const std::string& text, const std::string& source) {
   const auto file = value_of(tools::parse_as<tools::ResponseFile>(text, source));
   return to_answer(file, {"", 0, file.scene_digest});

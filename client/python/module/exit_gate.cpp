@@ -10,8 +10,8 @@
 namespace camway::python {
 namespace {
 
-/// Longest wait for threads on their way back: in a process that was forked, those that were on
-/// their way in the other one never come.
+/// Longest wait for threads that are about to take the GIL: after a fork, threads of the parent
+/// never come.
 constexpr std::chrono::seconds kLongestWait{5};
 constexpr std::chrono::milliseconds kPause{1};
 

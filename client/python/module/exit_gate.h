@@ -3,12 +3,10 @@
 
 #include <pybind11/pybind11.h>
 
-#include <utility>
-
-/// How threads come back from C++ when the interpreter ends. Python kills a thread that takes the
-/// GIL then, by an unwinding that C++ turns into an abort. So the package closes a gate before: it
-/// waits for the threads that are on their way back, and those that come later wait for the end of
-/// the process.
+/// The exit gate keeps threads from returning out of C++ while the interpreter ends. Python kills a
+/// thread that takes the GIL then, by an unwinding that C++ turns into an abort. So the package
+/// closes the gate before: it waits for the threads that are about to take the GIL, and later
+/// threads wait for the end of the process.
 namespace camway::python {
 
 /// Counts a call of Python into C++, from its beginning to its end. For `pybind11::call_guard`.

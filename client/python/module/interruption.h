@@ -23,7 +23,7 @@ inline bool is_main_thread() {
          PyThread_get_thread_ident();
 }
 
-/// A `look` of `wait_for` that is none.
+/// The `look` of a wait that looks at nothing.
 struct NoLook {
   void operator()() const {}
 };

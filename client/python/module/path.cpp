@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "client/python/module/convert.h"

@@ -149,7 +149,7 @@ void add_scene(py::module_& module) {
             }
             return list;
           },
-          "What the import of the file left out or rounded, a sentence each.");
+          "Sentences about parts of the file that the import left out or rounded.");
   module.def(
       "set_import_program_folder",
       [](const std::string& folder) { scene::set_import_program_folder(folder); },

@@ -10,8 +10,8 @@ namespace {
 
 using geometry::Vec3;
 
-// Chosen by measurement; none changes what is proved.
-// Of the ways beyond these limits, few were cheaper when drawn.
+// These limits are measured, and none changes what is proved: few of the ways beyond them were
+// cheaper when drawn.
 constexpr double kAlike = 1.25;         // cost of another way, relative to the first
 constexpr double kLeastApart = 1.5;     // of another way from the apex of the first, in radii, ...
 constexpr double kApartOfApex = 0.7;    // ... or as a share of the apex's distance from the path

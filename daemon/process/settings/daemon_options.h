@@ -43,7 +43,7 @@ struct StateOptions {
   std::size_t most_bytes = std::size_t{16} << 30;
 };
 
-/// Where messages and changes of scenes are recorded, for `camway replay`.
+/// The recording of messages and changes of scenes, for `camway replay`.
 struct RecordingOptions {
   std::string folder;  ///< empty: nowhere
   record::RecordLimits limits;

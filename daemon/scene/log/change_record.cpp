@@ -175,6 +175,13 @@ RecordedScene recorded_scene_from(const json& value) {
 /// Records nest less deep.
 constexpr std::size_t kMostLevels = 16;
 
+// An item of CBOR (RFC 8949, section 3) begins with a byte: its kind in the upper bits, and in the
+// lower ones a number below 24, or how many bytes the number has that follows.
+constexpr unsigned kKindShift = 5;
+constexpr unsigned kNumberBits = 31;
+constexpr unsigned kOneByteFollows = 24;
+constexpr unsigned kEightBytesFollow = 27;
+
 /// Returns whether items of CBOR nest deeper than a record, or are of kinds that it has not. The
 /// JSON library calls itself for each level, so bytes of a stranger could use up the stack.
 bool nests_too_deep(const Bytes& bytes) {
@@ -182,11 +189,11 @@ bool nests_too_deep(const Bytes& bytes) {
   std::size_t at = 0;
   while (at < bytes.size()) {
     const auto first = std::to_integer<unsigned>(bytes[at++]);
-    const unsigned kind = first >> 5;
-    std::uint64_t value = first & 31;
-    if (value > 27) return true;
-    if (value >= 24) {
-      const std::size_t count = std::size_t{1} << (value - 24);
+    const unsigned kind = first >> kKindShift;
+    std::uint64_t value = first & kNumberBits;
+    if (value > kEightBytesFollow) return true;
+    if (value >= kOneByteFollows) {
+      const std::size_t count = std::size_t{1} << (value - kOneByteFollows);
       value = 0;
       for (std::size_t i = 0; i < count && at < bytes.size(); ++i) {
         value = value << 8 | std::to_integer<std::uint64_t>(bytes[at++]);

@@ -195,7 +195,7 @@ std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision,
         place_object(name, placed.source, placed.placement, options_, nullptr, stop).object;
   });
   if (stop.stop_requested()) return nullptr;
-  // Objects of a store could be placed before; a damaged record may ask for anything.
+  // Only a damaged record has objects that cannot be placed: a store placed its own before.
   if (std::ranges::find(objects, nullptr) != objects.end()) return nullptr;
   return assemble(name_, revision, std::move(objects), options_);
 }

@@ -25,7 +25,7 @@ def start_daemon(programs):
     for line in daemon.stderr:
         if "[info] ready" in line:
             break
-    # What it writes later must not fill the pipe.
+    # The pipe must not fill up with later lines.
     subprocess.Popen(["cat"], stdin=daemon.stderr, stdout=subprocess.DEVNULL)
     return daemon
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the structure of a bill of materials by the rules of SPDX 2.3, and that it names what it must.
+"""Checks the structure of a bill of materials by the rules of SPDX 2.3, and that it names the packages that it must.
 
     check_sbom.py FILE
 """

@@ -29,7 +29,7 @@ install_packages() {
   # Images for containers leave out pages and documents.
   local all="--path-include=/usr/share/*"
   if [[ $way == --apt ]]; then
-    # Beside what the packages need, what their users have: a compiler, a build system, a reader of pages.
+    # Users have more than the packages need: a compiler, a build system, a reader of pages.
     {
       apt-get -qq -y install --no-install-recommends g++ make cmake pkg-config man-db python3
       apt-get -qq -y install --no-install-recommends -o DPkg::Options::="$all" ./packages/*.deb
@@ -73,12 +73,12 @@ complete_words() {
   [[ $offered == scene ]] || fail "bash completes 'camway sc' by '$offered'"
 }
 
-# As the unit starts it, but for systemd.
+# Starts the daemon as the unit does, but without systemd.
 start_daemon() {
   step "start the daemon as $user"
   getent passwd "$user" >/dev/null || fail "there is no user $user"
   [[ -z $(find /etc/systemd/system -name 'camwayd*' 2>/dev/null) ]] || fail "the package enables the daemon"
-  # What systemd makes for CacheDirectory= and StateDirectory=.
+  # systemd makes these folders for CacheDirectory= and StateDirectory=.
   install -d -o "$user" -g "$user" -m 700 /var/cache/camway /var/lib/camway
   local command unit
   unit=$(find /lib/systemd /usr/lib/systemd -name camwayd.service | head -1)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds client/abi/abi.py to the policy: each kind of difference to a release is found, with what it needs."""
+"""Holds client/abi/abi.py to the policy: each kind of difference to a release is found, with the version that it needs."""
 import pathlib
 import sys
 import tempfile
@@ -20,7 +20,7 @@ LINES = {"c camway_f": "libcamway_c.so.1 CAMWAY_C_1.0 int32_t(void)", "c camway_
 
 class Policy(unittest.TestCase):
     def words(self, change, now=RELEASED, released=RELEASED, new=()):
-        """What is said of the lines of a release after `change`."""
+        """Returns the words about the lines of a release after `change`."""
         listed = abi.List("client/abi/none.txt")
         listed.released, listed.lines, listed.new = released, dict(LINES), set(new)
         found = {key: value for key, value in {**LINES, **change}.items() if value is not None}

@@ -131,7 +131,7 @@ TEST_F(CPlanTest, GivesAnAnswerWithoutAPathAndSaysWhy) {
   EXPECT_EQ(camway_answer_free(answer), CAMWAY_BAD_ARGUMENT);
 }
 
-/// Handlers that keep what came.
+/// Handlers that keep their arguments.
 struct Taken {
   std::atomic<int> progress = 0;
   std::atomic<int> answers = 0;

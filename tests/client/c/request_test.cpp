@@ -147,8 +147,8 @@ std::vector<std::pair<camway_body, Body>> bodies() {
   return found;
 }
 
-/// Sends requests of both clients, and compares what the daemon gets but for ids and times of
-/// sending.
+/// Sends requests of both clients, and compares the messages that the daemon gets but for ids and
+/// times of sending.
 class SentTwice {
  public:
   SentTwice() : cxx_(quick()) {

@@ -213,7 +213,7 @@ class ClientTest(unittest.TestCase):
             sphere_paths=[[15, 1.6, 10, 15, -5, 10, 0.1]])
         self.assertEqual((answer.points_occupied.dtype, answer.points_occupied.shape), (bool, (500,)))
         self.assertGreater(answer.points_occupied.sum(), 0)
-        # What holds an occupied point is occupied, and is at no distance.
+        # Boxes and spheres that hold an occupied point are occupied, and at distance 0.
         self.assertTrue(answer.boxes_occupied[answer.points_occupied].all())
         self.assertTrue((answer.distances_m[answer.points_occupied] == 0.0).all())
         self.assertTrue(((answer.distances_m <= 0.3) == answer.spheres_occupied)[answer.distances_m != 0.3].all())
@@ -298,7 +298,7 @@ class WatchTest(unittest.TestCase):
 
 
 class EndTest(unittest.TestCase):
-    """How clients end."""
+    """The end of clients, with calls and watches that are under way."""
 
     def test_pending_calls_end_with_their_client(self):
         client = camway.Client()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Classes of data: their conversion to C++ and back, JSON, and what faults of them say."""
+"""Classes of data: their conversion to C++ and back, JSON, and the texts of faults."""
 import copy
 import dataclasses
 import inspect

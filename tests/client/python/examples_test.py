@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The examples run, and print what they are for."""
+"""The examples run, and print their results."""
 import pathlib
 import subprocess
 import sys

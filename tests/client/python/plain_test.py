@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The 40 lines of docs/python-plain.md: they plan what the package plans, and join fragments and pages."""
+"""The 40 lines of docs/python-plain.md: they plan as the package does, and join fragments and pages."""
 import pathlib
 import re
 import socket

@@ -104,7 +104,7 @@ class PlanTest(unittest.TestCase):
         self.assertEqual(self.load_in_another_process(), "")
 
     def load_in_another_process(self, **environment):
-        """Returns what a process writes to standard error that reads a scene, with nothing on its PATH."""
+        """Returns the standard error of a process that reads a scene, with nothing on its PATH."""
         inherited = {name: value for name, value in os.environ.items() if name != "CAMWAY_PROGRAMS"}
         code = "import camway; camway.Scene.load(__import__('sys').argv[1], use_cache=False)"
         done = subprocess.run([sys.executable, "-B", "-c", code, str(support.SCENES / "office.obj")], text=True,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the package for Python share: scenes, requests, and a daemon."""
+"""Scenes, requests and a daemon for the tests of the package for Python."""
 import json
 import os
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The types of the package: its stubs say what is there, and the package and its examples keep to them."""
+"""The types of the package: its stubs are complete, and the package and its examples keep to them."""
 import ast
 import os
 import pathlib

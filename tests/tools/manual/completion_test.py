@@ -34,7 +34,7 @@ CASES = [
     ("camwayd --state re", {"request.json", "results/"}),
     ("camwayd --scene-roots re", {"results/"}),
 ]
-# Where a shell of its own shows more: other words of this line, which it completes as well.
+# Cases of bash alone: the other shells offer more words for these lines.
 ONLY_BASH = [
     ("camway plan --up=z", {"z-to-y"}),
     ("camway plan --request request.json re", {"request.json", "results/"}),  # takes several

@@ -18,7 +18,7 @@ SAMPLE = pathlib.Path(__file__).resolve().parents[3] / "daemon/process/camwayd.t
 
 
 def shown(page):
-    """The text of a page, and what groff warns of."""
+    """The text of a page, and the warnings of groff."""
     said = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=400n", "-K", "utf8", page], check=True,
                           text=True, capture_output=True)
     return said.stdout, said.stderr

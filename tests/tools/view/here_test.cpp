@@ -164,7 +164,7 @@ TEST_F(ViewHere, AMoveKeepsTheDigestOfTheMeshInItsOwnFrame) {
   EXPECT_NE(moved.at("digest"), crate.at("digest"));
   EXPECT_EQ(moved.at("mesh_digest"), crate.at("mesh_digest"));
   EXPECT_EQ(added("twin", "[1, 2, 3]").at("mesh_digest"), crate.at("mesh_digest"));
-  // One that takes its place is another mesh, whatever memory it lies in.
+  // An object that takes its place has another mesh, even at the same address.
   for (const char* const size : {"[1, 2, 4]", "[2, 2, 3]"}) {
     EXPECT_NE(added("crate", size).at("mesh_digest"), crate.at("mesh_digest"));
   }

@@ -4,12 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "tools/cameras/files/mcap_file.h"
 #include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/foxglove.h"
-#include "tools/cameras/files/mcap_file.h"
 #include "tools/cameras/formats/mcap_formats.h"
 
 namespace camway::tools {

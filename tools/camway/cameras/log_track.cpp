@@ -317,7 +317,7 @@ std::optional<geometry::Quat> orientation_of(const LoggedPose& pose,
   return with_other_axes(quat.normalized(), options.axes);
 }
 
-/// Adds the poses as keys. Returns what is wrong with one.
+/// Adds the poses as keys. Returns the fault of the first bad one; empty without a fault.
 std::string add_keys(const PoseCollector& collected, const LogTrackOptions& options,
                      CameraTrack& track) {
   const std::vector<LoggedPose>& poses = collected.poses();

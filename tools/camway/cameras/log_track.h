@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 2> names_of(QuaternionOrder) { return {"w
 enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 constexpr std::array<std::string_view, 4> names_of(TimeUnit) { return {"s", "ms", "us", "ns"}; }
 
-/// Where the poses of a log are. Members are named as `LcmSelector` takes them; three or four names
-/// with commas between are the components one by one.
+/// The place of the poses in a log. Members are named as `LcmSelector` takes them; three or four
+/// names with commas between are the components one by one.
 struct LogTrackOptions {
   std::string channel;             ///< empty: the only one in the log
   std::vector<std::string> types;  ///< files with the struct of its messages and those in it
@@ -34,7 +34,7 @@ struct LogTrackOptions {
   CameraAxes axes = CameraAxes::kGl;
 };
 
-/// Whether a file begins as a log of lcm-logger does.
+/// Returns whether a file begins as a log of lcm-logger does.
 bool is_event_log(const std::filesystem::path& file);
 
 /// Reads the poses on one channel of a log. A message may hold one pose or a list of them. Messages

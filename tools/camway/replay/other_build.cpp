@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -18,30 +17,10 @@
 #include "daemon/messages/text.h"
 #include "tools/camway/replay/replay_flags.h"
 #include "tools/json/json_response.h"
+#include "tools/support/scratch_folder.h"
 
 namespace camway::tools {
 namespace {
-
-/// A new folder, which the destructor removes.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string form = (std::filesystem::temp_directory_path() / "camway-replay-XXXXXX").string();
-    if (::mkdtemp(form.data()) != nullptr) path_ = form;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  /// Empty if the folder could not be made.
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 RecordedAnswer answer_of(const planning::PlanResult& result, std::string scene_digest) {
   RecordedAnswer answer;
@@ -85,10 +64,10 @@ std::vector<std::string> command_of(const ReplayFlags& flags, const std::string&
 /// Has the other build replay the log. Returns why that failed; empty on success.
 std::string take_answers_of_build(const ReplayFlags& flags,
                                   std::vector<RecordedRequest>& requests) {
-  const ScratchFolder scratch;
-  if (scratch.path().empty()) return "no temporary folder can be made";
-  const std::string responses = (scratch.path() / "responses").string();
-  const std::string output = (scratch.path() / "output").string();
+  const base::Result<ScratchFolder> folder = ScratchFolder::make("replay");
+  if (!folder) return folder.error;
+  const std::string responses = (folder->path() / "responses").string();
+  const std::string output = (folder->path() / "output").string();
   const base::Result<int> code = run_program(command_of(flags, responses), output);
   if (!code) return flags.baseline_build + ": " + code.error;
   // Its verdict does not matter: it is about the log.

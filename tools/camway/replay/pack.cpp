@@ -21,6 +21,7 @@
 #include "tools/camway/replay/scenes/session_scenes.h"
 #include "tools/camway/replay/session.h"
 #include "tools/camway/session/session_pack.h"
+#include "tools/support/scratch_folder.h"
 
 namespace camway::tools {
 namespace {
@@ -69,58 +70,40 @@ std::string add_blobs(const Session& session, const std::vector<fs::path>& folde
   return {};
 }
 
-/// A temporary folder with the scenes of plain logs, in the form of a recording.
-class ExtraScenes {
- public:
-  ExtraScenes() = default;
-  ~ExtraScenes() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
-  ExtraScenes(const ExtraScenes&) = delete;
-  ExtraScenes& operator=(const ExtraScenes&) = delete;
-
-  /// Writes the scenes, each once by its digest. Returns an error, empty on success.
-  std::string write(const std::map<std::string, std::shared_ptr<const scene::Snapshot>>& scenes,
-                    const std::string& prefix) {
-    std::string name = (fs::temp_directory_path() / "camway-pack-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) return name + ": cannot be made";
-    folder_ = name;
-    base::Result<record::LogFiles> files = record::LogFiles::open(folder_, "scenes", kAll);
-    if (!files) return files.error;
-    std::vector<std::uint8_t> events;
-    std::string digest;
-    record::UpdateLog updates(*files, [&](scene::LogUpdate update) {
-      const auto bytes = record::bytes_of(record::SceneUpdate{std::move(update), digest});
-      record::append_event(0, 0, record::session_channel(prefix), bytes, events);
-    });
-    scene::DurableScenes recorded(updates);
-    for (const auto& [each, snapshot] : scenes) {
-      digest = each;
-      const scene::Keeping kept = recorded.keep_scene(*snapshot, snapshot->revision, {});
-      if (!kept.error.empty()) return kept.error;
-    }
-    scene::AppendResult done = files->begin_next();
-    if (done.error.empty()) done = files->append(events);
-    return done.error;
-  }
-
-  [[nodiscard]] const fs::path& folder() const { return folder_; }
-
- private:
+/// Writes scenes into a folder in the form of a recording, each once by its digest. Returns an
+/// error, empty on success.
+std::string write_recording(
+    const fs::path& folder, const std::string& prefix,
+    const std::map<std::string, std::shared_ptr<const scene::Snapshot>>& scenes) {
   /// One file, however large.
-  static constexpr record::RecordLimits kAll{
+  constexpr record::RecordLimits kAll{
       .file_bytes = SIZE_MAX, .file_time = std::chrono::hours(24), .most_bytes = SIZE_MAX};
-  fs::path folder_;
-};
+  base::Result<record::LogFiles> files = record::LogFiles::open(folder, "scenes", kAll);
+  if (!files) return files.error;
+  std::vector<std::uint8_t> events;
+  std::string digest;
+  record::UpdateLog updates(*files, [&](scene::LogUpdate update) {
+    const auto bytes = record::bytes_of(record::SceneUpdate{std::move(update), digest});
+    record::append_event(0, 0, record::session_channel(prefix), bytes, events);
+  });
+  scene::DurableScenes recorded(updates);
+  for (const auto& [each, snapshot] : scenes) {
+    digest = each;
+    const scene::Keeping kept = recorded.keep_scene(*snapshot, snapshot->revision, {});
+    if (!kept.error.empty()) return kept.error;
+  }
+  scene::AppendResult done = files->begin_next();
+  if (done.error.empty()) done = files->append(events);
+  return done.error;
+}
 
-/// Returns the scenes of answers in plain logs, by their digests; says which are not to be had.
+/// Returns the scenes of answers in plain logs, by their digests. Prints those that are not found.
 std::map<std::string, std::shared_ptr<const scene::Snapshot>> scenes_of_plain_answers(
     const Session& session, ReplayScenes& sources) {
   std::map<std::string, std::shared_ptr<const scene::Snapshot>> scenes;
   std::set<std::string> said;
   for (const RecordedRequest& request : session.requests) {
-    if (!request.answer || !request.answer->session.empty()) continue;
+    if (!request.answer || !request.answer->recording.empty()) continue;
     const std::string& digest = request.answer->scene_digest;
     if (digest.empty() || scenes.contains(digest)) continue;
     FoundScene found = sources.snapshot_of(request);
@@ -147,14 +130,20 @@ std::string member_name(const fs::path& log, std::size_t index, bool is_one_of_m
   return name;
 }
 
-/// Adds the scenes that plain logs need as another log. Returns an error, empty on success.
+/// Adds the scenes that plain logs need as another log, in a folder that `extra` keeps. Returns an
+/// error, empty on success.
 std::string add_extra_scenes(const Session& session, ReplayScenes& sources,
-                             const std::string& prefix, ExtraScenes& extra,
+                             const std::string& prefix, std::optional<ScratchFolder>& extra,
                              std::map<std::string, fs::path>& members) {
   const auto scenes = scenes_of_plain_answers(session, sources);
   if (scenes.empty()) return {};
-  if (std::string fault = extra.write(scenes, prefix); !fault.empty()) return fault;
-  const base::Result<SessionFiles> written = SessionFiles::open(extra.folder());
+  base::Result<ScratchFolder> folder = ScratchFolder::make("pack");
+  if (!folder) return folder.error;
+  extra.emplace(*std::move(folder));
+  if (std::string fault = write_recording(extra->path(), prefix, scenes); !fault.empty()) {
+    return fault;
+  }
+  const base::Result<SessionFiles> written = SessionFiles::open(extra->path());
   if (!written) return written.error;
   for (const fs::path& log : written->logs()) members["scenes" + log.filename().string()] = log;
   return add_blobs(read_session(written->logs(), prefix), blob_folders_of(written->logs()),
@@ -197,7 +186,7 @@ ExitCode run_pack(const PackFlags& flags) {
   }
   auto sources = open_scene_sources(flags.sources, session, *files, flags.prefix, keys.keys.get());
   if (!sources) return wrong_input(sources.error);
-  ExtraScenes extra;
+  std::optional<ScratchFolder> extra;
   if (const std::string fault = add_extra_scenes(session, **sources, flags.prefix, extra, members);
       !fault.empty()) {
     return wrong_input(fault);
@@ -213,7 +202,7 @@ void add_pack_command(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("pack", "Pack a recorded session with its scenes into one file");
   command
       ->add_option("SESSION", flags->sessions,
-                   "What was recorded: folders or files of camwayd --record, or logs of lcm-logger")
+                   "Folders or files of camwayd --record, or logs of lcm-logger")
       ->required();
   command->add_option("-o,--output", flags->output, "File to write, NAME.camway-session")
       ->required()
@@ -225,7 +214,7 @@ void add_pack_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("FILE");
   add_scene_source_flags(*command, flags->sources);
   command->footer(exit_code_help("") +
-                  "\nThe file holds everything that was said, in clear, and the scenes."
+                  "\nThe file holds all messages and scenes in clear."
                   "\nExample: camway pack session.lcmlog --scene office=scenes/office.obj -o "
                   "bug.camway-session");
   command->callback([flags, &exit_code] { exit_code = run_pack(*flags); });
@@ -237,12 +226,12 @@ void add_unpack_command(CLI::App& app, ExitCode& exit_code) {
     std::string folder;
   };
   const auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand(
-      "unpack", "Unpack a session into a folder, after having checked all of it");
+  CLI::App* command =
+      app.add_subcommand("unpack", "Check a packed session, and unpack it into a folder");
   command->add_option("FILE", flags->pack, "File of camway pack")->required();
   command->add_option("DIR", flags->folder, "Folder to make")->required();
   command->footer(exit_code_help("") +
-                  "\nIf anything is missing or damaged, says what, and leaves nothing."
+                  "\nIf a member is missing or damaged, names it, and leaves nothing."
                   "\nExample: camway unpack bug.camway-session bug");
   command->callback([flags, &exit_code] {
     const std::string fault = unpack(flags->pack, flags->folder);

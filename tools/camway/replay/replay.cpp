@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <set>
-#include <utility>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"

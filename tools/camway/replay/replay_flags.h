@@ -57,13 +57,13 @@ std::optional<OpenedSession> open_session(const std::string& log, const ReplayFl
 /// Returns the notes of a report about a session, that on unwanted requests included.
 std::vector<std::string> notes_about(const Session& session, const std::string& whose = {});
 
-/// Opens the scenes that the flags name, which go before what was recorded, and those of the
+/// Opens the scenes that the flags name, which go before recorded ones, and those of the
 /// session. On an error, prints it and returns null. `opened` must outlive the result; `keys` may
 /// be null.
 std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags,
                                           const wire::MessageKeys* keys);
 
-/// Opens them, and checks that they are all that the session needs.
+/// Opens the scenes as `open_scenes` does. Fails as well if the session needs one more.
 std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
                                                  const ReplayFlags& flags,
                                                  const wire::MessageKeys* keys);
@@ -71,8 +71,8 @@ std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
 /// Returns the scenes as pictures take them. `scenes` must outlive the result.
 SceneOf scene_of(ReplayScenes& scenes);
 
-/// The commands: plan the recorded requests again and compare; the same one by one; compare two
-/// logs; compare with another build. `keys` may be null.
+/// The commands: plan the recorded requests again and compare; do so one by one; compare two logs;
+/// compare with another build. `keys` may be null.
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys);
 ExitCode replay_by_steps(const ReplayFlags& flags, const wire::MessageKeys* keys);
 ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys);

@@ -85,12 +85,12 @@ class SessionBuilder {
     if (!read) {
       ++session_.damaged_events;
     } else if (auto* const begin = std::get_if<record::FileBegin>(&*read)) {
-      recording_ = begin->session;
+      recording_ = begin->recording;
       session_.parts.push_back(std::move(*begin));
     } else if (auto* const update = std::get_if<record::SceneUpdate>(&*read)) {
       session_.updates.push_back({recording_, std::move(*update)});
     } else {
-      session_.gaps.push_back(std::get<record::Gap>(*std::move(read)));
+      session_.omissions.push_back(std::get<record::Omission>(*std::move(read)));
     }
   }
 
@@ -147,7 +147,7 @@ class SessionBuilder {
     answer.scene_digest = whole.scene_digest;
     answer.received_s = received_s_;
     answer.scene_revision = static_cast<std::uint64_t>(whole.scene_revision);
-    answer.session = recording_;
+    answer.recording = recording_;
     const bool is_result = base::value_of<planning::Status>(whole.status).has_value();
     if (is_result && wire::path_fault(whole.segments).empty()) answer.result = std::move(whole);
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);

@@ -24,8 +24,8 @@ struct RecordedAnswer {
   std::string scene_digest;          ///< digest of the scene of the answer; may be empty
   double received_s = 0.0;           ///< as of the request
   std::uint64_t scene_revision = 0;  ///< revision of that scene; 0 if there is none
-  /// Recording in which it stands (`record::FileBegin::session`); empty for a plain log.
-  std::string session;
+  /// Recording in which it stands (`record::FileBegin::recording`); empty for a plain log.
+  std::string recording;
 };
 
 /// A request of a log with its answer. Repetitions under one id are one request.
@@ -46,7 +46,7 @@ struct RecordedRequest {
 
 /// A change of a scene in a recording.
 struct RecordedUpdate {
-  std::string session;  ///< as in `RecordedAnswer`
+  std::string recording;  ///< as in `RecordedAnswer`
   record::SceneUpdate change;
 };
 
@@ -67,7 +67,7 @@ struct Session {
   // The next members are of recordings of a daemon. A plain log has none of this.
   std::vector<record::FileBegin> parts;
   std::vector<RecordedUpdate> updates;  ///< changes of scenes, in their order
-  std::vector<record::Gap> gaps;
+  std::vector<record::Omission> omissions;
   std::uint64_t damaged_events = 0;  ///< events of the session that cannot be read
 
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
@@ -79,7 +79,7 @@ struct Session {
 /// Reads the planning messages of `log` on channels with `prefix` and joins their pages. If a
 /// request has several answers, the first that is a result of planning counts. With `keys`, only
 /// messages that are signed with one of them count; without, signatures are ignored.
-/// Other channels are passed over, so that memory and most of the time hang on ours.
+/// Other channels are passed over, so they cost no memory and little time.
 Session read_session(const std::filesystem::path& log, const std::string& prefix,
                      const wire::MessageKeys* keys = nullptr);
 /// Reads the logs one after the other, as if they were one.

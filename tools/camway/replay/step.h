@@ -10,7 +10,7 @@
 
 namespace camway::tools {
 
-/// Where a person steps through a session.
+/// The terminal, and the writer of pictures, for a person who steps through a session.
 struct StepDesk {
   std::istream& in;
   std::ostream& out;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/session/session_files.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,44 +29,20 @@ std::vector<fs::path> logs_in(const fs::path& folder) {
 
 }  // namespace
 
-/// A temporary folder with an unpacked session, removed at the end.
-class SessionFiles::Unpacked {
- public:
-  /// Returns an error, empty on success.
-  std::string unpack_from(const fs::path& pack) {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "camway-session-XXXXXX").string();
-    if (error || mkdtemp(name.data()) == nullptr) return name + ": cannot be made";
-    folder_ = name;
-    return unpack(pack, sessions());
-  }
-  Unpacked() = default;
-  ~Unpacked() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
-  Unpacked(const Unpacked&) = delete;
-  Unpacked& operator=(const Unpacked&) = delete;
-
-  [[nodiscard]] fs::path sessions() const { return folder_ / "session"; }
-
- private:
-  fs::path folder_;
-};
-
 base::Result<SessionFiles> SessionFiles::open(const fs::path& session) {
   SessionFiles files;
   std::error_code error;
   fs::path folder = session;
   if (looks_like_pack(session)) {
-    const auto unpacked = std::make_shared<Unpacked>();
-    if (std::string fault = unpacked->unpack_from(session); !fault.empty()) {
+    base::Result<ScratchFolder> unpacked = ScratchFolder::make("session");
+    if (!unpacked) return base::Failure{std::move(unpacked.error)};
+    folder = unpacked->path() / "session";
+    if (std::string fault = unpack(session, folder); !fault.empty()) {
       return base::Failure{std::move(fault)};
     }
-    folder = unpacked->sessions();
-    files.unpacked_.push_back(unpacked);
+    files.unpacked_.push_back(std::make_shared<const ScratchFolder>(*std::move(unpacked)));
   } else if (!fs::is_directory(session, error)) {
-    // The reader of logs says what is wrong with a file.
+    // The reader of logs reports the fault of a file.
     files.logs_.push_back(session);
     return files;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/base/result.h"
+#include "tools/support/scratch_folder.h"
 
 namespace camway::tools {
 
@@ -23,10 +24,8 @@ class SessionFiles {
   [[nodiscard]] const std::vector<std::filesystem::path>& logs() const { return logs_; }
 
  private:
-  class Unpacked;
-
   std::vector<std::filesystem::path> logs_;
-  std::vector<std::shared_ptr<const Unpacked>> unpacked_;  ///< temporary folders of `logs_`
+  std::vector<std::shared_ptr<const ScratchFolder>> unpacked_;  ///< temporary folders of `logs_`
 };
 
 }  // namespace camway::tools

@@ -26,10 +26,10 @@ std::string write_pack(const std::filesystem::path& pack, const std::vector<Pack
 /// Returns an error, empty on success. Requires that `folder` does not exist.
 std::string unpack(const std::filesystem::path& pack, const std::filesystem::path& folder);
 
-/// Whether a pack may have a member of this name: no path leads out of the folder.
+/// Returns whether a pack may have a member of this name: no path leads out of the folder.
 bool is_pack_name(const std::string& name);
 
-/// Whether a file begins as a pack does.
+/// Returns whether a file begins as a pack does.
 bool looks_like_pack(const std::filesystem::path& file);
 
 }  // namespace camway::tools

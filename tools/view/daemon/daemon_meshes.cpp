@@ -2,8 +2,10 @@
 #include "tools/view/daemon/daemon_meshes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,9 @@ namespace {
 
 /// Memory of the objects that are kept.
 constexpr std::uint64_t kMostKeptBytes = std::uint64_t{512} << 20;
+
+/// Objects whose descriptions are remembered; beyond that many, all are forgotten.
+constexpr std::size_t kMostDescribed = 100'000;
 
 /// The number of times that a scene is listed again because it changed meanwhile.
 constexpr int kMostListings = 4;
@@ -48,6 +53,13 @@ scene::Placement placement_of(const Pose& pose) {
   return scene::Placement::of_unit({x, y, z}, turn);
 }
 
+/// Triangles in the world and a pose have one mesh in the frame of the object.
+std::string name_of_mesh(const SceneObject& object) {
+  const auto& [position, turn] = object.pose;
+  return scene::text_digest({object.digest, fmt::format("{}", fmt::join(position, " ")),
+                             fmt::format("{}", fmt::join(turn, " "))});
+}
+
 RebuiltScene failed_scene(int code, std::string error) {
   return {nullptr, false, code, std::move(error)};
 }
@@ -56,7 +68,8 @@ RebuiltScene failed_scene(int code, std::string error) {
 
 DaemonMeshes::Fetched DaemonMeshes::find(const std::string& digest) {
   const std::lock_guard lock(mutex_);
-  const auto found = std::ranges::find(kept_, digest, &Kept::digest);
+  const auto found =
+      std::ranges::find_if(kept_, [&](const Kept& kept) { return kept.has(digest); });
   if (found == kept_.end()) return {};
   kept_.splice(kept_.begin(), kept_, found);
   return found->object;
@@ -65,12 +78,55 @@ DaemonMeshes::Fetched DaemonMeshes::find(const std::string& digest) {
 void DaemonMeshes::keep(const std::string& digest, const Fetched& object) {
   const std::lock_guard lock(mutex_);
   if (std::ranges::find(kept_, digest, &Kept::digest) != kept_.end()) return;
-  kept_.push_front({digest, object});
+  kept_.push_front({digest, {}, object});
   bytes_ += object.source->memory_bytes();
   while (bytes_ > kMostKeptBytes && !kept_.empty()) {
     bytes_ -= kept_.back().object.source->memory_bytes();
     kept_.pop_back();
   }
+}
+
+void DaemonMeshes::rename(const std::string& digest_before, const std::string& digest) {
+  const std::lock_guard lock(mutex_);
+  for (Kept& kept : kept_) {
+    if (!kept.has(digest_before) || kept.digest == digest) continue;
+    kept.digest_before = std::exchange(kept.digest, digest);
+    return;
+  }
+}
+
+bool DaemonMeshes::is_moved(const std::string& digest_before, const SceneInfo& scene,
+                            const SceneObject& object) {
+  const Fetched known = find(digest_before);
+  if (!known.source || known.has_inside) return false;
+  const auto triangles = known.source->parts_O.front().mesh->triangles.size();
+  if (static_cast<std::int64_t>(triangles) != object.num_triangles) return false;
+  const scene::ObjectResult placed =
+      scene::place_object(object.name, known.source, placement_of(object.pose), options_of(scene));
+  if (!placed.object || placed.object->digest != object.digest) return false;
+  rename(digest_before, object.digest);
+  return true;
+}
+
+std::string DaemonMeshes::mesh_digest(const SceneInfo& scene, const SceneObject& object) {
+  if (object.kind == scene::to_string(scene::ObjectKind::kMap)) return {};
+  const std::pair key(scene.name, object.name);
+  Described before;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = described_.find(key); found != described_.end()) before = found->second;
+  }
+  const bool is_same = before.digest == object.digest &&
+                       before.pose.position_m == object.pose.position_m &&
+                       before.pose.orientation_wxyz == object.pose.orientation_wxyz;
+  if (is_same) return before.mesh_digest;
+  Described now{object.digest, object.pose, {}};
+  now.mesh_digest =
+      is_moved(before.digest, scene, object) ? before.mesh_digest : name_of_mesh(object);
+  const std::lock_guard lock(mutex_);
+  if (described_.size() >= kMostDescribed) described_.clear();
+  described_.insert_or_assign(key, now);
+  return now.mesh_digest;
 }
 
 DaemonMeshes::Fetched DaemonMeshes::fetch(const std::string& scene, const std::string& digest) {

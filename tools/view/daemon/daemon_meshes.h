@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/view/backend.h"
@@ -39,6 +40,11 @@ class DaemonMeshes {
   /// Returns whether the mesh of the object with this digest is here.
   [[nodiscard]] bool keeps(const std::string& digest) { return find(digest).source != nullptr; }
 
+  /// Returns a name of the mesh of an object in its own frame, as the object is described now.
+  /// Moves do not change it if the mesh was here before the move: then the daemon's digest proves
+  /// that it is the same one, which is kept under the new digest. Empty for occupancy maps.
+  std::string mesh_digest(const SceneInfo& scene, const SceneObject& object);
+
   /// Returns a scene as it is now, with all of its objects where they are. Its digest, and those of
   /// its objects, are checked against the daemon's.
   RebuiltScene rebuilt(const std::string& scene);
@@ -56,18 +62,33 @@ class DaemonMeshes {
   };
   struct Kept {
     std::string digest;
+    std::string digest_before;  ///< before the last move, which may still be asked for
     Fetched object;
+    [[nodiscard]] bool has(const std::string& asked) const {
+      return !asked.empty() && (digest == asked || digest_before == asked);
+    }
+  };
+  /// An object as it was described last.
+  struct Described {
+    std::string digest;
+    Pose pose;
+    std::string mesh_digest;
   };
 
   Fetched fetch(const std::string& scene, const std::string& digest);
   [[nodiscard]] Fetched find(const std::string& digest);
   void keep(const std::string& digest, const Fetched& object);
+  /// Returns whether an object is the one that had another digest, in another place.
+  bool is_moved(const std::string& digest_before, const SceneInfo& scene,
+                const SceneObject& object);
+  void rename(const std::string& digest_before, const std::string& digest);
   RebuiltScene rebuild(const SceneAnswer& described, bool& is_outdated);
 
   Client& client_;
   mutable std::mutex mutex_;  ///< guards what is below
   std::list<Kept> kept_;      ///< the one asked for last first
   std::uint64_t bytes_ = 0;
+  std::map<std::pair<std::string, std::string>, Described> described_;  ///< by scene and object
   RebuiltScene last_;
 };
 

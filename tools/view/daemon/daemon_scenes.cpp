@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -145,7 +144,7 @@ std::vector<SceneFacts> facts_of(const std::vector<SceneInfo>& scenes) {
   return facts;
 }
 
-Answer ask_daemon_scene(Client& client, const SceneOrder& order) {
+Answer ask_daemon_scene(Client& client, const SceneOrder& order, const MeshDigestOf& mesh_digest) {
   const SceneAnswer answer = call_daemon(client, order);
   if (!answer.ok()) {
     // An object that is not there is an invalid request to the daemon, and a place that is not
@@ -158,7 +157,10 @@ Answer ask_daemon_scene(Client& client, const SceneOrder& order) {
   }
   if (order.kind == Kind::kList) return {code::kOk, scenes_json(facts_of(answer.scenes)), {}};
   std::vector<ObjectFacts> objects;
-  std::ranges::transform(answer.objects, std::back_inserter(objects), facts_of_object);
+  for (const SceneObject& object : answer.objects) {
+    objects.push_back(facts_of_object(object));
+    objects.back().mesh_digest = mesh_digest(answer.scene, object);
+  }
   return {code::kOk, objects_json(facts_of(answer.scene), objects, answer.message), {}};
 }
 

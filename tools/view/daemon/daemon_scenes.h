@@ -3,6 +3,8 @@
 
 #include <camway/client.h>
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "tools/view/answer.h"
@@ -17,7 +19,10 @@ int code_of(Status status);
 SceneFacts facts_of(const SceneInfo& scene);
 std::vector<SceneFacts> facts_of(const std::vector<SceneInfo>& scenes);
 
+/// Returns the `mesh_digest` of an object as it is described.
+using MeshDigestOf = std::function<std::string(const SceneInfo&, const SceneObject&)>;
+
 /// Has a daemon answer a question about scenes or make a change, and waits for the answer.
-Answer ask_daemon_scene(Client& client, const SceneOrder& order);
+Answer ask_daemon_scene(Client& client, const SceneOrder& order, const MeshDigestOf& mesh_digest);
 
 }  // namespace camway::view

@@ -300,7 +300,10 @@ void PlannerDaemon::stop_calls() {
 
 void PlannerDaemon::ask_scene(SceneOrder order, Done done) {
   call(callers_, std::move(done), [this, order = std::move(order)] {
-    Answer answer = ask_daemon_scene(*client_, order);
+    Answer answer = ask_daemon_scene(*client_, order,
+                                     [this](const SceneInfo& scene, const SceneObject& object) {
+                                       return meshes_->mesh_digest(scene, object);
+                                     });
     if (order.is_change() && answer.code == code::kOk) {
       // Heartbeats tell of it as well, up to a second later.
       const SceneAnswer list = client_->list_scenes();
@@ -353,7 +356,7 @@ void PlannerDaemon::mesh(std::string scene, std::string digest, MeshDone done) {
     done(std::move(*found));
   };
   run(callers_, report, [this, found, scene = std::move(scene), digest = std::move(digest)] {
-    // One that is kept here needs no daemon.
+    // A mesh that is kept here needs no daemon.
     if (heartbeats_->is_silent() && !meshes_->keeps(digest)) return no_daemon();
     *found = meshes_->mesh(scene, digest);
     return unless_silent({found->code, {}, found->error});

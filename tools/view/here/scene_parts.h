@@ -27,7 +27,7 @@ class MeshDigests {
 
  private:
   struct Kept {
-    std::weak_ptr<const scene::ObjectSource> source;  ///< its address may be another one's later
+    std::weak_ptr<const scene::ObjectSource> source;  ///< another source may have its address later
     std::string digest;
   };
   std::mutex mutex_;

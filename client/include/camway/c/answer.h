@@ -17,7 +17,7 @@ camway_status camway_answer_free(camway_answer* answer);
 camway_status camway_answer_copy(const camway_answer* answer, camway_answer** copy);
 
 typedef struct camway_answer_summary {
-  uint32_t struct_size;  ///< what the library has set
+  uint32_t struct_size;  ///< bytes that the library has set
   camway_status status;
   int32_t certified;  ///< whether the path is proved free at every instant, rounding included
   int32_t deadline_reached;  ///< whether the deadline left anything undone, whatever the status
@@ -89,8 +89,8 @@ typedef struct camway_keyframe_fault {
   camway_pose free_pose;  ///< nearest free pose that was found
 } camway_keyframe_fault;
 
-/// These write the first `capacity` items of a list, and the number of all of them into `count`.
-/// The array may be NULL if `capacity` is 0.
+/// The next functions write the first `capacity` items of a list, and the number of all into
+/// `count`. The array may be NULL if `capacity` is 0.
 camway_status camway_answer_segments(const camway_answer* answer, camway_segment* segments,
                                      size_t capacity, size_t* count);
 camway_status camway_answer_keyframes(const camway_answer* answer, camway_path_keyframe* keyframes,

@@ -42,7 +42,7 @@ const char* camway_client_id(const camway_client* client);
 
 /// The heartbeat of a daemon.
 typedef struct camway_daemon_status {
-  uint32_t struct_size;  ///< what the library has set
+  uint32_t struct_size;  ///< bytes that the library has set
   int32_t num_workers;   ///< requests that can be planned at the same time
   int32_t num_scenes;
   int32_t queued_requests;   ///< requests that wait for a worker

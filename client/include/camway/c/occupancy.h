@@ -10,7 +10,7 @@ extern "C" {
 
 // Queries of the occupancy map of a scene, `count` at a time. The map is conservative: every voxel
 // that a triangle touches is occupied, and distances are never too long. CAMWAY_NO_MAP if the scene
-// was loaded without a map. The functions wait; what they write is undefined unless they return
+// was loaded without a map. The functions wait; their results are undefined unless they return
 // CAMWAY_OK. A point is three numbers.
 
 /// Whether the voxel that holds a point is occupied: 1 or 0.

@@ -19,11 +19,11 @@ camway_status camway_plan(camway_client* client, const camway_plan_request* requ
 
 /// The progress of a request in the daemon.
 typedef struct camway_progress {
-  uint32_t struct_size;    ///< what the library has set
+  uint32_t struct_size;    ///< bytes that the library has set
   int32_t stage;           ///< CAMWAY_WAITING, ...
   int32_t requests_ahead;  ///< CAMWAY_WAITING: estimated number of requests that start earlier
   int32_t num_collisions;  ///< of the path as interpolated; 0 before CAMWAY_CORRECTING
-  int32_t num_corrected;   ///< of these
+  int32_t num_corrected;   ///< collisions that are corrected
   int32_t is_known;        ///< whether a report has come yet; if not, the other members are 0
   double since_receipt_s;  ///< time since the daemon received the request
   double deadline_s;       ///< deadline of the request, counted from its receipt
@@ -37,7 +37,7 @@ enum {
 };
 
 /// Handlers of a pending request. They run on the client's thread, so they must be quick and must
-/// not call what waits. Each may be NULL. What they are given is good until they return.
+/// not call functions that wait. Each may be NULL. Their arguments are valid until they return.
 typedef struct camway_plan_handlers {
   uint32_t struct_size;
   uint32_t reserved;  ///< 0
@@ -58,8 +58,8 @@ typedef struct camway_pending camway_pending;
 camway_status camway_plan_start(camway_client* client, const camway_plan_request* request,
                                 const camway_plan_handlers* handlers, camway_pending** pending);
 
-/// Waits for the answer, at most `timeout_s`; 0: looks. CAMWAY_NOT_READY if it is not there yet;
-/// otherwise its status, and each call gives a new handle of the answer. `answer` may be NULL.
+/// Waits for the answer, at most `timeout_s`; 0: does not wait. CAMWAY_NOT_READY if it is not there
+/// yet; otherwise its status, and each call gives a new handle of the answer. `answer` may be NULL.
 camway_status camway_pending_wait(camway_pending* pending, double timeout_s,
                                   camway_answer** answer);
 

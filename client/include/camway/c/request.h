@@ -64,7 +64,7 @@ typedef struct camway_plan_request {
   const char* scene;  ///< name of a scene that the daemon holds
   const camway_keyframe* keyframes;
   size_t num_keyframes;
-  const camway_body* body;  ///< what must not collide; NULL: the camera's near quadrilateral
+  const camway_body* body;  ///< the moving body; NULL: the camera's near quadrilateral
   double fov_x_rad;         ///< full horizontal field of view; 90 degrees
   double fov_y_rad;         ///< full vertical field of view; 60 degrees
   double near_m;            ///< distance from the eye to the near plane; 0.1
@@ -81,7 +81,7 @@ typedef struct camway_plan_request {
   double max_acceleration_m_per_s2;
   double max_turn_rate_rad_per_s;
   double bounds_min_m[3];  ///< box that the body must not leave; -infinity: no limit, the default
-  double bounds_max_m[3];  ///< likewise, infinity
+  double bounds_max_m[3];  ///< the same; infinity: no limit, the default
 
   double up[3];
   double target_m[3];

@@ -15,7 +15,7 @@ camway_status camway_scene_answer_free(camway_scene_answer* answer);
 
 /// A scene that the daemon holds.
 typedef struct camway_scene_info {
-  uint32_t struct_size;  ///< what the library has set
+  uint32_t struct_size;  ///< bytes that the library has set
   uint32_t reserved;
   const char* name;
   const char* digest;  ///< equal scenes have equal digests
@@ -28,7 +28,7 @@ typedef struct camway_scene_info {
 
 /// An object of a scene.
 typedef struct camway_object_info {
-  uint32_t struct_size;  ///< what the library has set
+  uint32_t struct_size;  ///< bytes that the library has set
   uint32_t reserved;
   const char* name;
   const char* kind;    ///< "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map"
@@ -84,8 +84,8 @@ camway_status camway_scene_load(camway_client* client, const char* scene,
 camway_status camway_scene_unload(camway_client* client, const char* scene,
                                   camway_scene_answer** answer);
 
-/// Each of these adds an object to a scene, or replaces the one of that name. NULL for `pose` is
-/// the origin of the world.
+/// Each `put` function adds an object to a scene, or replaces the one of that name. NULL for `pose`
+/// is the origin of the world.
 camway_status camway_scene_put_box(camway_client* client, const char* scene, const char* object,
                                    const double size_m[3], const camway_pose* pose,
                                    camway_scene_answer** answer);

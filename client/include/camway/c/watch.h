@@ -24,9 +24,9 @@ enum {
 
 /// An event of a path that the daemon watches.
 typedef struct camway_watch_event {
-  uint32_t struct_size;  ///< what the library has set
+  uint32_t struct_size;  ///< bytes that the library has set
   int32_t kind;          ///< CAMWAY_EVENT_ANSWER, ...; pass over kinds that you do not know
-  int64_t watch;         ///< what `camway_watch_start` gave
+  int64_t watch;         ///< the id from `camway_watch_start`
   int64_t scene_revision;
   camway_status status;  ///< CAMWAY_EVENT_LOST, CAMWAY_EVENT_ENDED: the reason; else CAMWAY_OK
   uint32_t num_broken;
@@ -35,8 +35,9 @@ typedef struct camway_watch_event {
   const camway_collision* broken;  ///< CAMWAY_EVENT_BROKEN: all collisions, without witnesses
 } camway_watch_event;
 
-/// Takes an event. It runs on the client's thread, so it must be quick and must not call what
-/// waits. The event, and all in it, is good until it returns; `camway_answer_copy` keeps an answer.
+/// Takes an event. It runs on the client's thread, so it must be quick and must not call
+/// functions that wait. The event, and all in it, is good until it returns; `camway_answer_copy`
+/// keeps an answer.
 typedef void (*camway_watch_handler)(void* user, const camway_watch_event* event);
 
 /// Requests a path and has the daemon watch it until `camway_watch_end`. Handles lost messages and

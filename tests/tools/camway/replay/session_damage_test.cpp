@@ -24,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What is left of a damaged recording.
+/// The remains of a damaged recording.
 struct Left {
   std::size_t whole = 0;  ///< requests whose scene and answer are there
   bool is_told = false;   ///< whether anything says that something is wrong
@@ -84,7 +84,7 @@ TEST_F(SessionDamage, TheWholeRecordingReplays) {
   EXPECT_FALSE(left.is_told);
 }
 
-/// For every one of them: --gtest_repeat=7, each time with other lengths.
+/// All lengths take --gtest_repeat=7, each time with other ones.
 TEST_F(SessionDamage, ATruncationIsToldAndLeavesWhatIsBefore) {
   std::size_t whole = 0;
   constexpr std::size_t kStep = 7;
@@ -99,7 +99,7 @@ TEST_F(SessionDamage, ATruncationIsToldAndLeavesWhatIsBefore) {
   EXPECT_EQ(whole, 2U);
 }
 
-/// For more of them: --gtest_repeat=100, each time with other flips.
+/// More flips take --gtest_repeat=100, each time with other ones.
 TEST_F(SessionDamage, FlippedBitsNeverCrash) {
   constexpr int kRounds = 200;
   static unsigned repetition = 0;

@@ -24,7 +24,8 @@ export const browser = await chromium.launch({
 
 /// Opens the page of a door, or a file.
 export async function open_page(url, {theme = 'light', window = kWindow} = {}) {
-  const context = await browser.newContext({viewport: window, colorScheme: theme, acceptDownloads: true});
+  // With less motion the view is at once where it goes: each frame on the way would take the time of a processor.
+  const context = await browser.newContext({viewport: window, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
   context.setDefaultTimeout(kPatience_ms);
   const page = new Page(await context.newPage(), url);
   await page.open();
@@ -152,7 +153,7 @@ export class Page {
     return read_png(await this.tab.screenshot({clip: await this.tab.locator('#viewport').boundingBox()}));
   }
 
-  /// Waits until all that was asked for is drawn, and one frame more, which puts it on the screen.
+  /// Waits until all requested frames are drawn, and one frame more, which puts it on the screen.
   async drawn() {
     await this.tab.evaluate(() => new Promise(requestAnimationFrame));
     await this.until(({isDrawn}) => isDrawn);

@@ -30,7 +30,7 @@ test('an object that another process moves breaks the watched path, and heals it
   await page.tab.getByRole('checkbox', {name: /watch/i}).check();
   await page.until(({state}) => state.watched === 'ok');
   await page.tab.getByText('watched path: free').waitFor();
-  // Where the connection is lost, the path is watched again when it is back.
+  // The path is watched again after a lost connection.
   await page.drop_socket();
   await page.until(({state}) => window.sockets.length === 2 && state.connection === 'open' && state.watched === 'ok');
   const before = await revision(page);
@@ -38,6 +38,11 @@ test('an object that another process moves breaks the watched path, and heals it
   camway('scene', 'add', 'office', 'box', '--box', '2,2,2', '--position=-20,8.9,10');
   await shows_revision(page, before + 1);
   await page.until(({state}) => state.watched === 'ok');
+  await page.ready();
+  const fetched = [];
+  page.tab.on('request', request => {
+    if (request.url().includes('/meshes/')) fetched.push(request.url());
+  });
   camway('scene', 'move', 'office', 'box', '--position', '28,8.9,10');
   await shows_revision(page, before + 2);
   await page.until(({state}) => state.watched === 'broken' && state.answer.status === 'infeasible');
@@ -46,6 +51,9 @@ test('an object that another process moves breaks the watched path, and heals it
   await shows_revision(page, before + 3);
   await page.until(({state}) => state.watched === 'ok' && state.answer.status === 'ok');
   await page.tab.getByText('watched path: free').waitFor();
+  await page.ready();
+  assert.deepEqual(fetched, [], 'a mesh that only moves is not sent again');
+  assert.ok((await page.state()).answer.clearance_profile, 'answers to a watched path colour it, too');
   await page.close();
 });
 

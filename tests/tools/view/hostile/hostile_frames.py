@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames of WebSocket, right ones and such as break the protocol. What is made depends on the dice
+"""Frames of WebSocket, right ones and such as break the protocol. They depend on the dice
 alone."""
 
 import struct
@@ -52,7 +52,7 @@ def fragmented(data, dice):
 
 
 def harmless(ident, requests, dice):
-    """Returns frames of one message that keep the protocol; what they say is hostile."""
+    """Returns frames of one message that keep the protocol, and whose content is hostile."""
     kind = dice.random()
     if kind < 0.05:
         return [frame(dice.choice((PING, PONG)), bytes(dice.randrange(126)))]
@@ -67,7 +67,7 @@ def harmless(ident, requests, dice):
 
 
 def breaking(dice):
-    """Returns a name and a frame that ends the connection of whoever sends it."""
+    """Returns a name and a frame that ends the connection of its sender."""
     some = bytes(dice.randrange(256) for _ in range(dice.randrange(1, 60)))
     kinds = {
         "reserved opcode": lambda: frame(dice.choice((3, 4, 5, 6, 7, 11, 12, 13, 14, 15)), some),

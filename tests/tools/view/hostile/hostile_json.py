@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Messages for the door of `camway view` that are nearly right: members of wrong types, without
-end, too many, too deep, and texts that are no JSON. What is made depends on the dice alone."""
+end, too many, too deep, and texts that are no JSON. They depend on the dice alone."""
 
 import json
 
-# Objects that hostile clients may change; what was in the scene before keeps its name and place.
+# Objects that hostile clients may change; objects from before keep their names and places.
 OWN_OBJECTS = ("x", "y", "z")
 LARGEST_MADE = 300_000  # bytes of a message that is large on purpose
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Requests over HTTP for the door of `camway view`, right ones and wrong ones. What is made depends
+"""Requests over HTTP for the door of `camway view`, right ones and wrong ones. They depend
 on the dice and the address alone."""
 
 import json
@@ -93,7 +93,7 @@ def chunked(made, dice):
 
 
 def wrong_right(made, dice):
-    """Asks as somebody who may not."""
+    """Makes the request one of somebody who may not ask."""
     dice.choice((
         lambda: made.set("Authorization", None),
         lambda: made.set("Authorization", "Bearer 00000000000000000000000000000000"),

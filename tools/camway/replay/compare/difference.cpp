@@ -261,8 +261,8 @@ Difference difference_of_sizes(const Message& then, const Message& now) {
 
 enum class TimesOfMembers { kCompared, kSkipped };
 
-/// Compares what a stage leaves. The times of a slowed path follow from its slowing, so stages
-/// before that can leave them out.
+/// Compares the members that a stage leaves. The times of a slowed path follow from its slowing, so
+/// stages before that can leave them out.
 Difference difference_in(Stage stage, TimesOfMembers times, const Message& then, const Message& now,
                          const PlanResult& result) {
   const bool without_times = times == TimesOfMembers::kSkipped;
@@ -289,7 +289,7 @@ Difference difference_of_slowing(const Message& then, const Message& now,
   return {};
 }
 
-/// Finds the first stage in which two answers differ that differ somewhere.
+/// Finds the first stage in which two answers differ. Requires that they differ.
 Difference first_stage_difference(const Message& then, const Message& now,
                                   const PlanResult& result) {
   const bool is_slowed = then.time_scale != 1.0 || now.time_scale != 1.0;

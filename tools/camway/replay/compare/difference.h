@@ -54,15 +54,16 @@ struct Difference {
   [[nodiscard]] std::string what() const;
 };
 
-/// What the paths of two answers are compared with.
+/// The body and the viewing distance of a request, by which the paths of two answers are compared.
 struct Yardstick {
   motion::Body body;
   double viewing_distance_m = 0.0;  ///< [Limit: 0 < value]
 };
 
-/// Compares two answers to one request, member by member as messages have them, but for what tells
-/// how they were found: times, effort, whether the deadline was reached, and the message, whose
-/// wording may change between versions. Requires segments that are paths (`wire::path_fault`).
+/// Compares two answers to one request, member by member as messages have them, but for members
+/// that tell how they were found: times, effort, whether the deadline was reached, and the message,
+/// whose wording may change between versions. Requires segments that are paths
+/// (`wire::path_fault`).
 Difference difference_of(const plan_response_t& then, const plan_response_t& now,
                          const Yardstick& yardstick);
 

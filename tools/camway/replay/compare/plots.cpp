@@ -83,7 +83,7 @@ std::string plot(const std::string& title, const std::string& content) {
       kWidth_px, kHeight_px, words(kLeft_px, kTop_px - 12, "start", title), content);
 }
 
-/// The marks that are drawn last are seen best: those of the worst verdicts.
+/// Sorts the marks by verdict, the worst last, since marks that are drawn last are seen best.
 std::vector<PlotMark> worst_last(std::vector<PlotMark> marks) {
   std::ranges::stable_sort(marks, std::ranges::less(), &PlotMark::verdict);
   return marks;

@@ -11,7 +11,7 @@ namespace camway::tools {
 
 enum class Times { kShown, kHidden };
 
-/// What a report says beside the compared requests.
+/// The parts of a report beside the compared requests.
 struct ReportHead {
   std::string title;              ///< of pages: the names of the log or logs
   std::string then = "recorded";  ///< names of the two sides, for people
@@ -27,8 +27,8 @@ struct RequestPicture {
   std::string svg;        ///< an SVG document
 };
 
-/// Returns the notes about a session: what was left out, damage, repetitions. `whose`, if not
-/// empty, begins each note.
+/// Returns the notes about a session: messages that were left out, damage, repetitions. `whose`, if
+/// not empty, begins each note.
 std::vector<std::string> notes_of(const Session& session, const std::string& whose = {});
 
 /// Returns the worst verdict in capitals, the number of requests and those of each verdict.

@@ -62,11 +62,11 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
   add(session.distrusted, "messages left out: their signature is missing or not good");
   add(session.unasked, "answers to requests that are not in the log");
   add(session.damaged_events, "events about the recorded session cannot be read");
-  for (const record::Gap& gap : session.gaps) {
-    const double seconds = static_cast<double>(gap.to_utime - gap.from_utime) * 1e-6;
+  for (const record::Omission& omission : session.omissions) {
+    const double seconds = static_cast<double>(omission.to_utime - omission.from_utime) * 1e-6;
     notes.push_back(fmt::format(
         "{}the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}", whose,
-        gap.messages, gap.changes, seconds, wire::printable(gap.reason)));
+        omission.messages, omission.changes, seconds, wire::printable(omission.reason)));
   }
   if (!session.log.damage.empty()) {
     notes.push_back(fmt::format("{}the log is damaged: {} good events were used, {} of {} bytes",

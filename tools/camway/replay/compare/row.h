@@ -21,7 +21,7 @@ struct Row {
   std::string scene;
   std::string status_then = "-", status_now = "-";
   Verdict verdict = Verdict::kNotCompared;
-  /// Why the verdict is so, and where the answers differ first; empty for the same bits.
+  /// The reason of the verdict, and the first difference; empty for the same bits.
   std::string explanation;
   std::optional<double> path_m, shift_deg;  ///< nothing where nothing was compared
   ThenAndNow inserted;                      ///< number of inserted keyframes

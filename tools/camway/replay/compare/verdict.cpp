@@ -108,7 +108,7 @@ std::optional<Ruling> ruling_by_proof(const AnswerPair& answers) {
   const std::string change =
       fmt::format("status {} -> {}", answers.then->status, answers.now->status);
   if (rank_of(now.status) > rank_of(then.status)) return Ruling{Verdict::kRegressed, change};
-  // What was refused may be planned rightly or wrongly.
+  // A request that was refused may be planned rightly or wrongly.
   return Ruling{is_refused(then.status) ? Verdict::kDifferent : Verdict::kBetter, change};
 }
 

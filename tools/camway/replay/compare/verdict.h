@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 6> names_of(Verdict) {
   return {"same", "better", "worse", "different", "regressed", "not_compared"};
 }
 
-/// What counts as the same, and what as a regression.
+/// The limits within which answers count as the same, and beyond which one is a regression.
 struct Thresholds {
   /// Largest distance of paths that count as equal, if status and number of keyframes are equal; 0:
   /// the bits must be the same. [Limit: 0 <= value] [Units: metres]

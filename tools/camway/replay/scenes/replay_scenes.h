@@ -30,7 +30,7 @@ class ReplayScenes {
   /// Thread-safe. Requests in the order of the session cost least.
   [[nodiscard]] virtual FoundScene snapshot_of(const RecordedRequest& request) = 0;
 
-  /// Whether anything is known of a scene of that name.
+  /// Returns whether anything is known of a scene of that name.
   [[nodiscard]] virtual bool knows(const std::string& name) const = 0;
 };
 

@@ -25,8 +25,8 @@ class ScenesByDigest final : public ReplayScenes {
  public:
   using Found = std::map<std::string, std::shared_ptr<const scene::Snapshot>>;
 
-  /// Knows the scenes of `session` for which an answer names a digest in `found`. `why_not`: what
-  /// is said of other digests.
+  /// Knows the scenes of `session` for which an answer names a digest in `found`. `why_not`:
+  /// the reason for other digests.
   ScenesByDigest(const Session& session, Found found, std::string why_not);
 
   [[nodiscard]] FoundScene snapshot_of(const RecordedRequest& request) override;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -145,7 +144,7 @@ PlayedBack play_back_changes(const Session& session, const std::vector<fs::path>
                              const Scenes& first, const std::vector<fs::path>& roots) {
   Playback playback(prefix, keys, first, roots, digests_of(session));
   for (const fs::path& log : logs) {
-    // What is damaged was said when the session was read.
+    // Damage was reported when the session was read.
     record::read_event_log(
         log, [&](std::string_view channel) { return playback.wants(channel); },
         [&](record::LogEvent&& event) { playback.add(std::move(event)); });

@@ -11,7 +11,7 @@
 
 namespace camway::tools {
 
-/// What `play_back_changes` made.
+/// The result of `play_back_changes`.
 struct PlayedBack {
   ScenesByDigest::Found scenes;     ///< those that answers of the session name, by their digests
   std::vector<std::string> faults;  ///< changes that could not be made again, a sentence each

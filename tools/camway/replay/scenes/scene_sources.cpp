@@ -103,7 +103,7 @@ base::Result<std::unique_ptr<ReplayScenes>> open_scene_sources(const SceneSource
     chain->add(std::make_unique<ScenesByDigest>(session, std::move(found), "is not in the log"));
     found.clear();
   }
-  // What the user names goes before what was recorded.
+  // Scenes that the user names go before recorded ones.
   chain->add(std::make_unique<NamedScenes>(*std::move(named)));
   chain->add(std::make_unique<SessionScenes>(session, blobs));
   chain->add(std::make_unique<DigestScenes>(session, blobs));

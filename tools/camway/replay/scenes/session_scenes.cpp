@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// little out of the order of revisions; one that is further behind costs a rebuilding of all.
 constexpr std::size_t kKeptRevisions = 64;
 
-/// A replay holds what the daemon held, whose limits it does not know.
+/// A replay must hold all scenes of the daemon, whose limits it does not know.
 scene::SceneStoreLimits no_limits() {
   scene::SceneStoreLimits limits;
   limits.scenes = limits.objects = std::numeric_limits<std::size_t>::max();
@@ -50,7 +50,7 @@ class SessionScenes::Timeline {
   explicit Timeline(const std::vector<fs::path>& blob_folders) : blobs_(blob_folders) { rewind(); }
 
   void add(const record::SceneUpdate& change) { changes_.push_back(&change); }
-  /// Says that a request needs this revision.
+  /// Notes that a request needs this revision.
   void need(std::uint64_t revision) { needed_.insert(revision); }
 
   /// Returns the snapshot of a revision; null if it cannot be rebuilt, with the reason in `fault`.
@@ -119,16 +119,16 @@ class SessionScenes::Timeline {
 SessionScenes::SessionScenes(const Session& session, std::vector<fs::path> blob_folders)
     : blob_folders_(std::move(blob_folders)) {
   for (const RecordedUpdate& update : session.updates) {
-    if (update.session.empty()) continue;
+    if (update.recording.empty()) continue;
     const std::string& name = update.change.update.scene;
     names_.insert(name);
-    std::unique_ptr<Timeline>& timeline = timelines_[{update.session, name}];
+    std::unique_ptr<Timeline>& timeline = timelines_[{update.recording, name}];
     if (!timeline) timeline = std::make_unique<Timeline>(blob_folders_);
     timeline->add(update.change);
   }
   for (const RecordedRequest& request : session.requests) {
     if (!request.answer) continue;
-    const auto timeline = timelines_.find({request.answer->session, request.scene});
+    const auto timeline = timelines_.find({request.answer->recording, request.scene});
     if (timeline != timelines_.end()) timeline->second->need(request.answer->scene_revision);
   }
 }
@@ -142,7 +142,7 @@ FoundScene SessionScenes::snapshot_of(const RecordedRequest& request) {
   const std::uint64_t revision = request.answer->scene_revision;
   const std::string name = name_of(request, revision);
   const std::lock_guard lock(mutex_);
-  const auto timeline = timelines_.find({request.answer->session, request.scene});
+  const auto timeline = timelines_.find({request.answer->recording, request.scene});
   if (timeline == timelines_.end()) return {nullptr, name + " is not in the log"};
   std::string fault;
   std::shared_ptr<const scene::Snapshot> snapshot = timeline->second->at(revision, fault);
@@ -157,7 +157,7 @@ FoundScene SessionScenes::snapshot_of(const RecordedRequest& request) {
 DigestScenes::DigestScenes(const Session& session, std::vector<fs::path> blob_folders)
     : blob_folders_(std::move(blob_folders)) {
   for (const RecordedUpdate& update : session.updates) {
-    if (!update.session.empty()) continue;
+    if (!update.recording.empty()) continue;
     names_.insert(update.change.update.scene);
     updates_.emplace(update.change.digest, &update.change);
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -3,8 +3,8 @@
 #
 # Makes the files that embedded_files.S puts into the program, and parts.json: which packages are in them. Does
 # nothing if what they are made of has not changed. The packages of package-lock.json are installed once for each
-# content of the lock, which needs the network; without it there is a warning, and the page that says what is
-# missing.
+# content of the lock, which needs the network; without it there is a warning, and a page that names the
+# missing part.
 #
 #   make_page.sh FOLDER OUT      FOLDER: for a copy of the sources, and their packages
 #   make_page.sh --without OUT   the page that says what is missing

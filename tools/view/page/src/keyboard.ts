@@ -16,15 +16,15 @@ const kWalkKeys: Record<string, [right: number, forward: number, up: number]> = 
 
 export const kWalkHelp = 'W A S D, Q E';
 
-/** Keys that elements use themselves, by the role or the tag of the element. */
-function isTakenBy(element: Element | null, key: string): boolean {
+/** Keys that elements use themselves, by the role or the tag of the element; with Alt, sliders use none. */
+function isTakenBy(element: Element | null, { key, altKey }: KeyboardEvent): boolean {
   if (!element || element === document.body) return false;
   const tag = element.tagName;
   if (tag === 'TEXTAREA' || tag === 'SELECT') return true;
   const isRange = element instanceof HTMLInputElement && ['range', 'checkbox', 'radio', 'button'].includes(element.type);
   if (tag === 'INPUT' && !isRange) return true;
   const moves = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp', 'PageDown'];
-  if ((isRange || element.getAttribute('role') === 'slider') && moves.includes(key)) return true;
+  if ((isRange || element.getAttribute('role') === 'slider') && !altKey && moves.includes(key)) return true;
   return (tag === 'BUTTON' || tag === 'SUMMARY' || tag === 'A' || isRange) && (key === ' ' || key === 'Enter');
 }
 
@@ -54,7 +54,7 @@ export function listenToKeys(commands: readonly Command[], store: Store, viewpor
   };
   window.addEventListener('keydown', (event) => {
     viewport.speedUp = event.shiftKey;
-    if (event.defaultPrevented || isTakenBy(document.activeElement, event.key)) return;
+    if (event.defaultPrevented || isTakenBy(document.activeElement, event)) return;
     if (event.code in kWalkKeys && !event.ctrlKey && !event.metaKey && !event.altKey) {
       held.add(event.code);
       move();

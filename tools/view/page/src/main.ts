@@ -18,8 +18,8 @@ const page = new Page(store, (pageParts) => (review ? openReview(review, store) 
 
 /**
  * For tests, and to look at: nothing of the page uses it. `screenOf` says where a point of the world is, in CSS
- * pixels of the window; `report` is what was drawn last; `isDrawn` says whether
- * that is all; `handle` is that under the mouse.
+ * pixels of the window; `report` is what was drawn last; `isDrawn` says whether that is all; `handleAt` says which
+ * handle the mouse has at a place of the window.
  */
 Object.defineProperty(window, 'camway', {
   value: Object.freeze({
@@ -32,9 +32,7 @@ Object.defineProperty(window, 'camway', {
     get isDrawn() {
       return page.viewport.isDrawn;
     },
-    get handle() {
-      return page.viewport.editing.handles.axis;
-    },
+    handleAt: (place: [number, number]) => page.viewport.handleAt(place),
     screenOf: (point: [number, number, number]) => page.viewport.screenOf(point),
   }),
 });

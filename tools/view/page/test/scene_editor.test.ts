@@ -47,3 +47,24 @@ test('a move that the door refuses is not sent again, and the scene is looked at
   editor.resume();
   assert.deepEqual([asked, said], [1, ['read only']]);
 });
+
+test('an object is removed after the move of it that is under way, and not moved after that', async () => {
+  const sent: string[] = [];
+  let answer: () => void = () => undefined;
+  globalThis.fetch = (_, options) => {
+    sent.push(String(options?.method));
+    return new Promise((done) => (answer = () => done(new Response('{}'))));
+  };
+  const said: string[] = [];
+  const editor = new SceneEditor(() => 'office', () => undefined, (sentence) => said.push(sentence));
+  editor.move('box', poseAt(1));
+  editor.move('box', poseAt(2));
+  editor.remove('box');
+  await new Promise((done) => setTimeout(done, 0));
+  assert.deepEqual(sent, ['PATCH']);
+  answer();
+  await until(() => sent.length === 2);
+  answer();
+  await new Promise((done) => setTimeout(done, 100)); // longer than the pause between moves
+  assert.deepEqual([sent, said], [['PATCH', 'DELETE'], []]);
+});

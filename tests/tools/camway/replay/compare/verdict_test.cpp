@@ -68,7 +68,7 @@ using Both = std::pair<Verdict, Verdict>;
 
 TEST(ReplayVerdict, TheSameBitsAreTheSame) {
   EXPECT_EQ(both_ways([](Result&) {}), Both(Verdict::kSame, Verdict::kSame));
-  // What tells how the answer was found does not count.
+  // Members that tell how the answer was found do not count.
   EXPECT_EQ(both_ways([](Result& now) {
               now.timing.total_ms = 1e6;
               now.message = "other words";

@@ -16,7 +16,7 @@ export interface ObjectFacts {
   name: string;
   kind: string;
   digest: string;
-  /** Of its mesh in its own frame, which moves do not change; not with a daemon, nor for occupancy maps. */
+  /** Digest of the mesh in its own frame, which moves do not change. Absent for occupancy maps. */
   mesh_digest?: string;
   triangles: number;
   position: Vec3;
@@ -51,7 +51,7 @@ export interface Field {
 /** A format of `camway export`, as `GET /v1/fields` lists it. */
 export interface ExportFormat {
   name: string;
-  /** With its dot. */
+  /** The extension with its dot. */
   extension: string;
   help: string;
 }

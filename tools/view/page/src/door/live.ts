@@ -91,6 +91,8 @@ export class PathWatch {
   constructor(
     private readonly socket: DoorSocket,
     private readonly store: Store,
+    /** The request as it is asked for: answers to it have all that the page shows. */
+    private readonly asking: (request: PlanRequest) => PlanRequest,
   ) {}
 
   get isOn(): boolean {
@@ -99,7 +101,7 @@ export class PathWatch {
 
   start(request: PlanRequest): void {
     this.stop();
-    const { id, answer } = this.socket.ask({ do: 'watch', request }, ({ event }) => {
+    const { id, answer } = this.socket.ask({ do: 'watch', request: this.asking(request) }, ({ event }) => {
       if (this.id === id) this.hear(event as PathEvent);
     });
     this.id = id;

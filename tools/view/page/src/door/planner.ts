@@ -29,11 +29,6 @@ export function completed(answer: Answer): Answer {
   };
 }
 
-/** The request with the profile that colours the path, if the door has that option. */
-function withProfile(request: PlanRequest): PlanRequest {
-  return { ...request, options: { [kProfileOption]: true, ...request.options } };
-}
-
 function draftOf(request: PlanRequest): PlanRequest {
   const asked = request.options?.['deadline_s'];
   const deadline_s = Math.min(typeof asked === 'number' ? asked : kDefaultDeadline_s, kDraftDeadline_s);
@@ -64,7 +59,7 @@ class Interpolation {
     this.isAsking = false;
   }
 
-  /** An option that is refused does not keep the path from being seen; the answer to the request says what is wrong. */
+  /** Shows the path without an option that is refused; the answer to the request names the fault. */
   private async pathOf(request: PlanRequest): Promise<readonly Segment[]> {
     for (let asked: PlanRequest | undefined = request; asked; ) {
       try {
@@ -145,9 +140,14 @@ export class Planner {
     this.store.set({ isPending: false, isDraft: false, message: sentence, ...left });
   }
 
+  /** The request as it is asked for: with the profile that colours the path, if the door has that option. */
+  asking(request: PlanRequest): PlanRequest {
+    return this.hasProfile ? { ...request, options: { [kProfileOption]: true, ...request.options } } : request;
+  }
+
   private async run(asked: number, request: PlanRequest, kind: PlanKind): Promise<void> {
     const isDraft = kind === 'draft';
-    const asking = this.hasProfile ? withProfile(request) : request;
+    const asking = this.asking(request);
     const question = isDraft
       ? { do: 'plan', drag: kDrag, finish: true, request: draftOf(asking) }
       : { do: 'plan', drag: kDrag, progress: true, request: asking };

@@ -12,6 +12,8 @@ const kLeastPause_ms = 60;
 export class SceneEditor {
   private readonly waiting = new Map<string, Pose>();
   private isMoving = false;
+  /** The move that is under way. */
+  private moving: Promise<boolean> = Promise.resolve(true);
 
   constructor(
     private readonly sceneName: () => string | undefined,
@@ -28,9 +30,9 @@ export class SceneEditor {
     this.isMoving = true;
     for (let next = this.takeNext(); next; next = this.takeNext()) {
       const [name, pose] = next;
-      const isDone = await this.change((scene) => moveObject(scene, name, pose));
-      if (!isDone) {
-        // Nobody has heard of it: it is sent again by `resume`, unless the object was moved on since.
+      this.moving = this.change((scene) => moveObject(scene, name, pose));
+      if (!(await this.moving)) {
+        // The door has not received it: `resume` sends it again, unless the object was moved on since.
         if (!this.waiting.has(name)) this.waiting.set(name, pose);
         break;
       }
@@ -54,11 +56,16 @@ export class SceneEditor {
     void this.change((scene) => addObject(scene, object));
   }
 
+  /** Removes an object after the move of it that is under way; those that wait are dropped. */
   remove(name: string): void {
-    void this.change((scene) => removeObject(scene, name));
+    this.waiting.delete(name);
+    void this.moving.then(() => {
+      this.waiting.delete(name); // a move that did not get through waits again
+      return this.change((scene) => removeObject(scene, name));
+    });
   }
 
-  /** Returns false where the door was not reached. What it refuses is said, and done with. */
+  /** Returns false where the door was not reached. A refusal is shown, and not sent again. */
   private async change(act: (scene: string) => Promise<void>): Promise<boolean> {
     const scene = this.sceneName();
     if (!scene) return true;
@@ -71,7 +78,7 @@ export class SceneEditor {
         return false;
       }
       this.onError(error.message);
-      this.onChanged(); // what was shown while it was dragged goes back
+      this.onChanged(); // the object that was shown dragged goes back
     }
     return true;
   }

@@ -36,7 +36,7 @@ export const kCurveKinds: readonly CurveKind[] = [
   { name: 'shift', label: 'shift', unit: '°', help: 'Shift of the picture from the path as interpolated' },
 ];
 
-/** For slowed paths, whose clock is another one. */
+/** The shift of a slowed path, whose clock differs from that of the path as interpolated. */
 export const kShiftByPlace: CurveKind = {
   name: 'shift',
   label: 'shift by place',

@@ -7,10 +7,10 @@ import { withUnit } from './format.js';
 import { bodyRadius, changeBetween, kDegreesPerRadian } from './shift.js';
 import type { State } from './store.js';
 
-/** A pose that is farther away than that many sizes of the body, or turned by more, is another shot. */
+/** A pose that is farther away than this many sizes of the body, or turned by more, is another shot. */
 const kMostBodySizes = 4;
 const kMostTurn_deg = 30;
-/** Smaller turns are of rounding. */
+/** Smaller turns come from rounding. */
 const kLeastTurn_deg = 1e-3;
 
 export interface FreePose {
@@ -50,20 +50,20 @@ export function freePoses({ request, answer }: Pick<State, 'request' | 'answer'>
   });
 }
 
-/** The one that a key accepts: that of the selected keyframe, or the first. */
+/** The free pose that a key accepts: that of the selected keyframe, or the first. */
 export function offeredPose(now: Pick<State, 'request' | 'answer' | 'selection'>): FreePose | undefined {
   const poses = freePoses(now);
   const selected = now.selection && 'keyframe' in now.selection ? now.selection.keyframe : undefined;
   return poses.find(({ keyframe }) => keyframe === selected) ?? poses[0];
 }
 
-/** How far a free pose is from its keyframe. */
+/** The distance of a free pose from its keyframe, in words. */
 export function distanceText({ moved_m, turned_deg }: FreePose): string {
   const turn = turned_deg > kLeastTurn_deg ? ` and ${withUnit(turned_deg, '°')}` : '';
   return `${withUnit(moved_m, 'm')}${turn} away`;
 }
 
-/** The key that accepts it. */
+/** The key that accepts a free pose. */
 export function acceptingKey({ isFar }: FreePose): string {
   return isFar ? 'Shift Enter' : 'Enter';
 }

@@ -5,9 +5,9 @@ import type { PlanRequest } from '../contract/request.js';
 import { optionAt, withOption } from './edits.js';
 
 export interface OptionFault {
-  /** Where the option is in `options`. */
+  /** The names that lead to the option in `options`. */
   path: readonly string[];
-  /** What is wrong with it: "is -2; it must be above 0". */
+  /** The fault, after the name of the option: "is -2; it must be above 0". */
   words: string;
 }
 
@@ -26,7 +26,7 @@ export function optionFault(sentence: string): OptionFault | undefined {
 export function withoutFault(request: PlanRequest, sentence: string): PlanRequest | undefined {
   const fault = optionFault(sentence);
   if (!fault) return undefined;
-  // What is missing in an object is mended by leaving out the object.
+  // A member that is missing in an object is mended by leaving out the object.
   for (let path = fault.path; path.length > 0; path = path.slice(0, -1)) {
     if (optionAt(request, path) !== undefined) return withOption(request, path, undefined);
   }

@@ -114,7 +114,7 @@ function fieldRow(state: State, field: OptionField, helpId: string, actions: Act
   return make('div', { class: 'cw-option-field' }, words, control, fault, rule);
 }
 
-/** What the door says of a field whose value it refuses. */
+/** The words of the door about a field whose value it refuses. */
 function faultOf({ unplanned }: State, { path }: OptionField): HTMLElement | undefined {
   const fault = optionFault(unplanned);
   if (fault?.path.join('.') !== path.join('.')) return undefined;

@@ -46,7 +46,8 @@ export function makePanels(host: HTMLElement, store: Store, actions: Actions): P
   tabs.forEach(({ tab, name }, i) => {
     tab.addEventListener('click', () => show(name));
     tab.addEventListener('keydown', (event) => {
-      const next = nextTab(event.key, i);
+      // With Alt, arrows move what is selected.
+      const next = event.altKey || event.ctrlKey || event.metaKey ? undefined : nextTab(event.key, i);
       if (next === undefined) return;
       event.preventDefault();
       event.stopPropagation();

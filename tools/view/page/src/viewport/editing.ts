@@ -65,8 +65,8 @@ export class Editing {
   }
 
   private target(): HandleTarget | undefined {
-    const { store, extent, sceneView } = this.context;
-    const { selection, request, isReadOnly } = store.now;
+    const { store, extent } = this.context;
+    const { selection, request, isReadOnly, scene } = store.now;
     const frame = this.context.frame();
     if (!selection || !this.canEdit) return undefined;
     if ('keyframe' in selection) {
@@ -75,7 +75,7 @@ export class Editing {
       const position = frame.toLocal(keyframe.position);
       return { key: `keyframe ${selection.keyframe}`, position, orientation: toQuaternion(keyframe.orientation) };
     }
-    const facts = sceneView.factsOf(selection.object);
+    const facts = scene?.objects.find(({ name }) => name === selection.object);
     if (!facts || isReadOnly) return undefined;
     const share = extent.boxOf(facts.bounds).getSize(new Vector3()).length() / (2 * extent.sceneSphere.radius);
     if (share > kLargestMovable) return undefined;
@@ -104,7 +104,7 @@ export class Editing {
       camera: navigation.camera,
       up: () => upVector(this.context.up()),
       canDrag: () => this.canEdit,
-      isTaken: () => this.handles.isHot || this.context.isCovered(),
+      isTaken: () => this.context.isCovered() || (this.handles.isHot && !this.isOnKeyframe()),
       keyframePlaces: () => this.context.places(),
       pick: (ray) => sceneView.pick(ray),
       onSelectKeyframe: (keyframe) => actions.select({ keyframe }),
@@ -115,8 +115,17 @@ export class Editing {
         if (this.dragged) actions.setKeyframe(index, this.dragged, 'full');
         this.dragged = undefined;
       },
-      setNavigation: (isEnabled) => (navigation.controls.enabled = isEnabled),
+      setNavigation: (isEnabled) => {
+        navigation.controls.enabled = isEnabled;
+        this.handles.isEnabled = isEnabled;
+      },
     });
+  }
+
+  /** Whether the mouse is where the handles of a keyframe leave it to a drag as that of any keyframe, which is level. */
+  private isOnKeyframe(): boolean {
+    const { selection } = this.context.store.now;
+    return this.handles.isMiddleHot && selection !== undefined && 'keyframe' in selection;
   }
 
   private dragKeyframe(index: number, place: Vector3, surface: Hit | undefined): void {

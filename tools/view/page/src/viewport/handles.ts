@@ -58,6 +58,25 @@ export class Handles {
     return this.target ? this.controls.axis : null;
   }
 
+  /** The handle that the mouse has at a place of the view, which is in clip coordinates. */
+  axisAt(x: number, y: number): string | null {
+    const had = this.controls.axis;
+    this.controls.pointerHover({ x, y } as PointerEvent); // it reads nothing else
+    const met = this.axis;
+    this.controls.axis = had;
+    return met;
+  }
+
+  /** Whether the mouse is over the middle, which moves in all directions at a time. */
+  get isMiddleHot(): boolean {
+    return this.axis === 'XYZ';
+  }
+
+  /** While they are disabled, the mouse has no handle. */
+  set isEnabled(isEnabled: boolean) {
+    this.controls.enabled = isEnabled;
+  }
+
   get isDragging(): boolean {
     return this.controls.dragging;
   }

@@ -46,6 +46,7 @@ export class Navigation {
   private orbitDistance_m = 10;
   private reach_m = 100;
   private heading: Heading = { right: 0, forward: 0, up: 0 };
+  private readonly lessMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(
     private readonly surface: HTMLElement,
@@ -110,8 +111,10 @@ export class Navigation {
     this.controls.maxDistance = 20 * reach_m;
   }
 
+  /** Puts the eye there; smoothly only for people who have not asked their system for less motion. */
   place(eye: Vector3, target: Vector3, isSmooth: boolean): void {
-    void this.controls.setLookAt(eye.x, eye.y, eye.z, target.x, target.y, target.z, isSmooth);
+    const isGradual = isSmooth && !this.lessMotion.matches;
+    void this.controls.setLookAt(eye.x, eye.y, eye.z, target.x, target.y, target.z, isGradual);
     this.onChange();
   }
 

@@ -29,7 +29,7 @@ export interface Hit {
   normal: Vector3;
 }
 
-/** What tells meshes apart: two objects of one mesh, or one that moves, need it once. */
+/** The key of a mesh, which is fetched once for all objects that share it, and for one that moves. */
 function meshKey({ digest, mesh_digest }: ObjectFacts): string {
   return mesh_digest ?? digest;
 }
@@ -45,6 +45,8 @@ export class SceneView {
   private update = 0;
   private frame: Frame | undefined;
   private edgeWork: Item[] = [];
+  private highlighted: string | undefined;
+  private highlightColour: Rgb = [0, 0, 0];
 
   constructor(
     private readonly look: SurfaceLook,
@@ -88,10 +90,6 @@ export class SceneView {
     if (item && this.frame) this.setPose(item, this.frame.toWorld(position), orientation);
   }
 
-  factsOf(name: string): ObjectFacts | undefined {
-    return this.items.get(name)?.facts;
-  }
-
   get shapesShown(): { shape: Shape; mesh: Mesh }[] {
     return [...this.items.values()].map(({ shape, mesh }) => ({ shape, mesh }));
   }
@@ -108,9 +106,16 @@ export class SceneView {
     return { shown, triangles, error_m };
   }
 
+  /** Highlights an object, also one whose mesh comes later. */
   highlight(name: string | undefined, colour: Rgb): void {
-    for (const [itemName, item] of this.items) tint(item.mesh.material, itemName === name ? colour : undefined);
+    this.highlighted = name;
+    this.highlightColour = colour;
+    for (const item of this.items.values()) this.tint(item);
     this.onChange();
+  }
+
+  private tint({ facts, mesh }: Item): void {
+    tint(mesh.material, facts.name === this.highlighted ? this.highlightColour : undefined);
   }
 
   /** The first surface that a ray meets on the side of the section plane that is drawn. */
@@ -163,6 +168,7 @@ export class SceneView {
     mesh.raycast = acceleratedRaycast;
     const item: Item = { facts, shape, mesh, lines: undefined };
     this.items.set(facts.name, item);
+    this.tint(item);
     this.group.add(mesh);
     this.setPose(item, facts.position, facts.orientation);
     if (this.edgeWork.push(item) === 1) setTimeout(() => this.makeNextEdges(), 0);

@@ -46,7 +46,7 @@ export class Stage {
     private readonly drawings: () => Drawing[],
     private readonly onDrawn: (count: DrawCount) => void,
     private readonly onResize: (width: number, height: number) => void,
-    /** Hears that the GPU has finished what was drawn last. */
+    /** Called when the GPU has finished the frame that was drawn last. */
     private readonly onFinished: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, powerPreference: 'high-performance' });

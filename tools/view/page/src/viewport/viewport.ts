@@ -47,10 +47,13 @@ const kWalkFade_m = 0.8;
 /** New objects are put that far off the surface that the view looks at, and that far ahead if there is none. */
 const kOffSurface_m = 0.3;
 const kAhead_m = 3;
-/** What is that near to a click on a surface was clicked. */
+/** A part of the path this near to the point of a click on a surface was clicked. */
 const kPartReach_m = 0.01;
 /** Of a person who stands. */
 const kEyeHeight_m = 1.6;
+/** Surfaces that are gone through on the way down, and how far behind each of them the next one is looked for. */
+const kMostRoofs = 8;
+const kThrough_m = 0.001;
 
 export class Viewport {
   readonly section: Section;
@@ -82,7 +85,7 @@ export class Viewport {
     private readonly actions: Actions,
     private readonly sources: Sources,
     private readonly onDrawn: (report: ViewReport) => void,
-    /** Hears that what the last report is of is on the screen. */
+    /** Called when the frame of the last report is on the screen. */
     onFinished: () => void,
   ) {
     this.host = host;
@@ -193,14 +196,28 @@ export class Viewport {
     const up = upVector(this.up);
     const isWithin = this.extent.scene.containsPoint(camera.position) && camera.position.dot(up) <= this.section.cutHeight;
     const forward = camera.getWorldDirection(new Vector3());
-    const hit = isWithin ? undefined : this.sceneView.pick(new Ray(camera.position.clone(), forward));
-    if (!hit) {
+    const eye = isWithin ? undefined : this.landing(new Ray(camera.position.clone(), forward.clone()));
+    if (!eye) {
       this.navigation.setMode('walk');
       return;
     }
     const level = forward.addScaledVector(up, -forward.dot(up));
     if (level.lengthSq() < 1e-6) level.set(0, 1, 0).applyQuaternion(camera.quaternion);
-    this.navigation.walkFrom(hit.point.addScaledVector(up, kEyeHeight_m), level.normalize());
+    this.navigation.walkFrom(eye, level.normalize());
+  }
+
+  /** The eye of somebody who comes down along a ray: through a roof, whoever stands on which is outside of the scene. */
+  private landing(ray: Ray): Vector3 | undefined {
+    let first: Vector3 | undefined;
+    for (let met = 0; met < kMostRoofs; ++met) {
+      const hit = this.sceneView.pick(ray);
+      if (!hit) break;
+      const eye = hit.point.clone().addScaledVector(upVector(this.up), kEyeHeight_m);
+      if (this.extent.scene.containsPoint(eye)) return eye;
+      first ??= eye;
+      ray.origin.copy(hit.point).addScaledVector(ray.direction, kThrough_m);
+    }
+    return first;
   }
 
   /** Puts the view where the camera is at the cursor. */
@@ -239,7 +256,7 @@ export class Viewport {
       const keyframe = request?.keyframes[selection.keyframe];
       if (keyframe) this.navigation.fit(this.extent.around(keyframe.position), undefined, true);
     } else if (selection) {
-      const bounds = this.sceneView.factsOf(selection.object)?.bounds;
+      const bounds = this.store.now.scene?.objects.find(({ name }) => name === selection.object)?.bounds;
       if (bounds) this.navigation.fit(this.extent.boxOf(bounds).getBoundingSphere(new Sphere()), undefined, true);
     } else {
       this.home();
@@ -263,9 +280,15 @@ export class Viewport {
     const { camera } = this.navigation;
     camera.updateMatrixWorld();
     const place = this.frame.toLocal(point).project(camera);
-    if (Math.abs(place.z) > 1) return undefined;
+    if (place.toArray().some((x) => Math.abs(x) > 1)) return undefined;
     const box = this.stage.canvas.getBoundingClientRect();
     return [box.left + (place.x * 0.5 + 0.5) * box.width, box.top + (0.5 - place.y * 0.5) * box.height];
+  }
+
+  /** The handle that the mouse has at a place of the page, in CSS pixels of the window; null if there is none. */
+  handleAt([x, y]: [number, number]): string | null {
+    const box = this.stage.canvas.getBoundingClientRect();
+    return this.editing.handles.axisAt((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
   }
 
   // The state of the store.
@@ -277,6 +300,7 @@ export class Viewport {
       now.selection !== before.selection || now.scene !== before.scene;
     const isCursor = isContent || now.cursor_s !== before.cursor_s;
     if (now.selection !== before.selection) this.select(now);
+    if (now.scene !== before.scene) this.unpickMoved(now, before);
     this.dirty.content ||= isContent;
     this.dirty.cursor ||= isCursor;
     if (now.answer !== before.answer || now.isDraft !== before.isDraft) this.showFindings(now);
@@ -299,10 +323,6 @@ export class Viewport {
     this.navigation.setReach(this.extent.sceneSphere.radius);
     await this.sceneView.show(now.scene, this.frame);
     this.updateSection();
-    this.select(this.store.now);
-    // An object that was selected before its mesh was there has handles now.
-    this.dirty.content = true;
-    this.stage.invalidate();
   }
 
   /** Shows a request that was opened, once it is known in which scene. */
@@ -345,6 +365,12 @@ export class Viewport {
     const name = selection && 'object' in selection ? selection.object : undefined;
     if (this.picked && this.picked.name !== name) this.picked = undefined;
     this.sceneView.highlight(name, this.theme.object);
+  }
+
+  /** The place that was clicked is no more on an object that has moved. */
+  private unpickMoved(now: State, before: State): void {
+    const digestIn = ({ scene }: State): string | undefined => scene?.objects.find(({ name }) => name === this.picked?.name)?.digest;
+    if (digestIn(now) !== digestIn(before)) this.picked = undefined;
   }
 
   // Frames.

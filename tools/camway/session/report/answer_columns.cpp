@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/recording/answer_columns.h"
+#include "tools/camway/session/report/answer_columns.h"
 
 #include <algorithm>
 #include <array>

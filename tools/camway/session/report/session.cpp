@@ -9,8 +9,8 @@
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
-#include "tools/camway/recording/session_mcap.h"
-#include "tools/camway/recording/session_table.h"
+#include "tools/camway/session/report/session_mcap.h"
+#include "tools/camway/session/report/session_table.h"
 #include "tools/camway/session/session_files.h"
 #include "tools/support/output_file.h"
 

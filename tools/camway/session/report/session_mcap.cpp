@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/recording/session_mcap.h"
+#include "tools/camway/session/report/session_mcap.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include "tools/cameras/files/mcap_file.h"
 #include "tools/cameras/formats/foxglove.h"
 #include "tools/cameras/path_samples.h"
-#include "tools/camway/recording/answer_columns.h"
+#include "tools/camway/session/report/answer_columns.h"
 
 namespace camway::tools {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/recording/session_table.h"
+#include "tools/camway/session/report/session_table.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 
 #include "lcmtypes/wire/channels.h"
-#include "tools/camway/recording/answer_columns.h"
+#include "tools/camway/session/report/answer_columns.h"
 
 namespace camway::tools {
 namespace {
@@ -76,9 +76,9 @@ std::string session_summary(const Session& session) {
                         session.parts.size(), session.updates.size(),
                         wire::printable(session.parts.back().version));
   }
-  for (const record::Gap& gap : session.gaps) {
-    text += fmt::format("lacks      {} messages and {} changes of scenes: {}\n", gap.messages,
-                        gap.changes, wire::printable(gap.reason));
+  for (const record::Omission& omission : session.omissions) {
+    text += fmt::format("lacks      {} messages and {} changes of scenes: {}\n", omission.messages,
+                        omission.changes, wire::printable(omission.reason));
   }
   add_count(text, session.malformed, "messages that cannot be read");
   add_count(text, session.other_version, "of them of another version of the wire types");
