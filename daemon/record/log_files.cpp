@@ -91,8 +91,9 @@ base::Result<LogFiles> LogFiles::open(const fs::path& folder, std::string record
   return LogFiles(folder, std::move(recording), limits, std::move(lock));
 }
 
-bool LogFiles::is_over() const {
-  return !fd_ || file_bytes_ >= limits_.file_bytes || Steady::now() - begun_ >= limits_.file_time;
+bool LogFiles::is_over(std::size_t waiting_bytes) const {
+  return !fd_ || file_bytes_ + waiting_bytes >= limits_.file_bytes ||
+         Steady::now() - begun_ >= limits_.file_time;
 }
 
 AppendResult LogFiles::begin_next() {

@@ -40,8 +40,9 @@ class LogFiles {
   static base::Result<LogFiles> open(const std::filesystem::path& folder, std::string recording,
                                      const RecordLimits& limits);
 
-  /// Returns whether the present file is too large or too old, or there is none.
-  [[nodiscard]] bool is_over() const;
+  /// Returns whether the present file is too old, or too large with the bytes that wait to be
+  /// appended, or there is none.
+  [[nodiscard]] bool is_over(std::size_t waiting_bytes = 0) const;
   /// Begins the next file.
   scene::AppendResult begin_next();
   /// Appends whole events, all of them or none. Requires a present file.

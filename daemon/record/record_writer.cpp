@@ -107,7 +107,7 @@ RecordCounts RecordWriter::counts() const {
 
 bool RecordWriter::is_ready() {
   if (omission_ && Steady::now() < retry_at_) return false;
-  if (!omission_ && has_begun_ && !files_.is_over()) return true;
+  if (!omission_ && has_begun_ && !files_.is_over(events_.size())) return true;
   if (!write_events()) return false;
   if (files_.is_over()) {
     if (const AppendResult done = files_.begin_next(); done.fault != AppendFault::kNone) {

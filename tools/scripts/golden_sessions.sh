@@ -9,7 +9,7 @@
 #   --update  records the sessions anew from a daemon in a private network namespace, shows what changed
 #             against the old ones, and replaces those that changed
 #   --bin     where camway and camwayd are (build/release/bin, else build/dev/bin, else where PATH says)
-#   SESSION   only these, by their names without .lcmlog
+#   SESSION   only these, by their names without .lcmlog and .camway-session
 #
 # Exit code: 0 all answers are the same within the tolerances, or --update recorded the sessions; 3 an
 # answer is not; 1 a session could not be replayed or recorded.
@@ -89,10 +89,24 @@ requests_of() {
       printf '%s\n' \
         'office office-graze-door {"options": {"clearance_m": 40}}' \
         'office office-graze-chair {"options": {"repair_keyframes": true, "clearance_m": 0.3}}' ;;
+    live)  # of a daemon that records, with the changes of the scene in between: `change_live`
+      printf '%s\n' "maze maze-free-cells" "maze maze-free-cells" "maze maze-free-cells" "maze maze-free-cells" ;;
   esac
 }
 
-all_sessions() { printf '%s\n' office maze gallery map body limits infeasible partial invalid; }
+# Changes the scene before the request of this number: a crate comes into the way, moves, and goes.
+change_live() {
+  case $1 in
+    1) "$camway" scene add maze crate --box 0.5,2,0.5 --position 1.1,1,2 ;;
+    2) "$camway" scene move maze crate --position 4,1,7.1 ;;
+    3) "$camway" scene remove maze crate ;;
+  esac
+}
+
+all_sessions() { printf '%s\n' office maze gallery map body limits infeasible partial invalid live; }
+
+# Prints the file of a session: a recording of a daemon has its scenes, so it is a pack.
+file_of() { printf '%s\n' "$2/$1.$([[ $1 == live ]] && echo camway-session || echo lcmlog)"; }
 
 # Writes a request with other members than its file has.
 write_request() {
@@ -110,9 +124,11 @@ json.dump({**request, **changes, "options": options}, sys.stdout)
 PYTHON
 }
 
-# Copies the events of planning alone: a log of LCM has a heartbeat of the daemon each second.
+# Copies the events of planning, and of a recording those about scenes: a log has a heartbeat of the daemon
+# each second. Folders of this machine, which a recording names among its settings, become as many signs.
+# keep_planning LOG KEPT [FOLDER...]
 keep_planning() {
-  python3 - "$1" "$2" <<'PYTHON'
+  python3 - "$@" <<'PYTHON'
 import struct
 import sys
 
@@ -122,9 +138,12 @@ at = 0
 while at < len(log):
     channel_bytes, data_bytes = struct.unpack_from(">ii", log, at + 20)
     end = at + 28 + channel_bytes + data_bytes
-    if log[at + 28 : at + 28 + channel_bytes].startswith((b"CAMWAY_PLAN_REQUEST", b"CAMWAY_PLAN_RESPONSE")):
+    wanted = (b"CAMWAY_PLAN_REQUEST", b"CAMWAY_PLAN_RESPONSE", b"CAMWAY_SESSION")
+    if log[at + 28 : at + 28 + channel_bytes].startswith(wanted):
         kept += log[at:end]
     at = end
+for folder in map(str.encode, sys.argv[3:]):
+    kept = kept.replace(folder, b"_" * len(folder))
 open(sys.argv[2], "wb").write(kept)
 PYTHON
 }
@@ -139,29 +158,56 @@ eventually() {
   return 1
 }
 
-# record_session SESSION LOG: records the requests of a session from the running daemon.
-record_session() {
-  local session=$1 log=$2 scene file changes
-  lcm-logger --quiet --force --flush-interval=50 "$log.all" &
-  local logger=$!
-  eventually grep -qs CAMWAY_STATUS "$log.all" || fail "lcm-logger does not hear the daemon"
+# ask_all SESSION LOG: sends the requests of a session to the running daemon.
+ask_all() {
+  local session=$1 log=$2 scene file changes number=0
   while read -r scene file changes; do
+    [[ $session != live ]] || change_live "$number" >/dev/null || fail "$session: the scene cannot be changed"
+    number=$((number + 1))
     write_request "$file" "$changes" "$log.json"
     # A negative answer is an answer.
     "$camway" plan --daemon "$scene" --request "$log.json" --response "$log.response" >/dev/null 2>"$log.said" || true
     [[ -s $log.response ]] || fail "$session: $file: $(cat "$log.said")"
     rm -f "$log.response"
   done < <(requests_of "$session")
+}
+
+# record_session SESSION LOG: records the requests of a session from the running daemon.
+record_session() {
+  local session=$1 log=$2
+  lcm-logger --quiet --force --flush-interval=50 "$log.all" &
+  local logger=$!
+  eventually grep -qs CAMWAY_STATUS "$log.all" || fail "lcm-logger does not hear the daemon"
+  ask_all "$session" "$log"
   sleep 0.3  # the logger writes all messages
   kill "$logger" || true
   wait "$logger" || true
   keep_planning "$log.all" "$log"
 }
 
+# record_live PACK: records from a daemon with --record.
+record_live() {
+  local pack=$1 recorded log
+  recorded=$(mktemp -d -p "$folder")
+  "$camwayd" --scene "maze=$root/scenes/maze.obj" --record "$recorded" --log-level warn \
+    --max-deadline-s "$kDeadline_s" --deadline-s "$kDeadline_s" &
+  local daemon=$!
+  eventually "$camway" status >/dev/null 2>&1 || fail "the daemon does not start"
+  ask_all live "$pack"
+  kill "$daemon" || true
+  wait "$daemon" || true
+  log=$(ls "$recorded"/*.lcmlog)
+  keep_planning "$log" "$recorded/live" "$recorded" "$root"
+  mv "$recorded/live" "$recorded/live.lcmlog" && rm "$log"
+  "$camway" pack "$recorded" -o "$pack" >/dev/null
+}
+
 # update_session SESSION FOLDER: records anew, and replaces the session if it changed.
 update_session() {
-  local session=$1 new=$2/$1.lcmlog old=$sessions/$1.lcmlog code=0
-  record_session "$session" "$new"
+  local session=$1 new old code=0
+  new=$(file_of "$session" "$2")
+  old=$(file_of "$session" "$sessions")
+  [[ $session == live ]] || record_session "$session" "$new"
   if [[ -s $old ]]; then
     "$camway" replay --baseline "$old" --against "$new" --no-timing "${kTolerances[@]}" \
       --fail-on better,worse,different,regressed,not_compared >"$new.table" || code=$?
@@ -191,6 +237,8 @@ update_all() {
     wait $! || true
   fi
   mapfile -t scenes < <(scene_flags)
+  # One daemon serves at a time.
+  [[ " ${wanted[*]} " != *" live "* ]] || record_live "$(file_of live "$folder")"
   "$camwayd" "${scenes[@]}" --log-level warn --max-deadline-s "$kDeadline_s" --deadline-s "$kDeadline_s" &
   eventually "$camway" status >/dev/null 2>&1 || fail "the daemon does not start"
   for session in "${wanted[@]}"; do update_session "$session" "$folder"; done
@@ -198,10 +246,12 @@ update_all() {
 
 check_all() {
   local session code worst=0 output
-  mapfile -t scenes < <(scene_flags)
   for session in "${wanted[@]}"; do
     code=0
-    output=$("$camway" replay "$sessions/$session.lcmlog" "${scenes[@]}" "${kTolerances[@]}" --threads 2 \
+    # Those of the recording count.
+    scenes=()
+    [[ $session == live ]] || mapfile -t scenes < <(scene_flags)
+    output=$("$camway" replay "$(file_of "$session" "$sessions")" ${scenes[@]+"${scenes[@]}"} "${kTolerances[@]}" --threads 2 \
       --least-deadline-s "$kDeadline_s" --no-timing --fail-on better,worse,different,regressed,not_compared 2>&1) ||
       code=$?
     say "$session: $(tail -n 1 <<<"$output")"

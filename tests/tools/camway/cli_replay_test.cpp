@@ -14,6 +14,7 @@ namespace camway::tools {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(CliReplayLog, SaysThatALogIsOfAnotherVersion) {
   std::vector<std::uint8_t> older =
@@ -166,6 +167,13 @@ TEST_F(CliReplayCompare, ComparesWithAnotherBuild) {
   const CliRun changed = replay({"--baseline-build", other});
   EXPECT_EQ(changed.exit_code, 3) << changed.out << changed.err;
   EXPECT_THAT(changed.out, HasSubstr("verdict: DIFFERENT: 4 requests: 3 same, 0 better, 1 diff"));
+
+  // A build that says what it is asked for. It has no answers, and its output is shown.
+  const std::string echo = folder_.write("echo", "#!/bin/sh\necho \"$@\"\n");
+  std::filesystem::permissions(echo, std::filesystem::perms::owner_all);
+  const CliRun asked = replay({"--baseline-build", echo, "--least-deadline-s", "600.5"});
+  EXPECT_THAT(asked.err, HasSubstr("--least-deadline-s 600.5"));
+  EXPECT_THAT(replay({"--baseline-build", echo}).err, Not(HasSubstr("--least-deadline-s")));
 
   const CliRun none = replay({"--baseline-build", folder_.file("nowhere")});
   EXPECT_EQ(none.exit_code, 2);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,36 @@ TEST_F(CliSession, WritesMcap) {
   const std::string bytes = read_all(folder_.file("s.mcap"));
   EXPECT_THAT(bytes, StartsWith("\x89MCAP0\r\n"));
   EXPECT_THAT(bytes, HasSubstr(R"("message":"a 1: ok: )"));
+}
+
+/// The same requests in a log, a folder of logs, and a pack.
+TEST_F(CliSession, TakesFoldersAndPacks) {
+  const std::string scenes = CAMWAY_SCENES_FOLDER;
+  const std::string log = scenes + "/sessions/maze.lcmlog";
+  const std::string pack = folder_.file("maze.camway-session");
+  const CliRun packed =
+      run_camway({"pack", log, "--scene", "maze=" + scenes + "/maze.obj", "-o", pack});
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  std::filesystem::create_directory(folder_.file("logs"));
+  std::filesystem::copy_file(log, folder_.file("logs/maze.lcmlog"));
+  const CliRun table = run_camway({"session", log, "--csv", "-"});
+  ASSERT_EQ(rows_in(table.out).size(), 4U);
+  for (const std::string& session : {pack, folder_.file("logs")}) {
+    const CliRun run = run_camway({"session", session, "--csv", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, table.out);
+  }
+  EXPECT_THAT(run_camway({"session", pack}).out, HasSubstr("requests   3 in "));
+
+  const std::string bytes = read_all(pack);
+  const CliRun cut = run_camway(
+      {"session", folder_.write("cut.camway-session", bytes.substr(0, bytes.size() / 2))});
+  EXPECT_EQ(cut.exit_code, 2);
+  EXPECT_THAT(cut.err, HasSubstr("is damaged"));
+  std::filesystem::create_directory(folder_.file("empty"));
+  const CliRun empty = run_camway({"session", folder_.file("empty")});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.err, HasSubstr("holds no file *.lcmlog"));
 }
 
 TEST_F(CliSession, RefusesWhatIsNoLog) {

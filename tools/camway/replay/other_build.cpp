@@ -53,9 +53,10 @@ std::vector<std::string> command_of(const ReplayFlags& flags, const std::string&
   };
   add("--scene", flags.sources.scenes);
   add("--root", flags.sources.roots);
-  if (!flags.key_file.empty()) {
-    command.emplace_back("--key-file");
-    command.push_back(flags.key_file);
+  if (!flags.key_file.empty()) add("--key-file", {flags.key_file});
+  // The answers of both builds are cut short by the same deadlines.
+  if (flags.run.least_deadline_s > 0.0) {
+    add("--least-deadline-s", {fmt::format("{}", flags.run.least_deadline_s)});
   }
   return command;
 }
@@ -145,6 +146,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
     item.recorded = &requests[i];
     if (!replayed[i].compared.now) {
       item.note = replayed[i].compared.note;
+      item.scene_is_damaged = replayed[i].compared.scene_is_damaged;
       continue;
     }
     base::Result<RecordedAnswer> answer = answer_through_file(replayed[i]);

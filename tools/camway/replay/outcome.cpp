@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -31,7 +33,9 @@ ExitCode code_of(const std::vector<ComparedRequest>& compared, const Failing& fa
                  bool is_damaged) {
   if (has_failed(compared, failing)) return ExitCode::kNegative;
   const bool has_any = count(compared, Verdict::kNotCompared) < compared.size();
-  return is_damaged || !has_any ? ExitCode::kInvalidInput : ExitCode::kSuccess;
+  const bool is_whole =
+      !is_damaged && std::ranges::none_of(compared, &ComparedRequest::scene_is_damaged);
+  return !is_whole || !has_any ? ExitCode::kInvalidInput : ExitCode::kSuccess;
 }
 
 }  // namespace camway::tools

@@ -27,7 +27,7 @@ std::string write_reports(const ReportHead& head, const std::vector<ComparedRequ
                           const SceneOf& scene_of, const ReportFiles& files);
 
 /// Returns the exit code of a comparison: negative if a request has a verdict that fails; invalid
-/// input if a log is damaged or nothing could be compared.
+/// input if a log or a scene in it is damaged, or nothing could be compared.
 ExitCode code_of(const std::vector<ComparedRequest>& compared, const Failing& failing,
                  bool is_damaged);
 

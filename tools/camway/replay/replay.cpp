@@ -81,12 +81,15 @@ void add_selection_flags(CLI::App& command, Selection& selection) {
   add_read(command, "--id", selection.ids, &id_ranges_of, "Only requests with these ids: 3,7..9",
            "ids and ranges such as 3,7..9")
       ->type_name("IDS");
-  add_words(command, "--client", selection.clients, "Only requests of these clients")
+  add_words(command, "--client", selection.clients,
+            "Only requests of these clients, with ',' between them")
       ->type_name("CLIENT");
-  add_words(command, "--scene-name", selection.scenes, "Only requests in scenes of these names")
+  add_words(command, "--scene-name", selection.scenes,
+            "Only requests in scenes of these names, with ',' between them")
       ->type_name("NAME");
-  add_words(command, "--status", selection.statuses,
-            "Only requests with these recorded statuses; none: without an answer")
+  add_words(
+      command, "--status", selection.statuses,
+      "Only requests with these recorded statuses, with ',' between them; none: without an answer")
       ->type_name("STATUS")
       ->check(cli_support::one_of(status_words()));
 }

@@ -84,6 +84,7 @@ ReplayedRequest replay_one(const RecordedRequest& recorded, ReplayScenes& scenes
   const FoundScene found = recorded.request ? scenes.snapshot_of(recorded) : FoundScene{};
   if (!found.why_not.empty()) {
     compared.note = found.why_not;
+    compared.scene_is_damaged = found.is_damaged;
     return replayed;
   }
   replayed.result = plan_again(recorded, found.snapshot.get(), options.least_deadline_s);

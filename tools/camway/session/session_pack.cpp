@@ -39,6 +39,7 @@ constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 constexpr std::uint64_t kMostListBytes = std::uint64_t{64} << 20;
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
 constexpr std::string_view kBlobsBegin = "blobs/";
+constexpr char kNoSession[] = "is damaged, or no session: ";
 
 /// Size and digest of a member.
 struct Member {
@@ -188,13 +189,14 @@ class PackReader {
 
   /// Unpacks all members. Returns an error without the name of the pack, empty on success.
   std::string unpack_all() {
-    if (!is_open_) return text_of(archive_.get());
+    if (!is_open_) return kNoSession + text_of(archive_.get());
     std::string fault = read_list();
     archive_entry* entry = nullptr;
     while (fault.empty()) {
       const int outcome = archive_read_next_header(archive_.get(), &entry);
       if (outcome == ARCHIVE_EOF) break;
-      fault = outcome < ARCHIVE_WARN ? text_of(archive_.get()) : unpack_member(entry);
+      fault =
+          outcome < ARCHIVE_WARN ? "is damaged: " + text_of(archive_.get()) : unpack_member(entry);
     }
     if (fault.empty() && seen_.size() != members_.size()) {
       const auto missing = std::ranges::find_if(
@@ -208,7 +210,7 @@ class PackReader {
   std::string read_list() {
     archive_entry* entry = nullptr;
     if (archive_read_next_header(archive_.get(), &entry) < ARCHIVE_WARN) {
-      return text_of(archive_.get());
+      return kNoSession + text_of(archive_.get());
     }
     const char* const name = archive_entry_pathname(entry);
     if (name == nullptr || std::string_view(name) != kListName) {

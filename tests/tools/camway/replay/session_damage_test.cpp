@@ -11,6 +11,7 @@
 #include "daemon/scene/log/change_record.h"
 #include "tests/support/random.h"
 #include "tests/tools/camway/replay/recorded_wall.h"
+#include "tools/camway/replay/outcome.h"
 #include "tools/camway/replay/replay_run.h"
 #include "tools/camway/replay/scenes/session_scenes.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -137,11 +139,13 @@ TEST_F(SessionDamage, AnObjectThatCannotBePlacedIsTold) {
       scene::Placement::make({1e9, 0, 0}, geometry::Quat::Identity(), fault);
   update.entry.record = scene::change_record_of(whole);
   SessionScenes scenes(session, blob_folders_of({log_}));
-  EXPECT_THAT(scenes.snapshot_of(session.requests.front()).why_not, HasSubstr("is not in the log"));
+  EXPECT_THAT(scenes.snapshot_of(session.requests.front()).why_not, HasSubstr("cannot be rebuilt"));
 }
 
 TEST_F(SessionDamage, ADamagedOrMissingContentIsNamed) {
   const Session session = read_session(log_, "CAMWAY");
+  SessionScenes whole(session, blob_folders_of({log_}));
+  ASSERT_TRUE(whole.snapshot_of(session.requests.front()).snapshot);
   for (const fs::directory_entry& blob : fs::directory_iterator(log_.parent_path() / "blobs")) {
     const std::string good = read_all(blob.path().string());
     std::string bad = good;
@@ -150,9 +154,16 @@ TEST_F(SessionDamage, ADamagedOrMissingContentIsNamed) {
       fs::remove(blob.path());
       if (is_there) std::ofstream(blob.path(), std::ios::binary) << bad;
       SessionScenes scenes(session, blob_folders_of({log_}));
-      // The last revision needs all of the contents.
-      const std::string why = scenes.snapshot_of(session.requests.back()).why_not;
-      EXPECT_THAT(why, HasSubstr("is not in the log"));
+      // The last revision needs all of the contents; the one at fault is named, not what follows.
+      const FoundScene found = scenes.snapshot_of(session.requests.back());
+      EXPECT_TRUE(found.is_damaged);
+      EXPECT_THAT(found.why_not, AllOf(HasSubstr("cannot be rebuilt"),
+                                       HasSubstr(blob.path().filename().string())));
+      const auto compared = replay_one(session.requests.back(), scenes, {}).compared;
+      EXPECT_TRUE(compared.scene_is_damaged);
+      const auto first = replay_one(session.requests.front(), whole, {}).compared;
+      EXPECT_EQ(code_of({first, compared}, kFailing, false), ExitCode::kInvalidInput);
+      EXPECT_EQ(code_of({first}, kFailing, false), ExitCode::kSuccess);
     }
     std::ofstream(blob.path(), std::ios::binary) << good;
   }

@@ -15,6 +15,8 @@ struct ComparedRequest : Judgement {
   const RecordedRequest* recorded = nullptr;  ///< its `answer` is the earlier one
   std::optional<RecordedAnswer> now;
   bool scene_changed = false;  ///< whether the answers are of scenes with different triangles
+  /// Whether it was not planned, as its scene is damaged in the recording.
+  bool scene_is_damaged = false;
 };
 
 /// Verdicts that make a comparison fail.

@@ -129,8 +129,8 @@ std::string then_now_plot(const std::string& title, const std::vector<PlotMark>&
   const PlotAxis y = y_axis(0.0, most);
   std::string content;
   for (double tick = 0.0; tick <= most; tick += step_of(most)) {
-    content += tick_x(x, tick, fmt::format("{:.3g}", tick));
-    content += tick_y(y, tick, fmt::format("{:.3g}", tick));
+    content += tick_x(x, tick, fmt::format("{:g}", tick));
+    content += tick_y(y, tick, fmt::format("{:g}", tick));
   }
   content += line(x.px(0.0), y.px(0.0), x.px(most), y.px(most), "equal");
   for (const PlotMark& mark : worst_last(shown))
@@ -154,7 +154,7 @@ std::string by_request_plot(const std::string& title, const std::vector<PlotMark
   std::string content = tick_y(y, low, "0") + tick_y(y, high + 1.0, "none");
   const double step = std::max(1.0, std::ceil((high - low) / 5.0));
   for (double decade = high; decade > low; decade -= step) {
-    content += tick_y(y, decade, fmt::format("{:.0e}", std::pow(10.0, decade)));
+    content += tick_y(y, decade, fmt::format("{:g}", std::pow(10.0, decade)));
   }
   for (const PlotMark& mark : worst_last(marks)) {
     const double height = mark.y > 0.0 ? std::log10(mark.y) : low;

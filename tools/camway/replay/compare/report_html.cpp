@@ -23,10 +23,10 @@ constexpr char kHead[] = R"(<!DOCTYPE html>
 constexpr char kStyle[] = R"(<style>
 body { font: 14px/1.4 system-ui, sans-serif; color: #212121; margin: 24px; max-width: 1500px; }
 h1 { font-size: 22px; } h2 { font-size: 17px; margin-top: 28px; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: 3px 9px; border-bottom: 1px solid #dadada; text-align: left; vertical-align: top; }
-th { cursor: pointer; white-space: nowrap; background: #f2f1ed; }
-td.number { text-align: right; white-space: nowrap; }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
+th, td { padding: 3px 6px; border-bottom: 1px solid #dadada; text-align: left; vertical-align: top; }
+th { cursor: pointer; background: #f2f1ed; }
+td.number { text-align: right; } td:last-child { min-width: 15em; }
 .verdict { font-weight: 600; white-space: nowrap; }
 .chip { display: inline-block; padding: 2px 10px; margin-right: 6px; border: 1px solid #b3b0ab; border-radius: 10px; }
 .plot { margin: 0 14px 10px 0; font-size: 11px; } .plot .grid { stroke: #dadada; } .plot .equal { stroke: #6b6b6b; stroke-dasharray: 4 3; }

@@ -16,7 +16,8 @@ namespace camway::tools {
 struct FoundScene {
   /// Null if the daemon had no such scene, or for a reason in `why_not`.
   std::shared_ptr<const scene::Snapshot> snapshot;
-  std::string why_not;  ///< why the scene cannot be rebuilt; empty if it can
+  std::string why_not;      ///< why the scene cannot be rebuilt; empty if it can
+  bool is_damaged = false;  ///< with `why_not`: what was recorded of the scene is damaged
 };
 
 /// Finds the scenes that recorded requests were planned in.

@@ -89,9 +89,11 @@ class SessionScenes::Timeline {
     });
     walked_to_ = std::max(walked_to_, change.update.entry.revision);
     if (!result.error.empty()) {
-      fault_ = result.error;
+      // The changes after it fail for want of this one.
+      if (fault_.empty()) fault_ = result.error;
       return;
     }
+    fault_.clear();
     const std::shared_ptr<const scene::Snapshot> made = store_->find(name);
     if (!made || made->revision != change.update.entry.revision || find(made->revision)) return;
     if (made->digest != change.digest) {
@@ -111,7 +113,7 @@ class SessionScenes::Timeline {
   std::size_t next_ = 0;         ///< of `changes_`
   std::uint64_t walked_to_ = 0;  ///< revision of the last change that was made
   std::deque<std::shared_ptr<const scene::Snapshot>> kept_;
-  std::string fault_;  ///< of the last change that could not be made
+  std::string fault_;  ///< of the first change since a good one that could not be made
 };
 
 SessionScenes::SessionScenes(const Session& session, std::vector<fs::path> blob_folders)
@@ -144,9 +146,8 @@ FoundScene SessionScenes::snapshot_of(const RecordedRequest& request) {
   if (timeline == timelines_.end()) return {nullptr, name + " is not in the log"};
   std::string fault;
   std::shared_ptr<const scene::Snapshot> snapshot = timeline->second->at(revision, fault);
-  if (!snapshot) {
-    return {nullptr, name + " is not in the log" + (fault.empty() ? "" : ": " + fault)};
-  }
+  if (!snapshot && fault.empty()) return {nullptr, name + " is not in the log"};
+  if (!snapshot) return {nullptr, name + " cannot be rebuilt: " + fault, true};
   if (snapshot->digest != request.answer->scene_digest) {
     return {nullptr, name + " has other triangles in the log than in the answer"};
   }
@@ -182,8 +183,10 @@ FoundScene DigestScenes::snapshot_of(const RecordedRequest& request) {
   });
   FoundScene found{store.find(change.scene), {}};
   if (!found.snapshot || found.snapshot->digest != digest) {
-    found = {nullptr, name + " cannot be rebuilt: " +
-                          (result.error.empty() ? "it has other triangles" : result.error)};
+    found = {nullptr,
+             name + " cannot be rebuilt: " +
+                 (result.error.empty() ? "it has other triangles" : result.error),
+             true};
   }
   return found_.emplace(digest, std::move(found)).first->second;
 }

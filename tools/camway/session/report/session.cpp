@@ -11,6 +11,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/session/report/session_mcap.h"
 #include "tools/camway/session/report/session_table.h"
+#include "tools/camway/session/session_files.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -37,7 +38,10 @@ ExitCode run_session(const SessionFlags& flags) {
   wire::MessageKeys::ReadResult keys;
   if (!flags.key_file.empty()) keys = wire::MessageKeys::from_file(flags.key_file);
   if (!keys.error.empty()) return refuse_session("--key-file " + keys.error);
-  const Session session = read_session(flags.log, flags.prefix, keys.keys.get());
+  // A pack is unpacked until the end of the command.
+  const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
+  if (!files) return refuse_session(files.error);
+  const Session session = read_session(files->logs(), flags.prefix, keys.keys.get());
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.log.events == 0) {
     return session.log.damage.empty() ? refuse_session(flags.log + ": is empty")
@@ -50,7 +54,7 @@ ExitCode run_session(const SessionFlags& flags) {
   if (!flags.mcap.empty() && error.empty()) error = write_file(flags.mcap, session_mcap(session));
   if (!error.empty()) return refuse_session(error);
   fmt::print("{}", is_printed ? session_csv(session) : session_summary(session));
-  return session.log.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
+  return session.is_damaged() ? ExitCode::kInvalidInput : ExitCode::kSuccess;
 }
 
 }  // namespace
@@ -59,7 +63,10 @@ void add_session_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<SessionFlags>();
   CLI::App* command = app.add_subcommand(
       "session", "Show what a recorded session holds, or write it as CSV or MCAP");
-  command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
+  command
+      ->add_option("LOG", flags->log,
+                   "Log of lcm-logger, folder of a daemon's recordings, or packed session")
+      ->required();
   command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
   command
       ->add_option("--key-file", flags->key_file,

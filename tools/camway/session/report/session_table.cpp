@@ -71,9 +71,19 @@ std::string session_summary(const Session& session) {
                   session.log.bytes_used, session.requests.size(), last_s);
   text += counts_line("statuses", statuses) + counts_line("clients", clients) +
           counts_line("scenes", scenes);
+  if (!session.parts.empty()) {
+    text += fmt::format("recording  {} files, {} states and changes of scenes, camwayd {}\n",
+                        session.parts.size(), session.updates.size(),
+                        wire::printable(session.parts.back().version));
+  }
+  for (const record::Omission& omission : session.omissions) {
+    text += fmt::format("lacks      {} messages and {} changes of scenes: {}\n", omission.messages,
+                        omission.changes, wire::printable(omission.reason));
+  }
   add_count(text, session.malformed, "messages that cannot be read");
   add_count(text, session.other_version, "of them of another version of the wire types");
   add_count(text, session.distrusted, "messages without a valid signature");
+  add_count(text, session.damaged_events, "damaged events of the recording");
   add_count(text, session.incomplete, "requests or answers with a missing page");
   add_count(text, session.conflicts, "requests with the id of another one");
   add_count(text, session.unasked, "answers to requests that are not in the log");
