@@ -4,6 +4,10 @@
 import { readFileSync } from "node:fs";
 
 const [, , door, file] = process.argv;
+if (!file) {
+  console.error("usage: door.mjs ADDRESS REQUEST; `camway view` prints the address");
+  process.exit(2);
+}
 const url = new URL(door.trim());
 const token = url.searchParams.get("token");
 const request = JSON.parse(readFileSync(file, "utf8"));

@@ -29,7 +29,7 @@ from camway._errors import (  # noqa: E402
     UnknownScene,
     Unreachable,
 )
-from camway._native import Path  # noqa: E402
+from camway._native import Path, __version__  # noqa: E402
 from camway._pending import PendingPlan  # noqa: E402
 from camway._planning import CamwayWarning, Check, Scene, check, plan  # noqa: E402
 from camway._types import *  # noqa: E402, F403
@@ -39,6 +39,7 @@ from camway._watch import Watch  # noqa: E402
 __all__ = [
     "BadAnswer", "Busy", "CamwayWarning", "Cancelled", "Check", "Client", "Error", "InternalError", "InvalidRequest",
     "LimitExceeded", "Malformed", "NetworkUnusable", "NoAnswer", "NoDaemon", "NoMap", "OldScene", "Overloaded", "Path",
-    "PendingPlan", "Scene", "Stopping", "Timeout", "UnknownScene", "Unreachable", "Watch", "check", "plan",
+    "PendingPlan", "Scene", "Stopping", "Timeout", "UnknownScene", "Unreachable", "Watch", "__version__", "check",
+    "plan",
 ]
 __all__ += _data

@@ -6,10 +6,10 @@ import atexit
 import math
 import os
 import weakref
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from camway import _errors, _native, _types
+from camway import _errors, _functions, _native, _types
 from camway._pending import PendingPlan
 from camway._watch import Watch
 
@@ -113,18 +113,20 @@ class Client:
         """A warning about the network; empty if there is none."""
         return self._native.warning
 
-    def plan(self, request: _types.Request, *, timeout_s: float | None = None,
+    def plan(self, request: _types.Request | Mapping[str, Any], *, timeout_s: float | None = None,
              on_progress: Callable[[_types.PlanProgress], None] | None = None) -> _types.Answer:
         """Requests a path and waits for the answer. "ok", "partial" and "infeasible" are results; another status
-        raises its error, which has the answer. After `timeout_s` the request is cancelled, and Timeout raised."""
-        answer: _types.Answer = _errors.checked(self._native.plan(request, timeout_s, on_progress))
+        raises its error, which has the answer. After `timeout_s` the request is cancelled, and Timeout raised. A
+        request may be a dictionary as in request files, whose `scene` is the daemon's name of the scene."""
+        asked = _functions.request_of(request)
+        answer: _types.Answer = _errors.checked(self._native.plan(asked, timeout_s, on_progress))
         return answer
 
-    def plan_async(self, request: _types.Request, *,
+    def plan_async(self, request: _types.Request | Mapping[str, Any], *,
                    on_progress: Callable[[_types.PlanProgress], None] | None = None) -> PendingPlan:
         """Requests a path and returns at once: a future, which coroutines may await."""
         pending = PendingPlan(self._native)
-        request_id = self._native.plan_async(request, pending._take, on_progress)
+        request_id = self._native.plan_async(_functions.request_of(request), pending._take, on_progress)
         pending._request_id = request_id
         self._pending.add(pending)
         return pending
@@ -133,12 +135,12 @@ class Client:
         """Cancels a plan request of this client. Its answer comes soon. Has no effect on other ids."""
         self._native.cancel(request_id)
 
-    def watch(self, request: _types.Request,
+    def watch(self, request: _types.Request | Mapping[str, Any],
               on_event: Callable[[_types.WatchEvent], None] | None = None) -> Watch:
         """Requests a path and has the daemon watch it. Events go to `on_event`; without it, iterate over the watch.
         They are the answer; then each change of the scene that breaks the path, the corrected path, and a better one
         once an obstacle is gone. If the request cannot be sent, the only event is "ended"."""
-        watch = Watch(self._native, request, on_event)
+        watch = Watch(self._native, _functions.request_of(request), on_event)
         self._watches.add(watch)
         return watch
 

@@ -26,6 +26,13 @@ def text_of(document: Document) -> str:
     return document if isinstance(document, str) else json.dumps(document)
 
 
+def request_of(request: _types.Request | Mapping[str, Any]) -> _types.Request:
+    """Returns the request of an argument that may be a dictionary as in request files."""
+    from camway import _types
+
+    return _types.Request.from_json(request) if isinstance(request, Mapping) else request
+
+
 def read_text(file: str | os.PathLike[str]) -> str:
     """Returns the text of a file."""
     return pathlib.Path(file).read_text(encoding="utf-8")

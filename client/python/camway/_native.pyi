@@ -7,6 +7,8 @@ import numpy.typing as npt
 from camway import _types
 from camway._base import Floats, Vector
 
+__version__: str
+
 class Path:
     def __init__(self, segments: Sequence[_types.Segment] = ...) -> None: ...
     @property

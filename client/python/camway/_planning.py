@@ -97,6 +97,13 @@ class Scene:
         return f"<camway.Scene {info.name!r} of {info.num_triangles} triangles>"
 
 
+def _native_of(scene: Scene) -> _native.Scene:
+    """Returns the scene of C++. Raises TypeError for what is no scene, such as the name of a file."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a camway.Scene, not {type(scene).__name__}")
+    return scene._native
+
+
 def plan(scene: Scene, request: _types.Request | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",
          on_progress: Callable[[_types.PlanProgress], None] | None = None) -> _types.Answer:
     """Plans a path in this process: the bits of the answer are those of `camway plan` and of the daemon. Statuses are
@@ -110,9 +117,9 @@ def plan(scene: Scene, request: _types.Request | Mapping[str, Any], *, folder: s
     """
     if isinstance(request, Mapping):
         text = _functions.text_of(request)
-        answer, notes = _native.plan_json(scene._native, text, "request", os.fspath(folder), on_progress)
+        answer, notes = _native.plan_json(_native_of(scene), text, "request", os.fspath(folder), on_progress)
     else:
-        answer, notes = _native.plan_request(scene._native, request, on_progress)
+        answer, notes = _native.plan_request(_native_of(scene), request, on_progress)
     for note in notes:
         warnings.warn(note, CamwayWarning, stacklevel=2)
     checked: _types.Answer = _errors.checked(answer)
@@ -151,5 +158,5 @@ def check(scene: Scene, request: _types.Request | Mapping[str, Any],
         path_text = _native.answer_to_json(answer, False)
     else:
         path_text = json.dumps(dict(answer))
-    free, report, text = _native.check(scene._native, request_text, path_text, os.fspath(folder))
+    free, report, text = _native.check(_native_of(scene), request_text, path_text, os.fspath(folder))
     return Check(free, json.loads(report), text)

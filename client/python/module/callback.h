@@ -25,10 +25,12 @@ class CallGate {
       ++running_;
     }
     ++mine();
+    const CallGate* const outer = std::exchange(innermost(), this);
     {
       const py::gil_scoped_acquire gil;
       call();
     }
+    innermost() = outer;
     --mine();
     const std::scoped_lock lock(mutex_);
     --running_;
@@ -43,7 +45,15 @@ class CallGate {
     left_.wait(lock, [&] { return running_ <= mine(); });
   }
 
+  /// Whether this thread is in a handler of this gate's client, for whose end all of its answers
+  /// wait.
+  [[nodiscard]] bool is_this_thread_inside() const { return innermost() == this; }
+
  private:
+  static const CallGate*& innermost() {
+    thread_local const CallGate* gate = nullptr;
+    return gate;
+  }
   /// Number of calls that this thread is in, of any gate: a handler that closes several clients
   /// waits for none that it is in itself.
   static int& mine() {

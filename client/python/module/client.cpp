@@ -3,7 +3,9 @@
 #include <pybind11/stl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <memory>
 #include <optional>
@@ -25,10 +27,23 @@ using std::chrono::steady_clock;
 /// Time for which a call that took too long waits for the end of its cancelled request.
 constexpr std::chrono::milliseconds kCancelGrace{500};
 
+/// Wait for a heartbeat where the caller names none.
+constexpr double kStatusTimeout_s = 3.0;
+
 steady_clock::time_point after(double seconds) {
   constexpr double kLongest_s = 3600.0 * 24 * 365;
-  const std::chrono::duration<double> time(std::min(seconds, kLongest_s));
+  const std::chrono::duration<double> time(std::clamp(seconds, 0.0, kLongest_s));
   return steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(time);
+}
+
+/// Returns a time to wait. Throws ConversionFault for NaN, which no time comes after.
+std::optional<double> timeout_of(py::handle value) {
+  const auto timeout_s = argument<std::optional<double>>(value, "timeout_s");
+  if (timeout_s && std::isnan(*timeout_s)) {
+    throw ConversionFault(ConversionFault::Kind::kValue, "must be seconds, not NaN")
+        .within("timeout_s");
+  }
+  return timeout_s;
 }
 
 /// Returns the options of a client from keyword arguments, which the package has checked.
@@ -110,11 +125,11 @@ class NativeClient {
     return client_;
   }
 
-  py::object plan(py::handle request_object, std::optional<double> timeout_s,
-                  const py::object& on_progress) {
+  py::object plan(py::handle request_object, py::handle timeout, const py::object& on_progress) {
     const CountedCall counted;
     const auto request = argument<PlanRequest>(request_object, "request");
-    const std::shared_ptr<Client> client = this->client();
+    const std::optional<double> timeout_s = timeout_of(timeout);
+    const std::shared_ptr<Client> client = client_to_wait_for();
     PendingPlan pending = start(*client, request, handlers_for(on_progress, py::none()));
     const auto cancel = [&] { client->cancel(pending.request_id); };
     const auto end = timeout_s ? after(*timeout_s) : no_end();
@@ -155,7 +170,7 @@ class NativeClient {
   auto wait_for_call(Ask ask) {
     const CountedCall counted;
     using Answer = decltype(ask(*client_));
-    const std::shared_ptr<Client> client = this->client();
+    const std::shared_ptr<Client> client = client_to_wait_for();
     auto task = std::make_shared<std::packaged_task<Answer()>>(
         [held = client, ask = std::move(ask)]() mutable {
           // Whoever waits may close the client right after the answer.
@@ -174,12 +189,27 @@ class NativeClient {
   }
 
  private:
+  /// Returns the client. Throws in its handlers, without whose end no answer comes. The client
+  /// itself would not notice: the wait is in other threads, or in none of its functions.
+  [[nodiscard]] std::shared_ptr<Client> client_to_wait_for() const {
+    if (gate_->is_this_thread_inside()) {
+      throw Failed{Status::kBusy,
+                   "a handler of this client must not wait for it; use plan_async there"};
+    }
+    return client();
+  }
+
   /// Whether a client without an error in its options has one, which LCM has.
   [[nodiscard]] bool fails_by_network() const {
     return client_->status(0.0).status == Status::kNetworkUnusable;
   }
 
   PlanHandlers handlers_for(const py::object& on_progress, const py::object& on_answer) const {
+    if (!on_progress.is_none() && PyCallable_Check(on_progress.ptr()) == 0) {
+      throw ConversionFault(ConversionFault::Kind::kType,
+                            "must be a function, not " + type_name(on_progress))
+          .within("on_progress");
+    }
     PlanHandlers handlers;
     if (!on_progress.is_none()) {
       handlers.on_progress = [call = Callback(gate_, on_progress)](const PlanProgress& now) {
@@ -238,7 +268,8 @@ void add_plan_calls(py::class_<NativeClient>& type) {
           py::arg("request_id"))
       .def(
           "status",
-          [](NativeClient& mine, double timeout_s) {
+          [](NativeClient& mine, py::handle timeout) {
+            const double timeout_s = timeout_of(timeout).value_or(kStatusTimeout_s);
             return mine.ask([=](Client& client) { return client.status(timeout_s); });
           },
           py::arg("timeout_s"))

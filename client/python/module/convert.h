@@ -186,13 +186,15 @@ void for_each_item(py::handle value, const Take& take) {
 
 template <IsArray T>
 void array_from_python(py::handle value, T& mine) {
-  const std::string shape = "must be " + std::to_string(mine.size()) + " numbers";
   std::size_t count = 0;
   for_each_item(value, [&](std::size_t i, py::handle item) {
     if (i < mine.size()) from_python(item, mine[i]);
     count = i + 1;
   });
-  if (count != mine.size()) refuse_value(shape + ", not " + std::to_string(count));
+  if (count != mine.size()) {
+    refuse_value("must be " + std::to_string(mine.size()) + " numbers, not " +
+                 std::to_string(count));
+  }
 }
 
 template <IsVector T>

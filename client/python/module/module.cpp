@@ -9,6 +9,7 @@ PYBIND11_MODULE(_native, module) {
   namespace py = pybind11;
   using namespace camway::python;
   module.doc() = "The part of the package camway that is written in C++.";
+  module.attr("__version__") = CAMWAY_VERSION;
   add_path(module);
   add_client(module);
   add_documents(module);

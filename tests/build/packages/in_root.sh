@@ -24,6 +24,14 @@ for file in packages/*.deb; do
 done
 has() { [[ " ${names[*]} " == *" $1 "* ]]; }
 
+# What `apt search` shows of each package tells which is which.
+check_synopses() {
+  local file distinct
+  distinct=$(for file in packages/*.deb; do dpkg-deb --field "$file" Description | sed -n 1p; done | sort -u | wc -l)
+  ((distinct == ${#names[@]})) || fail "packages share their synopsis"
+}
+check_synopses
+
 install_packages() {
   step "install ${names[*]}"
   # Images for containers leave out pages and documents.

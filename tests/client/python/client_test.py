@@ -149,6 +149,52 @@ class ClientTest(unittest.TestCase):
             sys.unraisablehook = hook
         self.assertIsInstance(seen[0], ZeroDivisionError)
 
+    def test_a_handler_cannot_wait_for_its_client(self):
+        # It would wait for the thread that it runs on, with all other calls behind it.
+        seen = []
+
+        def ask(_):
+            for call in (lambda: self.client.plan(request_of("office-graze-column")), self.client.list_scenes,
+                         self.client.status):
+                try:
+                    seen.append(call())
+                except camway.Error as error:
+                    seen.append(error)
+
+        with camway.Client() as other:
+            pending = self.client.plan_async(request_of("office-graze-column"))
+            pending.add_done_callback(lambda _: seen.append(other.list_scenes()[0].name))
+            pending.result(60)
+            self.client.watch(request_of("office-graze-column"), ask)
+            while len(seen) < 4:
+                time.sleep(0.02)
+        self.assertEqual([type(each) for each in seen], [str] + [camway.Busy] * 3)
+        self.assertRegex(str(seen[1]), "^a handler of this client must not wait for it")
+        self.assertTrue(self.client.plan(request_of("office-graze-column")).ok)
+
+    def test_requests_may_be_dictionaries(self):
+        document = {**support.request_document("office-graze-column"), "scene": "office"}
+        request = camway.Request.from_json(document)
+        self.assertEqual(self.client.plan(document).path, self.client.plan(request).path)
+        self.assertEqual(self.client.plan_async(document).result(60).path, self.client.plan(request).path)
+        with self.client.watch(document) as watch:
+            self.assertEqual(watch.next_event(60).answer.path, self.client.plan(request).path)
+        with self.assertRaisesRegex(camway.InvalidRequest, "^request: keyframe: is unknown"):
+            self.client.plan({**document, "keyframe": []})
+
+    def test_arguments_of_a_wrong_type_are_named(self):
+        request = request_of("office-graze-column")
+        for kind, text, call in (
+                (TypeError, "timeout_s: must be a number, not str", lambda: self.client.plan(request, timeout_s="1")),
+                (ValueError, "timeout_s: must be seconds, not NaN",
+                 lambda: self.client.plan(request, timeout_s=float("nan"))),
+                (TypeError, "timeout_s: must be a number, not str", lambda: self.client.status("1")),
+                (TypeError, "on_progress: must be a function, not int",
+                 lambda: self.client.plan_async(request, on_progress=3)),
+                (TypeError, "request: must be a camway.Request, not str", lambda: self.client.plan("office"))):
+            with self.assertRaisesRegex(kind, f"^{text}$"):
+                call()
+
     def test_a_call_has_a_timeout(self):
         with self.assertRaisesRegex(camway.Timeout, r"no answer came within 0\.2 s \(timeout_s\)"):
             self.client.plan(long_request(), timeout_s=0.2)

@@ -96,6 +96,11 @@ class PlanTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "^up: 'left' is unknown; the values are as-in-file, z-to-y, y-to-z$"):
             camway.Scene.load(support.SCENES / "office.obj", up="left")
 
+    def test_the_name_of_a_file_is_no_scene(self):
+        for call in (camway.plan, lambda *arguments: camway.check(*arguments, {})):
+            with self.assertRaisesRegex(TypeError, "^scene: must be a camway.Scene, not str$"):
+                call("scenes/office.obj", support.request_document("office-graze-column"))
+
     def test_without_the_program_that_reads_scenes_it_says_where_it_looked(self):
         self.assertIn("camway-import is neither in /nowhere, beside this program nor on PATH",
                       self.load_in_another_process(CAMWAY_PROGRAMS="/nowhere"))

@@ -39,6 +39,10 @@ class TypesTest(unittest.TestCase):
 class StubsTest(unittest.TestCase):
     """The stub of the module in C++ has the names and arguments that are there, all of them."""
 
+    def test_the_package_has_the_version_of_the_command(self):
+        told = subprocess.run([support.PROGRAMS / "camway", "--version"], text=True, capture_output=True, check=True)
+        self.assertIn(camway.__version__, told.stdout)
+
     def test_stubs_are_of_what_is_there(self):
         stub = ast.parse((_PACKAGE / "_native.pyi").read_text())
         self.compare(stub.body, _native)
