@@ -50,10 +50,12 @@ class CallGate {
   [[nodiscard]] bool is_this_thread_inside() const { return innermost() == this; }
 
  private:
+  /// The gate that this thread came through last and has not left; null outside of all.
   static const CallGate*& innermost() {
     thread_local const CallGate* gate = nullptr;
     return gate;
   }
+
   /// Number of calls that this thread is in, of any gate: a handler that closes several clients
   /// waits for none that it is in itself.
   static int& mine() {
