@@ -39,6 +39,8 @@ struct DrawFlags {
   bool is_side_by_side = false;
 };
 
+bool is_page(const std::filesystem::path& picture) { return picture.extension() == ".html"; }
+
 draw::PictureFiles files_of(const DrawFlags& flags) {
   const std::filesystem::path picture(flags.picture);
   draw::PictureFiles files;
@@ -99,7 +101,7 @@ std::pair<draw::SceneUp, std::string> vertical_of_scene(const DrawFlags& flags,
 /// Draws the plan of a scene alone.
 ExitCode draw_scene_alone(const DrawFlags& flags) {
   if (flags.scene.file.empty()) return invalid("--scene or --request is required");
-  if (std::filesystem::path(flags.picture).extension() == ".html") {
+  if (is_page(flags.picture)) {
     return invalid(flags.picture + ": a page needs --request and --response");
   }
   const scene::SnapshotResult loaded = load_drawn(flags, flags.scene.file, {});
@@ -138,7 +140,7 @@ ExitCode draw_response(const DrawFlags& flags) {
       !error.empty()) {
     return invalid(error);
   }
-  if (std::filesystem::path(flags.picture).extension() == ".html") {
+  if (is_page(flags.picture)) {
     return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
   }
   draw::FloorPlan plan = draw::plan_of_answer(request->camera, *response, *snapshot.mesh.share());
@@ -154,6 +156,10 @@ ExitCode draw_response(const DrawFlags& flags) {
 ExitCode run_draw(const DrawFlags& flags) {
   if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
     return invalid(fault);
+  }
+  if (is_page(flags.picture) && (flags.is_side_by_side || flags.vertical)) {
+    return invalid(fmt::format("--{}: is for plans, .svg or .png; {} would be a page",
+                               flags.is_side_by_side ? "side-by-side" : "vertical", flags.picture));
   }
   return flags.request.empty() ? draw_scene_alone(flags) : draw_response(flags);
 }

@@ -71,6 +71,22 @@ TEST_F(CliDraw, RefusesOtherPicturesAndAnswersWithoutAPath) {
   EXPECT_THAT(none.err, HasSubstr("answer.json"));
 }
 
+/// A flag that a page does not follow is not passed over in silence.
+TEST_F(CliDraw, RefusesFlagsOfPlansForAPage) {
+  plan(0.5);
+  const std::string page = folder_.file("answer.html");
+  for (const std::vector<std::string>& flag :
+       {std::vector<std::string>{"--side-by-side"}, {"--vertical", "z"}}) {
+    std::vector<std::string> arguments{"draw",    "--request", request_, "--response",
+                                       response_, "-o",        page};
+    arguments.insert(arguments.end(), flag.begin(), flag.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr(flag.front() + ": is for plans, .svg or .png"));
+    EXPECT_FALSE(std::filesystem::exists(page));
+  }
+}
+
 TEST_F(CliDraw, TakesTheSceneOfTheRequestAndRefusesAnother) {
   plan(0.5);
   const std::string picture = folder_.file("answer.svg");
