@@ -81,7 +81,7 @@ test('a click names the part of a file, and handles turn a keyframe and leave it
   await page.until(({state}, given) => state.request.keyframes[0].orientation.every((x, i) => x === given[i]), given.orientation);
 });
 
-test('a box is added and moved by the mouse, another tab shows it, and its mesh is sent once', async () => {
+test('a box is added, moved by the mouse and by keys, another tab shows it, and its mesh is sent once', async () => {
   const page = await shared_page();
   const other = await open_page(door.url);
   await other.ready();
@@ -116,6 +116,13 @@ test('a box is added and moved by the mouse, another tab shows it, and its mesh 
   await other.ready();
   assert.deepEqual([page, other].map(each => fetched.filter(by => by === each).length), [1, 1]);
   await page.tab.bringToFront();
+  // Keys move and turn it, too, and each goes on from the one before.
+  for (const key of ['Alt+PageUp', 'Alt+PageUp', 'Alt+Shift+ArrowLeft']) await page.tab.keyboard.press(key);
+  const turned = Math.cos(2.5 * Math.PI / 180);
+  await page.until(({state}, {height, turned}) => {
+    const box = state.scene.objects.find(({name}) => name === 'box_1');
+    return Math.abs(box.position[1] - height) < 1e-4 && Math.abs(box.orientation[0] - turned) < 1e-6;
+  }, {height: moved.position[1] + 0.1, turned});
   await page.tab.keyboard.press('Delete');
   await page.until(({state}) => state.scene.objects.length === 1);
   await other.close();

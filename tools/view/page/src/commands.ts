@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All that keys and buttons do, in one table: the keyboard, the tool bar and the help are made from it.
 
-import type { Actions, Pose } from './model/actions.js';
+import type { Actions } from './model/actions.js';
 import { distanceText, offeredPose } from './model/free_pose.js';
 import type { Store } from './model/store.js';
 import type { Viewport } from './viewport/viewport.js';
@@ -61,15 +61,8 @@ function selectNext(store: Store, actions: Actions, step: number): void {
 
 function keyframeCommands(context: CommandContext): Command[] {
   const { store, actions, viewport } = context;
-  const change = (poseOf: (keyframe: number) => Pose | undefined): void => {
-    const keyframe = selectedKeyframe(store);
-    const pose = keyframe === undefined ? undefined : poseOf(keyframe);
-    if (keyframe !== undefined && pose) actions.setKeyframe(keyframe, pose, 'full');
-  };
-  const nudge = (right: number, up: number, back: number): void =>
-    change((keyframe) => viewport.editing.nudged(keyframe, [right, up, back], kNudge_m));
-  const turn = (yaw: number, pitch: number): void =>
-    change((keyframe) => viewport.editing.turned(keyframe, yaw * kTurn_deg, pitch * kTurn_deg));
+  const nudge = (right: number, up: number, back: number): void => viewport.editing.nudge([right, up, back], kNudge_m);
+  const turn = (yaw: number, pitch: number): void => viewport.editing.turn(yaw * kTurn_deg, pitch * kTurn_deg);
   const remove = (): void => {
     const { selection } = store.now;
     if (selection && 'keyframe' in selection) actions.deleteKeyframe(selection.keyframe);
@@ -89,7 +82,7 @@ function keyframeCommands(context: CommandContext): Command[] {
     { keys: ['r'], shown: 'R', name: 'Handles that turn', group, icon: 'turn', isOn: () => viewport.handleMode === 'rotate', run: () => (viewport.handleMode = 'rotate') },
     { keys: ['n'], shown: 'N, Shift N', name: 'Select the next or previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, 1) },
     { keys: ['Shift+n'], name: 'Select the previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, -1) },
-    { keys: ['Alt+ArrowLeft'], shown: 'Alt ← → ↑ ↓', name: 'Move it level by 5 cm', group, run: () => nudge(-1, 0, 0) },
+    { keys: ['Alt+ArrowLeft'], shown: 'Alt ← → ↑ ↓', name: 'Move what is selected level by 5 cm', group, run: () => nudge(-1, 0, 0) },
     { keys: ['Alt+ArrowRight'], name: 'Move it to the right', group, run: () => nudge(1, 0, 0) },
     { keys: ['Alt+ArrowUp'], name: 'Move it away', group, run: () => nudge(0, 0, -1) },
     { keys: ['Alt+ArrowDown'], name: 'Move it nearer', group, run: () => nudge(0, 0, 1) },

@@ -6,7 +6,7 @@ import type { Vec3 } from '../contract/request.js';
 import type { Actions, Pose } from '../model/actions.js';
 import type { Store } from '../model/store.js';
 import type { Extent } from './extent.js';
-import { toQuat, toQuaternion, upVector } from './frame.js';
+import { toQuaternion, upVector } from './frame.js';
 import type { Frame, UpAxis } from './frame.js';
 import { Handles } from './handles.js';
 import type { HandleTarget } from './handles.js';
@@ -33,6 +33,8 @@ export interface EditingContext {
   isCovered(): boolean;
   onPicked(hit: Hit | undefined): void;
 }
+
+type LocalPose = Pick<HandleTarget, 'position' | 'orientation'>;
 
 export class Editing {
   readonly handles: Handles;
@@ -140,26 +142,30 @@ export class Editing {
     actions.setKeyframe(index, this.dragged, 'draft');
   }
 
-  /** The pose of a keyframe after a step to the right, up and back, as the view has these directions. */
-  nudged(index: number, [right, up, back]: Vec3, step_m: number): Pose | undefined {
-    const keyframe = this.context.store.now.request?.keyframes[index];
-    if (!keyframe) return undefined;
-    const frame = this.context.frame();
+  /** Moves what is selected by a step to the right, up and back, as the view has these directions. */
+  nudge([right, up, back]: Vec3, step_m: number): void {
     const upward = upVector(this.context.up());
     const ahead = this.context.navigation.camera.getWorldDirection(new Vector3());
     ahead.addScaledVector(upward, -ahead.dot(upward)).normalize();
-    const place = frame.toLocal(keyframe.position).addScaledVector(ahead.clone().cross(upward), right * step_m);
-    place.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
-    return { position: frame.toPose(place, new Quaternion()).position, orientation: keyframe.orientation };
+    const step = ahead.clone().cross(upward).multiplyScalar(right * step_m);
+    step.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
+    this.changeSelected(({ position, orientation }) => ({ position: position.add(step), orientation }));
   }
 
-  /** The pose of a keyframe after a turn about the upward axis, and up about its own right. */
-  turned(index: number, yaw_deg: number, pitch_deg: number): Pose | undefined {
-    const keyframe = this.context.store.now.request?.keyframes[index];
-    if (!keyframe) return undefined;
+  /** Turns what is selected about the upward axis, and up about its own right. */
+  turn(yaw_deg: number, pitch_deg: number): void {
     const yaw = new Quaternion().setFromAxisAngle(upVector(this.context.up()), (yaw_deg * Math.PI) / 180);
     const pitch = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), (pitch_deg * Math.PI) / 180);
-    const turned = yaw.multiply(toQuaternion(keyframe.orientation)).multiply(pitch);
-    return { position: keyframe.position, orientation: toQuat(turned) };
+    this.changeSelected(({ position, orientation }) => ({ position, orientation: yaw.multiply(orientation).multiply(pitch) }));
+  }
+
+  private changeSelected(change: (pose: LocalPose) => LocalPose): void {
+    const target = this.target();
+    if (!target) return;
+    const { selection } = this.context.store.now;
+    // Keys come faster than the scene answers: each goes on from where the object is drawn.
+    const shown = selection && 'object' in selection ? this.context.sceneView.poseShown(selection.object) : undefined;
+    const { position, orientation } = change(shown ?? target);
+    this.dragHandle(position, orientation, 'full');
   }
 }

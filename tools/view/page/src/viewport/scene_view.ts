@@ -2,7 +2,7 @@
 // The objects of the scene. A new description fetches the meshes that are new alone, and moves the others.
 
 import { Group, LineSegments, Mesh, Raycaster, ShaderMaterial, Vector3 } from 'three';
-import type { BufferGeometry, IUniform, Ray } from 'three';
+import type { BufferGeometry, IUniform, Quaternion, Ray } from 'three';
 import { acceleratedRaycast } from 'three-mesh-bvh';
 import type { ObjectFacts, SceneDescription } from '../contract/door.js';
 import { toQuaternion } from './frame.js';
@@ -88,6 +88,15 @@ export class SceneView {
   preview(name: string, position: Vector3, orientation: readonly number[]): void {
     const item = this.items.get(name);
     if (item && this.frame) this.setPose(item, this.frame.toWorld(position), orientation);
+  }
+
+  /** Where an object is drawn: while moves of it are on their way, ahead of where the scene has it. */
+  poseShown(name: string): { position: Vector3; orientation: Quaternion } | undefined {
+    const item = this.items.get(name);
+    if (!item) return undefined;
+    const { mesh, shape } = item;
+    const center = shape.center.clone().applyQuaternion(mesh.quaternion);
+    return { position: mesh.position.clone().sub(center), orientation: mesh.quaternion.clone() };
   }
 
   get shapesShown(): { shape: Shape; mesh: Mesh }[] {
