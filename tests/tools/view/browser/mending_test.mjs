@@ -104,6 +104,23 @@ test('a near free pose is accepted by Enter, a far one by its own key, and undo 
   await page.close();
 });
 
+test('a file that is chosen late is opened, too', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  // A dialog that stays open, while the browser tidies up its memory.
+  await page.tab.evaluate(() => {
+    HTMLInputElement.prototype.click = function() {
+      window.picker = new WeakRef(this);
+    };
+  });
+  await page.tab.keyboard.press('Control+o');
+  await page.tab.evaluate(() => new Promise(done => setTimeout(done)));  // a WeakRef holds until the end of its task
+  const session = await page.tab.context().newCDPSession(page.tab);
+  await session.send('HeapProfiler.collectGarbage');
+  assert.ok(await page.tab.evaluate(() => window.picker.deref() !== undefined), 'the browser has forgotten the dialog');
+  await page.close();
+});
+
 test('an option that is refused is marked, and the path is still drawn', async () => {
   const refused = await open_door('--scene', scene_file('office'));
   const page = await open_page(refused.url);

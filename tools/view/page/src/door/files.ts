@@ -11,14 +11,19 @@ export function saveFile(name: string, content: Blob | string, type = 'applicati
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
+/** The field whose dialog is open: browsers forget the choice of a field that nothing else holds, as soon as they tidy up. */
+let picker: HTMLInputElement | undefined;
+
 /** Asks for a file; resolves with its text, and never if none is chosen. */
 export function pickFile(accept: string): Promise<{ name: string; text: string }> {
   return new Promise((done) => {
     const input = document.createElement('input');
+    picker = input;
     input.type = 'file';
     input.accept = accept;
     input.addEventListener('change', () => {
       const file = input.files?.[0];
+      if (picker === input) picker = undefined;
       if (file) void file.text().then((text) => done({ name: file.name, text }));
     });
     input.click();
