@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/record/event_log.h"
 #include "lcmtypes/wire/utime.h"
 
 namespace camway::record {
