@@ -189,8 +189,9 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
           ->needs(response);
   response->needs(request);
   command
-      ->add_option("-o,--picture", flags->picture,
-                   "Picture to write: .svg or .png; or .html, a page to look around in")
+      ->add_option(
+          "-o,--picture", flags->picture,
+          "Picture to write: .svg or .png; or .html, a page to look around in, of a response")
       ->required()
       ->type_name("FILE")
       ->check([](const std::string& file) {

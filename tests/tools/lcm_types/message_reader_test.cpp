@@ -150,7 +150,11 @@ TEST_F(LcmMessageReaderTest, EndsForDamagedMessages) {
       bytes[at] = static_cast<std::uint8_t>(random_.integer(0, 255));
     }
     const auto read = reader_->read(bytes, wanted);
-    EXPECT_TRUE(read || !read.error.empty());
+    EXPECT_EQ(read.error.empty(), static_cast<bool>(read));
+    if (!read) continue;
+    EXPECT_EQ((*read)[0].size() % 3, 0U);
+    EXPECT_EQ((*read)[1].size() % 3, 0U);
+    EXPECT_LE(8 * (*read)[0].size() + 4 * (*read)[1].size(), bytes.size());
   }
 }
 

@@ -43,7 +43,7 @@ std::optional<OpenedSession> open_session(const std::string& log, const ReplayFl
   Session session = read_session(files->logs(), flags.publishing.prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty()) {
-    // Of a file without a good event the damage says all.
+    // The damage is all there is to say of a file without a good event.
     if (session.log.events > 0 || session.log.damage.empty()) {
       print_error(why_empty(session, log, flags));
     }

@@ -110,7 +110,7 @@ export class Page {
   ready() {
     return this.until(camway => {
       const {state, report} = camway;
-      if (!state.scene || state.connection === 'lost' || state.isPending || state.isDraft) return undefined;
+      if (!state.scene || !['open', 'review'].includes(state.connection) || state.isPending || state.isDraft) return undefined;
       if (state.request?.keyframes.length >= 2 && !state.answer) return undefined;
       return report?.sceneTriangles >= state.scene.scene.triangles && performance.now();
     });

@@ -63,10 +63,23 @@ test('a daemon that is killed is missed, and found again', async () => {
   assert.equal(await daemon.end('SIGKILL'), 'SIGKILL');
   await page.until(({state}) => state.connection === 'lost');
   await page.tab.getByText(/The daemon is not heard/).first().waitFor();
+  await page.show_panel('File');
+  assert.equal(await page.button('Save as a page').getAttribute('title'), 'Needs the connection to camway');
+  await page.show_panel('Answer');
   daemon = await start_daemon();
   await page.until(({state}) => state.connection === 'open');
   await page.tab.getByText(/The daemon is not heard/).first().waitFor({state: 'detached'});
   await page.tab.keyboard.press('p');
   await page.shows('ok');
   await page.close();
+});
+
+test('a scene that the daemon has not is named, and no connection is said to be lost', async () => {
+  const wrong = await open_door('offices');
+  const page = await open_page(wrong.url);
+  await page.tab.getByText(/there are: 'office'/).first().waitFor();
+  await page.tab.locator('#status', {hasText: 'not connected yet'}).waitFor();
+  page.forgive(/404/);
+  await page.close();
+  assert.equal(await wrong.end(), 0, wrong.output);
 });

@@ -16,7 +16,7 @@ export function makeIconlessButton(text: string, title: string, run: () => void)
 }
 
 function sentence({ connection, message, isPending, answer, unplanned }: State): { text: string; kind: string } {
-  if (connection === 'lost') return { text: message || 'Connecting to camway …', kind: 'lost' };
+  if (connection === 'lost' || connection === 'connecting') return { text: message || 'Connecting to camway …', kind: 'lost' };
   if (message) return { text: message, kind: isPending ? 'busy' : unplanned ? 'invalid' : 'note' };
   if (unplanned) return { text: unplanned, kind: 'invalid' };
   if (!answer) return { text: isPending ? 'Planning …' : 'Walk to a place and press K for each keyframe, or open a request.', kind: 'note' };

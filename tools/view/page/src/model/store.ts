@@ -21,7 +21,8 @@ export interface State {
   readonly isPlaying: boolean;
   /** Index of the selected keyframe of the request, or the name of the selected object. */
   readonly selection: { keyframe: number } | { object: string } | undefined;
-  readonly connection: 'open' | 'lost' | 'review';
+  /** `connecting` until the door has answered for the first time. */
+  readonly connection: 'connecting' | 'open' | 'lost' | 'review';
   readonly watched: 'off' | 'ok' | 'broken' | 'replanning';
   readonly message: string;
   readonly isReadOnly: boolean;
@@ -66,7 +67,7 @@ export const kEmptyState: State = {
   cursor_s: 0,
   isPlaying: false,
   selection: undefined,
-  connection: 'lost',
+  connection: 'connecting',
   watched: 'off',
   message: '',
   isReadOnly: false,

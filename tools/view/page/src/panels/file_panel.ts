@@ -11,6 +11,9 @@ export interface FilePanel {
   setDocument(facts: DocumentFacts): void;
 }
 
+/** The reason why a button that asks the door is disabled. */
+const kNeedsDoor = 'Needs the connection to camway';
+
 /** Makes the panel that opens and saves. In a review nothing is opened, and nothing is asked of a door. */
 export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions): FilePanel {
   const name = make('strong', { text: 'No request' });
@@ -45,6 +48,9 @@ export function makeFilePanel(host: HTMLElement, store: Store, actions: Actions)
     save.disabled = now.request === undefined;
     saveAnswer.disabled = !isThere;
     edit.disabled = !hasPath;
+    const why = now.connection === 'open' ? '' : kNeedsDoor;
+    exportButton.title = why;
+    review.title = why;
     exportButton.disabled = !hasPath || now.connection !== 'open';
     review.disabled = !isThere || now.connection !== 'open';
   };

@@ -11,6 +11,7 @@ export interface StatusBar {
 }
 
 const kConnections: Readonly<Record<State['connection'], string>> = {
+  connecting: 'not connected yet',
   open: 'connected',
   lost: 'connection lost, trying again',
   review: 'saved review: nothing can be changed',
