@@ -46,15 +46,18 @@ export function camway(...words) {
   return run.stdout;
 }
 
-/// A program that runs beside the test. It is killed when the test ends in any way.
+/// A program that runs beside the test. It is killed when the test ends in any way, and keeps no test from ending:
+/// one that fails leaves its programs running.
 class Program {
   constructor(file, words) {
     this.output = '';
     this.child = spawn(file, words, {stdio: ['ignore', 'pipe', 'pipe']});
     running.add(this.child);
     this.waiting = [];
+    this.child.unref();
     for (const stream of [this.child.stdout, this.child.stderr]) {
       stream.on('data', text => this.heard(text));
+      stream.unref();
     }
     this.ended = new Promise(done => this.child.on('exit', (code, signal) => {
       running.delete(this.child);
@@ -94,6 +97,7 @@ class Program {
 
   /// Sends a signal and waits for the end. Returns the exit code, or the name of the signal that ended it.
   end(signal = 'SIGTERM') {
+    this.child.ref();
     this.child.kill(signal);
     return this.ended;
   }

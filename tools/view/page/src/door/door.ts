@@ -56,7 +56,11 @@ class Door {
     this.planner = new Planner(this.socket, store);
     this.scenes = new SceneWatch(this.socket, store, nameNow, (isChanged) => this.onScene(isChanged));
     this.watch = new PathWatch(this.socket, store, (request) => this.planner.asking(request));
-    this.sceneEditor = new SceneEditor(nameNow, () => void this.scenes.refresh(), this.onError);
+    this.sceneEditor = new SceneEditor(nameNow, {
+      onChanged: () => this.scenes.refresh(),
+      onMoves: (moves) => store.set({ moves }),
+      onError: this.onError,
+    });
   }
 
   backing(): Backing {

@@ -25,6 +25,7 @@ interface PathEvent {
 /** Follows the scene that the page shows. Several changes at a time are fetched as one. */
 export class SceneWatch {
   private isFetching = false;
+  private fetching: Promise<void> = Promise.resolve();
   private isStale = false;
 
   constructor(
@@ -59,10 +60,14 @@ export class SceneWatch {
     if (!shown || shown.name !== facts.name || shown.revision !== facts.revision || shown.digest !== facts.digest) void this.refresh();
   }
 
-  /** Fetches the description of the scene anew. */
-  async refresh(): Promise<void> {
+  /** Fetches the description of the scene anew. Resolves when the store has one that was asked for after the call. */
+  refresh(): Promise<void> {
     this.isStale = true;
-    if (this.isFetching) return;
+    if (!this.isFetching) this.fetching = this.fetchWhileStale();
+    return this.fetching;
+  }
+
+  private async fetchWhileStale(): Promise<void> {
     this.isFetching = true;
     while (this.isStale) {
       this.isStale = false;

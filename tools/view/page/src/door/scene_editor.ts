@@ -9,20 +9,32 @@ const kUnreached = 'The change of the scene did not reach camway.';
 /** The door allows 50 changes a second, of all clients together. */
 const kLeastPause_ms = 60;
 
+export interface SceneEditorEvents {
+  /** Hears that the scene is another one now. Resolves when the store has it. */
+  onChanged(): Promise<void>;
+  /** Hears where objects were asked to be that are not there yet. */
+  onMoves(moves: ReadonlyMap<string, Pose>): void;
+  onError(sentence: string): void;
+}
+
+type Outcome = 'done' | 'refused' | 'unreached';
+
 export class SceneEditor {
-  private readonly waiting = new Map<string, Pose>();
+  /** The poses that were asked for, until the store has a scene with them. */
+  private readonly wanted = new Map<string, Pose>();
+  private readonly waiting = new Set<string>();
   private isMoving = false;
   /** The move that is under way. */
-  private moving: Promise<boolean> = Promise.resolve(true);
+  private moving: Promise<Outcome> = Promise.resolve('done');
 
   constructor(
     private readonly sceneName: () => string | undefined,
-    private readonly onChanged: () => void,
-    private readonly onError: (sentence: string) => void,
+    private readonly events: SceneEditorEvents,
   ) {}
 
   move(name: string, pose: Pose): void {
-    this.waiting.set(name, pose);
+    this.want(name, pose);
+    this.waiting.add(name);
     if (!this.isMoving) void this.moveAll();
   }
 
@@ -31,11 +43,14 @@ export class SceneEditor {
     for (let next = this.takeNext(); next; next = this.takeNext()) {
       const [name, pose] = next;
       this.moving = this.change((scene) => moveObject(scene, name, pose));
-      if (!(await this.moving)) {
-        // The door has not received it: `resume` sends it again, unless the object was moved on since.
-        if (!this.waiting.has(name)) this.waiting.set(name, pose);
+      const outcome = await this.moving;
+      if (outcome === 'unreached') {
+        this.waiting.add(name); // `resume` sends it, or where the object was moved on to since
         break;
       }
+      // A refused object goes back at once. Another one stays where it is drawn until the scene has it there.
+      if (outcome === 'refused') this.settle(name, pose);
+      void this.events.onChanged().then(() => this.settle(name, pose));
       await new Promise((done) => setTimeout(done, kLeastPause_ms));
     }
     this.isMoving = false;
@@ -47,39 +62,53 @@ export class SceneEditor {
   }
 
   private takeNext(): [string, Pose] | undefined {
-    const [next] = this.waiting;
-    if (next) this.waiting.delete(next[0]);
-    return next;
+    for (const name of this.waiting) {
+      this.waiting.delete(name);
+      const pose = this.wanted.get(name);
+      if (pose) return [name, pose];
+    }
+    return undefined;
+  }
+
+  private want(name: string, pose: Pose | undefined): void {
+    if (pose) this.wanted.set(name, pose);
+    else this.wanted.delete(name);
+    this.events.onMoves(new Map(this.wanted));
+  }
+
+  /** Forgets a pose that is no longer on its way, unless the object was moved on since. */
+  private settle(name: string, pose: Pose): void {
+    if (this.wanted.get(name) === pose) this.want(name, undefined);
   }
 
   add(object: NewObject): void {
-    void this.change((scene) => addObject(scene, object));
+    void this.change((scene) => addObject(scene, object)).then((outcome) => this.refreshAfter(outcome));
   }
 
   /** Removes an object after the move of it that is under way; those that wait are dropped. */
   remove(name: string): void {
     this.waiting.delete(name);
-    void this.moving.then(() => {
-      this.waiting.delete(name); // a move that did not get through waits again
-      return this.change((scene) => removeObject(scene, name));
+    void this.moving.then(async () => {
+      this.want(name, undefined); // a move that did not get through waits again
+      this.refreshAfter(await this.change((scene) => removeObject(scene, name)));
     });
   }
 
-  /** Returns false where the door was not reached. A refusal is shown, and not sent again. */
-  private async change(act: (scene: string) => Promise<void>): Promise<boolean> {
+  private refreshAfter(outcome: Outcome): void {
+    if (outcome !== 'unreached') void this.events.onChanged();
+  }
+
+  /** A refusal is said, and not sent again. */
+  private async change(act: (scene: string) => Promise<void>): Promise<Outcome> {
     const scene = this.sceneName();
-    if (!scene) return true;
+    if (!scene) return 'refused';
     try {
       await act(scene);
-      this.onChanged();
+      return 'done';
     } catch (error) {
-      if (!(error instanceof DoorError)) {
-        this.onError(kUnreached);
-        return false;
-      }
-      this.onError(error.message);
-      this.onChanged(); // the object that was shown dragged goes back
+      const isRefused = error instanceof DoorError;
+      this.events.onError(isRefused ? error.message : kUnreached);
+      return isRefused ? 'refused' : 'unreached';
     }
-    return true;
   }
 }

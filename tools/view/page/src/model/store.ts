@@ -2,6 +2,7 @@
 import type { Answer, Segment } from '../contract/answer.js';
 import type { SceneDescription } from '../contract/door.js';
 import type { PlanRequest } from '../contract/request.js';
+import type { Pose } from './actions.js';
 
 /** Everything that the views of the page show. Values are replaced, never changed in place. */
 export interface State {
@@ -16,6 +17,8 @@ export interface State {
   /** Whether the answer is of a drag that goes on. */
   readonly isDraft: boolean;
   readonly scene: SceneDescription | undefined;
+  /** Poses of objects that were asked for and are not yet in `scene`, by the name of the object. */
+  readonly moves: ReadonlyMap<string, Pose>;
   /** The instant on the path that all views show, in seconds. */
   readonly cursor_s: number;
   readonly isPlaying: boolean;
@@ -64,6 +67,7 @@ export const kEmptyState: State = {
   isPending: false,
   isDraft: false,
   scene: undefined,
+  moves: new Map(),
   cursor_s: 0,
   isPlaying: false,
   selection: undefined,

@@ -28,16 +28,17 @@ export function makeScenePanel(host: HTMLElement, store: Store, actions: Actions
   watch.addEventListener('change', () => actions.watchPath(watch.checked));
   const watching = make('label', { class: 'cw-check cw-watch' }, watch, 'Watch this path: say when a change of the scene breaks it');
   let hasDaemon = false;
-  const updateWatch = (now: State): void => {
+  // At once, also while the panel is hidden: what may not be used is not shown for the time of a frame.
+  const updateUse = (now: State): void => {
+    adder.hidden = !mayChange(now);
     watching.hidden = !hasDaemon || now.connection !== 'open';
     watch.checked = now.watched !== 'off';
     watch.disabled = (now.answer?.segments?.length ?? 0) === 0;
   };
-  store.listen(updateWatch);
-  updateWatch(store.now);
+  store.listen(updateUse);
+  updateUse(store.now);
   host.append(watching, filter, list, adder);
   const render = (now: State): void => {
-    adder.hidden = !mayChange(now);
     renderKeepingFocus(list, rowsOf(now, filter.value, actions));
   };
   const invalidate = whileVisible(host, store, isChanged, render);
@@ -45,7 +46,7 @@ export function makeScenePanel(host: HTMLElement, store: Store, actions: Actions
   return {
     setFacts(facts) {
       hasDaemon = facts.status?.['planner'] === 'daemon';
-      updateWatch(store.now);
+      updateUse(store.now);
     },
   };
 }

@@ -68,7 +68,7 @@ export class Editing {
 
   private target(): HandleTarget | undefined {
     const { store, extent } = this.context;
-    const { selection, request, isReadOnly, scene } = store.now;
+    const { selection, request, isReadOnly, scene, moves } = store.now;
     const frame = this.context.frame();
     if (!selection || !this.canEdit) return undefined;
     if ('keyframe' in selection) {
@@ -81,22 +81,18 @@ export class Editing {
     if (!facts || isReadOnly) return undefined;
     const share = extent.boxOf(facts.bounds).getSize(new Vector3()).length() / (2 * extent.sceneSphere.radius);
     if (share > kLargestMovable) return undefined;
-    const position = frame.toLocal(facts.position);
-    return { key: `object ${facts.name}`, position, orientation: toQuaternion(facts.orientation) };
+    // Keys come faster than the scene answers: each goes on from the pose that the one before asked for.
+    const { position, orientation } = moves.get(facts.name) ?? facts;
+    return { key: `object ${facts.name}`, position: frame.toLocal(position), orientation: toQuaternion(orientation) };
   }
 
   private dragHandle(position: Vector3, orientation: Quaternion, kind: 'draft' | 'full'): void {
-    const { store, actions, sceneView, stage } = this.context;
+    const { store, actions } = this.context;
     const { selection } = store.now;
     const pose = this.context.frame().toPose(position, orientation);
     if (!selection) return;
-    if ('keyframe' in selection) {
-      actions.setKeyframe(selection.keyframe, pose, kind);
-      return;
-    }
-    sceneView.preview(selection.object, position, pose.orientation);
-    actions.moveObject(selection.object, pose);
-    stage.invalidate();
+    if ('keyframe' in selection) actions.setKeyframe(selection.keyframe, pose, kind);
+    else actions.moveObject(selection.object, pose);
   }
 
   private makePointer(): Pointer {
@@ -162,10 +158,7 @@ export class Editing {
   private changeSelected(change: (pose: LocalPose) => LocalPose): void {
     const target = this.target();
     if (!target) return;
-    const { selection } = this.context.store.now;
-    // Keys come faster than the scene answers: each goes on from where the object is drawn.
-    const shown = selection && 'object' in selection ? this.context.sceneView.poseShown(selection.object) : undefined;
-    const { position, orientation } = change(shown ?? target);
+    const { position, orientation } = change(target);
     this.dragHandle(position, orientation, 'full');
   }
 }

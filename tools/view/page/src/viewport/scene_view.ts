@@ -2,9 +2,10 @@
 // The objects of the scene. A new description fetches the meshes that are new alone, and moves the others.
 
 import { Group, LineSegments, Mesh, Raycaster, ShaderMaterial, Vector3 } from 'three';
-import type { BufferGeometry, IUniform, Quaternion, Ray } from 'three';
+import type { BufferGeometry, IUniform, Ray } from 'three';
 import { acceleratedRaycast } from 'three-mesh-bvh';
 import type { ObjectFacts, SceneDescription } from '../contract/door.js';
+import type { Pose } from '../model/actions.js';
 import { toQuaternion } from './frame.js';
 import type { Frame } from './frame.js';
 import { disposeShape, makeEdges, makeTree, readShape } from './shapes.js';
@@ -40,6 +41,7 @@ const kMostFetches = 5;
 export class SceneView {
   readonly group = new Group();
   private readonly items = new Map<string, Item>();
+  private moves: ReadonlyMap<string, Pose> = new Map();
   private readonly shapes = new Map<string, Promise<Shape>>();
   private readonly edgeMaterial: ShaderMaterial;
   private update = 0;
@@ -84,19 +86,15 @@ export class SceneView {
     this.onChange();
   }
 
-  /** Moves what is drawn of an object, while it is dragged and before the scene knows. */
-  preview(name: string, position: Vector3, orientation: readonly number[]): void {
-    const item = this.items.get(name);
-    if (item && this.frame) this.setPose(item, this.frame.toWorld(position), orientation);
-  }
-
-  /** Where an object is drawn: while moves of it are on their way, ahead of where the scene has it. */
-  poseShown(name: string): { position: Vector3; orientation: Quaternion } | undefined {
-    const item = this.items.get(name);
-    if (!item) return undefined;
-    const { mesh, shape } = item;
-    const center = shape.center.clone().applyQuaternion(mesh.quaternion);
-    return { position: mesh.position.clone().sub(center), orientation: mesh.quaternion.clone() };
+  /** Draws the objects of these names at other poses than the scene has them. A later call replaces an earlier one. */
+  setMoves(moves: ReadonlyMap<string, Pose>): void {
+    const names = [...this.moves.keys(), ...moves.keys()];
+    this.moves = moves;
+    for (const name of names) {
+      const item = this.items.get(name);
+      if (item) this.setPose(item);
+    }
+    this.onChange();
   }
 
   get shapesShown(): { shape: Shape; mesh: Mesh }[] {
@@ -179,7 +177,7 @@ export class SceneView {
     this.items.set(facts.name, item);
     this.tint(item);
     this.group.add(mesh);
-    this.setPose(item, facts.position, facts.orientation);
+    this.setPose(item);
     if (this.edgeWork.push(item) === 1) setTimeout(() => this.makeNextEdges(), 0);
     this.onChange();
   }
@@ -203,17 +201,16 @@ export class SceneView {
     const item = this.items.get(facts.name);
     if (!item || !this.isShown(facts)) return;
     item.facts = facts;
-    this.setPose(item, facts.position, facts.orientation);
+    this.setPose(item);
     this.onChange();
   }
 
-  private setPose(item: Item, position: readonly number[], orientation: readonly number[]): void {
+  private setPose({ facts, mesh, shape }: Item): void {
     if (!this.frame) return;
-    const { mesh, shape } = item;
+    const { position, orientation } = this.moves.get(facts.name) ?? facts;
     mesh.quaternion.copy(toQuaternion(orientation));
     const center = shape.center.clone().applyQuaternion(mesh.quaternion);
-    const at = [(position[0] ?? 0) + center.x, (position[1] ?? 0) + center.y, (position[2] ?? 0) + center.z];
-    mesh.position.copy(this.frame.toLocal(at));
+    mesh.position.copy(this.frame.toLocal([position[0] + center.x, position[1] + center.y, position[2] + center.z]));
     mesh.updateMatrixWorld();
   }
 

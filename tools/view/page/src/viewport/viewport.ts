@@ -294,6 +294,10 @@ export class Viewport {
   // The state of the store.
 
   private follow(now: State, before: State): void {
+    if (now.moves !== before.moves) {
+      this.sceneView.setMoves(now.moves);
+      this.editing.update();
+    }
     if (now.scene !== before.scene && now.scene) void this.showScenes(now);
     const isContent =
       now.answer !== before.answer || now.request !== before.request || now.before !== before.before ||
