@@ -17,5 +17,7 @@ camway_\name\()_end:
   embed page_style, "page.css"
   embed page_style_gzip, "page.css.gz"
   embed page_policy, "policy.txt"
+  embed report_script, "report.js"
+  embed report_policy, "report_policy.txt"
 
   .section .note.GNU-stack, "", %progbits

@@ -15,6 +15,8 @@ CAMWAY_EMBEDDED(page_script_gzip);
 CAMWAY_EMBEDDED(page_style);
 CAMWAY_EMBEDDED(page_style_gzip);
 CAMWAY_EMBEDDED(page_policy);
+CAMWAY_EMBEDDED(report_script);
+CAMWAY_EMBEDDED(report_policy);
 
 #undef CAMWAY_EMBEDDED
 
@@ -29,6 +31,8 @@ PageFiles embedded_page() {
       {{camway_page_style_begin, camway_page_style_end},
        {camway_page_style_gzip_begin, camway_page_style_gzip_end}},
       {camway_page_policy_begin, camway_page_policy_end},
+      {camway_report_script_begin, camway_report_script_end},
+      {camway_report_policy_begin, camway_report_policy_end},
   };
 }
 
