@@ -19,8 +19,8 @@ struct PageFiles {
   /// Policy of a file that holds script and style (`make_review`): no network, and nothing else to
   /// run.
   std::string_view inline_policy;
-  /// Script of a report that holds reviews (`ReviewShelf`), and the policy of such a report: scripts
-  /// as above and this one, any style.
+  /// Script of a report that holds reviews (`ReviewShelf`), and the policy of such a report:
+  /// scripts as above and this one, any style.
   std::string_view report_script = {};
   std::string_view report_policy = {};
 };

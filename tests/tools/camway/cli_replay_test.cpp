@@ -177,10 +177,9 @@ TEST_F(CliReplayCompare, ComparesWithAnotherBuild) {
   EXPECT_THAT(replay({"--baseline-build", echo}).err, Not(HasSubstr("--least-deadline-s")));
 
   // It is asked for the selected requests alone.
-  const std::vector<std::string> selected{"--baseline-build", echo,       "--id",     "1,3..9",
-                                          "--from",           "0",        "--client", "client",
-                                          "--scene-name",     "wall",     "--to",     "1e3",
-                                          "--status",         "ok,partial"};
+  const std::vector<std::string> selected{
+      "--baseline-build", echo,           "--id", "1,3..9", "--from", "0",        "--client",
+      "client",           "--scene-name", "wall", "--to",   "1e3",    "--status", "ok,partial"};
   EXPECT_THAT(replay(selected).err,
               HasSubstr("--from=0 --to=1000 --id=1..1,3..9 --client=client --status=ok,partial "
                         "--scene-name=wall"));

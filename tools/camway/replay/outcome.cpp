@@ -26,8 +26,7 @@ std::string write_reports(const ReportHead& head, const std::vector<ComparedRequ
   std::string fault;
   if (!files.json.empty()) fault = write_file(files.json, json_report(head, compared));
   if (!fault.empty() || files.html.empty()) return fault;
-  const ReportPage page =
-      report_page(head, compared, scene_of, files.page, view::embedded_page());
+  const ReportPage page = report_page(head, compared, scene_of, files.page, view::embedded_page());
   for (const std::string& omission : page.omissions) {
     fmt::print("note: {}: {}\n", files.html, omission);
   }

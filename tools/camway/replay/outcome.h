@@ -22,7 +22,8 @@ struct ReportFiles {
 /// Returns why a report could not be written; empty if it could. Asked before long work.
 std::string why_unwritable(const ReportFiles& files);
 
-/// Prints the table, writes the files, and prints what the page lacks. Returns an error that names the file; empty on success.
+/// Prints the table, writes the files, and prints what the page lacks. Returns an error that names
+/// the file; empty on success.
 std::string write_reports(const ReportHead& head, const std::vector<ComparedRequest>& compared,
                           const SceneOf& scene_of, const ReportFiles& files);
 

@@ -170,8 +170,7 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
       ->capture_default_str();
   command
       .add_option_function<std::size_t>(
-          "--most-mb",
-          [&page](std::size_t megabytes) { page.most_bytes = megabytes * kMegabyte; },
+          "--most-mb", [&page](std::size_t megabytes) { page.most_bytes = megabytes * kMegabyte; },
           "With --html: megabytes of that page, beyond which further requests are not shown in 3D, "
           "and then not drawn [16]")
       ->check(cli_support::whole_number(1, 1000))

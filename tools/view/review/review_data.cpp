@@ -82,8 +82,7 @@ std::optional<ReviewScene> ReviewSource::scene(const std::string& name) {
   return scene;
 }
 
-std::optional<std::string> ReviewSource::mesh(const std::string& scene,
-                                              const std::string& digest) {
+std::optional<std::string> ReviewSource::mesh(const std::string& scene, const std::string& digest) {
   const GlbAnswer mesh = meshes_.wait_for(scene, digest);
   if (!mesh.glb) return fail(mesh.code, mesh.error);
   return base::encode_base64(*mesh.glb);

@@ -33,8 +33,8 @@ struct ReviewScene {
     std::string digest;  ///< by which a backend knows it (`Backend::mesh`)
     std::string key;
   };
-  std::string description;    ///< as JSON, with all objects
-  std::vector<Mesh> meshes;   ///< each digest once
+  std::string description;   ///< as JSON, with all objects
+  std::vector<Mesh> meshes;  ///< each digest once
 };
 
 /// Collects the parts of reviews from a backend, and waits for it, so it is not for threads of

@@ -16,7 +16,6 @@ std::string element(std::string_view id, std::string_view json) {
   return fmt::format("<script type=\"application/json\" id=\"review-{}\">{}</script>\n", id, json);
 }
 
-
 std::string mesh_member(const std::string& key, const std::string& mesh) {
   return fmt::format(R"({}:"{}")", json_for_html(json_string(key)), mesh);
 }
@@ -74,8 +73,8 @@ std::optional<ReviewShelf::Added> ReviewShelf::added_by(const std::string& name,
     if (meshes_.contains(each.key) || added.meshes.contains(each.key)) continue;
     std::optional<std::string> mesh = source.mesh(name, each.digest);
     if (!mesh) return std::nullopt;
-    added.bytes += mesh_member(each.key, *mesh).size() +
-                   (meshes_.empty() && added.meshes.empty() ? 0U : 1U);
+    added.bytes +=
+        mesh_member(each.key, *mesh).size() + (meshes_.empty() && added.meshes.empty() ? 0U : 1U);
     added.meshes.emplace(each.key, *std::move(mesh));
     // One object more would not fit either, and large scenes have many.
     if (!has_room(added.bytes)) break;
@@ -89,7 +88,8 @@ std::string ReviewShelf::elements() const {
   for (const auto& [key, mesh] : meshes_) {
     meshes += (meshes.empty() ? "" : ",") + mesh_member(key, mesh);
   }
-  std::string all = page_element_ + element("scenes", fmt::format("[{}]", fmt::join(scenes_, ","))) +
+  std::string all = page_element_ +
+                    element("scenes", fmt::format("[{}]", fmt::join(scenes_, ","))) +
                     element("meshes", fmt::format("{{{}}}", meshes));
   for (const auto& [number, review] : reviews_) all += review;
   return all;

@@ -54,9 +54,9 @@ class ReviewShelf {
   const std::size_t most_bytes_;
   std::string page_element_;         ///< empty: there is no page
   std::vector<std::string> scenes_;  ///< as JSON that can stand in HTML, as all that follows
-  std::map<std::string, std::string> meshes_;    ///< in base64, by their keys
-  std::map<std::size_t, std::string> reviews_;   ///< by number
-  std::set<std::string> too_large_;              ///< scenes that do not fit
+  std::map<std::string, std::string> meshes_;   ///< in base64, by their keys
+  std::map<std::size_t, std::string> reviews_;  ///< by number
+  std::set<std::string> too_large_;             ///< scenes that do not fit
   std::size_t bytes_ = 0;
 };
 

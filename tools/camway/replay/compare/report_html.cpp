@@ -24,7 +24,7 @@ h1 { font-size: 22px; } h2 { font-size: 17px; margin-top: 28px; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: 3px 6px; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 th { background: var(--head); } th[data-sorts] { cursor: pointer; }
-td.number { text-align: right; } td:last-child { min-width: 15em; } td.views { white-space: nowrap; }
+td.number { text-align: right; } td:last-child { min-width: 15em; overflow-wrap: anywhere; } td.views { white-space: nowrap; }
 button { font: inherit; padding: 0 8px; color: var(--text); background: var(--head); border: 1px solid var(--frame); border-radius: 4px; cursor: pointer; }
 button:disabled { opacity: 0.45; cursor: default; } a { color: var(--accent); }
 .verdict { font-weight: 600; white-space: nowrap; }
@@ -100,13 +100,13 @@ std::string table_row(std::size_t index, const Row& row, const Shown& shown, Tim
   const std::string verdict(base::name_of(row.verdict));
   const std::string status =
       row.status_then == row.status_now ? row.status_now : row.status_then + " → " + row.status_now;
-  std::string out = fmt::format("<tr data-title=\"{}, {}\">", title_of(index, row), verdict) +
-                    number_cell(fmt::format("{}", index), static_cast<double>(index)) +
-                    views_cell(index, shown) + cell(row.client) + cell(fmt::format("{}", row.request)) + cell(row.scene) +
-                    fmt::format(R"(<td class="verdict v-{0}">{0}</td>)", verdict) + cell(status) +
-                    number_cell(row.path_m) + number_cell(row.shift_deg) +
-                    number_cell(row.clearance_m) + number_cell(row.length_m) +
-                    number_cell(row.deviation_m) + number_cell(row.inserted);
+  std::string out =
+      fmt::format("<tr data-title=\"{}, {}\">", title_of(index, row), verdict) +
+      number_cell(fmt::format("{}", index), static_cast<double>(index)) + views_cell(index, shown) +
+      cell(row.client) + cell(fmt::format("{}", row.request)) + cell(row.scene) +
+      fmt::format(R"(<td class="verdict v-{0}">{0}</td>)", verdict) + cell(status) +
+      number_cell(row.path_m) + number_cell(row.shift_deg) + number_cell(row.clearance_m) +
+      number_cell(row.length_m) + number_cell(row.deviation_m) + number_cell(row.inserted);
   if (times == Times::kShown) out += number_cell(row.total_ms);
   return out + cell(row.explanation) + "</tr>\n";
 }
@@ -203,8 +203,7 @@ std::string html_report(const ReportHead& head, const std::vector<ComparedReques
   Shown shown{{}, parts.reviews};
   for (const RequestPicture& picture : parts.pictures) shown.pictures.insert(picture.index);
   std::string out = head_of(head.title, parts) + "<body>\n<h1>" + in_html(head.title) +
-                    "</h1>\n<p>" + in_html(summary_line(compared)) + "</p>\n" +
-                    chips_of(compared);
+                    "</h1>\n<p>" + in_html(summary_line(compared)) + "</p>\n" + chips_of(compared);
   for (const std::vector<std::string>& notes : {head.notes, parts.notes}) {
     for (const std::string& note : notes) out += "<p>Note: " + in_html(note) + "</p>\n";
   }

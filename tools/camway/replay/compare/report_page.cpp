@@ -60,9 +60,8 @@ ReportPage report_page(const ReportHead& head, const std::vector<ComparedRequest
   ReportPage result;
   add_omissions(reviews, options, result.omissions);
   const auto room = static_cast<double>(room_left(most_bytes, reviews.elements.size()));
-  Pictures pictures =
-      pictures_of(compared, scene_of, head,
-                  {options.pictures, static_cast<std::size_t>(room / kPictureBytes)});
+  Pictures pictures = pictures_of(
+      compared, scene_of, head, {options.pictures, static_cast<std::size_t>(room / kPictureBytes)});
   if (pictures.is_cut) {
     result.omissions.push_back(fmt::format(
         "there are no floor plans beyond the first {}: the page would have more than {} MB "

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/base/named_enum.h"
 #include "tools/camway/replay/compare/pictures.h"
 #include "tools/camway/replay/compare/report.h"
 #include "tools/view/page_files.h"
@@ -17,7 +16,9 @@ namespace camway::tools {
 /// The requests that a page shows in 3D.
 enum class Reviewed { kNone, kDiffering, kAll };
 
-constexpr std::array<std::string_view, 3> names_of(Reviewed) { return {"none", "differing", "all"}; }
+constexpr std::array<std::string_view, 3> names_of(Reviewed) {
+  return {"none", "differing", "all"};
+}
 
 /// Bytes of a megabyte, as sizes of pages are given and said.
 inline constexpr std::size_t kMegabyte = 1'000'000;

@@ -47,7 +47,8 @@ class SceneDesk {
 
 base::Result<view::PlanOrder> order_of(const RecordedRequest& recorded, const std::string& scene) {
   if (!recorded.request) return base::Failure{recorded.error};
-  if (const auto fault = planning::validate(*recorded.request)) return base::Failure{fault->message};
+  if (const auto fault = planning::validate(*recorded.request))
+    return base::Failure{fault->message};
   const base::Result<std::string> text = write_plan_request(*recorded.request);
   if (!text) return base::Failure{text.error};
   nlohmann::json document = nlohmann::json::parse(*text);

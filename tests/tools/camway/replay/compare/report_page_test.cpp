@@ -31,9 +31,9 @@ using ::testing::Not;
 constexpr char kHtml[] =
     R"(<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/page.css">)"
     R"(<script defer src="/page.js"></script><body>hall</body>)";
-constexpr view::PageFiles kPage{{kHtml, ""}, {"show()", ""}, {"b { color: red }", ""},
-                                "default-src 'none'", "sort()",
-                                "default-src 'none'; script-src 'sha256-x'"};
+constexpr view::PageFiles kPage{
+    {kHtml, ""},          {"show()", ""}, {"b { color: red }", ""},
+    "default-src 'none'", "sort()",       "default-src 'none'; script-src 'sha256-x'"};
 
 /// Returns the JSON in an element of reviews; nothing if there is no such element.
 std::optional<json> part(const std::string& html, const std::string& name) {
