@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace camway::view {
 
 /// A file of the page, as it is and compressed by gzip. Both are empty if there is none.
 struct PageFile {
-  std::string_view text;
+  std::string text;
   std::string_view gzip;
 };
 
-/// The page that a browser shows. It is data of the program, so that it outlives all who use it.
+/// The page that a browser shows. Views are of data of the program, which outlives all who use it.
 struct PageFiles {
   PageFile html;
   PageFile script;

@@ -325,7 +325,7 @@ TEST_F(ViewDoor, APortThatIsTakenIsSaid) {
 }
 
 /// A page of three files.
-constexpr PageFiles kPage{
+const PageFiles kPage{
     {"<html>", "zipped html"}, {"script", "zipped script"}, {"style", "zipped style"}, "policy"};
 
 TEST_F(ViewDoor, ServesThePageCompressedToThoseWhoTakeIt) {

@@ -24,7 +24,7 @@ using ::testing::Not;
 constexpr char kShelfHtml[] =
     R"(<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/page.css">)"
     R"(<script defer src="/page.js"></script><body>hall</body>)";
-constexpr PageFiles kShelfPage{
+const PageFiles kShelfPage{
     {kShelfHtml, ""}, {"alert(1)", ""}, {"b { color: red }", ""}, "default-src 'none'"};
 
 constexpr std::size_t kMuch = 1'000'000;

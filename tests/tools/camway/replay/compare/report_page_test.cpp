@@ -31,7 +31,7 @@ using ::testing::Not;
 constexpr char kHtml[] =
     R"(<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/page.css">)"
     R"(<script defer src="/page.js"></script><body>hall</body>)";
-constexpr view::PageFiles kPage{
+const view::PageFiles kPage{
     {kHtml, ""},          {"show()", ""}, {"b { color: red }", ""},
     "default-src 'none'", "sort()",       "default-src 'none'; script-src 'sha256-x'"};
 
