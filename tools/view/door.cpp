@@ -16,7 +16,7 @@
 #include "tools/view/mesh_desk.h"
 #include "tools/view/plan_picture.h"
 #include "tools/view/responses.h"
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
 

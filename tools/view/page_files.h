@@ -17,9 +17,13 @@ struct PageFiles {
   PageFile html;
   PageFile script;
   PageFile style;
-  /// Policy of a file that holds script and style (`review_html`): no network, and nothing else to
+  /// Policy of a file that holds script and style (`make_review`): no network, and nothing else to
   /// run.
   std::string_view inline_policy;
+  /// Script of a report that holds reviews (`ReviewShelf`), and the policy of such a report:
+  /// scripts as above and this one, any style.
+  std::string_view report_script = {};
+  std::string_view report_policy = {};
 };
 
 }  // namespace camway::view

@@ -154,14 +154,27 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
   CLI::Option* const html =
       command
           .add_option("--html", flags.reports.html,
-                      "Write the comparison as a page that is one file: table, plots, pictures")
+                      "Write the comparison as a page that is one file: table, plots, requests in "
+                      "3D, floor plans")
           ->type_name("FILE");
+  PageOptions& page = flags.reports.page;
+  cli_support::add_choice(
+      command, "--views", page.reviewed, base::named_values<Reviewed>(),
+      "With --html: requests to show in 3D with both paths: none, differing, or all [differing]")
+      ->needs(html);
   command
-      .add_option("--pictures", flags.reports.pictures,
-                  "With --html: largest number of requests that differ to draw")
+      .add_option("--pictures", page.pictures,
+                  "With --html: largest number of requests that differ to draw as floor plans")
       ->check(cli_support::whole_number(0, 1000))
       ->needs(html)
       ->capture_default_str();
+  command
+      .add_option_function<std::size_t>(
+          "--most-mb", [&page](std::size_t megabytes) { page.most_bytes = megabytes * kMegabyte; },
+          "With --html: megabytes of that page, beyond which further requests are not shown in 3D, "
+          "and then not drawn [16]")
+      ->check(cli_support::whole_number(1, 1000))
+      ->needs(html);
   command.add_flag("--no-timing", flags.no_timing,
                    "Leave times out of reports and responses, so that two runs compare byte by "
                    "byte");

@@ -32,12 +32,13 @@ export const browser = await chromium.launch({
 });
 
 /// Opens the page of a door, or a file.
-export async function open_page(url, {theme = 'light', window = kWindow} = {}) {
+export async function open_page(url, {theme = 'light', window = kWindow, without_webgl = false} = {}) {
   // With less motion the view is at once where it goes: each frame on the way would take the time of a processor.
   const context = await browser.newContext({viewport: window, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
   context.setDefaultTimeout(kPatience_ms);
   const page = new Page(await context.newPage(), url);
   await delay(page.tab);
+  if (without_webgl) await page.tab.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
   await page.open();
   return page;
 }
@@ -65,6 +66,7 @@ function delay_frames(longest_ms) {
 export class Page {
   constructor(tab, url) {
     this.tab = tab;
+    this.whole = tab; // of a review in a frame, the tab that has the frame
     this.url = url;
     this.faults = [];
     this.forgiven = [];
@@ -99,6 +101,12 @@ export class Page {
       };
     });
     await this.tab.goto(this.url);
+  }
+
+  /// The review that a report shows in its frame, to be asked as a page is.
+  async review() {
+    const frame = await (await this.tab.locator('iframe').elementHandle()).contentFrame();
+    return Object.assign(Object.create(this), {tab: frame});
   }
 
   /// Waits for a fault that must happen, and takes all that are like it. The others fail the test at `close`.
@@ -197,7 +205,7 @@ export class Page {
   /// A picture of the view of the scene alone: panels and time line change without it.
   async view() {
     await this.drawn();
-    return read_png(await this.tab.screenshot({clip: await this.tab.locator('#viewport').boundingBox()}));
+    return read_png(await this.whole.screenshot({clip: await this.tab.locator('#viewport').boundingBox()}));
   }
 
   /// Waits until all requested frames are drawn, and one frame more, which puts it on the screen.

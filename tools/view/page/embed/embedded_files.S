@@ -14,5 +14,7 @@ camway_\name\()_end:
   embed page_script_gzip, "page.js.gz"
   embed page_style_gzip, "page.css.gz"
   embed page_policy, "policy.txt"
+  embed report_script, "report.js"
+  embed report_policy, "report_policy.txt"
 
   .section .note.GNU-stack, "", %progbits

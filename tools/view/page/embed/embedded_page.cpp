@@ -17,6 +17,8 @@ CAMWAY_EMBEDDED(page_html_gzip);
 CAMWAY_EMBEDDED(page_script_gzip);
 CAMWAY_EMBEDDED(page_style_gzip);
 CAMWAY_EMBEDDED(page_policy);
+CAMWAY_EMBEDDED(report_script);
+CAMWAY_EMBEDDED(report_policy);
 
 #undef CAMWAY_EMBEDDED
 
@@ -40,6 +42,8 @@ PageFiles embedded_page() {
       with_text({camway_page_script_gzip_begin, camway_page_script_gzip_end}),
       with_text({camway_page_style_gzip_begin, camway_page_style_gzip_end}),
       {camway_page_policy_begin, camway_page_policy_end},
+      {camway_report_script_begin, camway_report_script_end},
+      {camway_report_policy_begin, camway_report_policy_end},
   };
 }
 

@@ -140,6 +140,7 @@ function viewCommands({ actions, viewport, switchTheme, toggleHelp }: CommandCon
       isOn: () => viewport.cameraMode !== 'off',
       run: () => (viewport.cameraMode = nextCameraMode[viewport.cameraMode]),
     },
+    { keys: ['m'], shown: 'M', name: 'The other answer, where two are compared', group, isViewing, run: () => actions.showOther() },
     { keys: ['x'], shown: 'X', name: 'Section on or off', group, isViewing, icon: 'section', isOn: () => viewport.section.cutHeight < Infinity, run: () => viewport.toggleSection() },
     { keys: ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9'], shown: '0 … 9', name: 'Open a storey', group, isViewing, run: () => undefined },
     { keys: ['u'], shown: 'U', name: 'Up is Y or Z', group, isViewing, run: () => viewport.setUp(viewport.upAxis === 'y' ? 'z' : 'y') },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
