@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "daemon/record/log_files.h"
@@ -102,12 +107,18 @@ class Collector {
       leave_out(fmt::format("all behind the damage of a log: {} of {} bytes were read",
                             log.bytes_used, log.bytes));
     }
+    if (source_.session.damaged_events > 0) {
+      leave_out(fmt::format("{} events of the recording that cannot be read",
+                            source_.session.damaged_events));
+    }
     return {};
   }
 
   std::string add_contents() {
     const std::vector<fs::path> folders = blob_folders_of(source_.files.logs());
-    const Session packed = read_session(logs_, source_.prefix, source_.keys);
+    std::optional<Session> cut;
+    if (source_.is_selection) cut = read_session(logs_, source_.prefix, source_.keys);
+    const Session& packed = cut ? *cut : source_.session;
     SceneContents contents = scene_contents_of(packed, folders);
     packed_.members.merge(contents.files);
     for (std::string& fault : contents.faults) lack(std::move(fault));
@@ -185,7 +196,7 @@ class Collector {
   }
 
   const PackSource& source_;
-  std::vector<fs::path> logs_;  ///< that are packed, and may be a part of those of the source
+  std::vector<fs::path> logs_;  ///< that are packed: those of the source, or parts of them
   PackedSession packed_;
 };
 
