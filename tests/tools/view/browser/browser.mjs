@@ -106,6 +106,7 @@ export class Page {
   /// The review that a report shows in its frame, to be asked as a page is.
   async review() {
     const frame = await (await this.tab.locator('iframe').elementHandle()).contentFrame();
+    await frame.waitForURL('about:srcdoc');  // what is asked of the empty page before it is lost with that
     return Object.assign(Object.create(this), {tab: frame});
   }
 
