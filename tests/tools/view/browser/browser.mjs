@@ -145,7 +145,8 @@ export class Page {
     })()`);
     if (value) return value;
     const seen = await this.tab.locator('body').innerText();
-    throw new Error(`not seen: ${condition}\nThe page says:\n${seen}\n${this.faults.join('\n')}`);
+    const missing = await this.tab.evaluate(() => window.camway?.missing);
+    throw new Error(`not seen: ${condition}\nNot drawn: ${missing}\nThe page says:\n${seen}\n${this.faults.join('\n')}`);
   }
 
   /// Waits until the scene is drawn and nothing is being planned. Returns the time since the page was asked for.
@@ -212,7 +213,7 @@ export class Page {
   /// Waits until all requested frames are drawn, and one frame more, which puts it on the screen.
   async drawn() {
     await this.tab.evaluate(() => new Promise(requestAnimationFrame));
-    await this.until(({isDrawn}) => isDrawn);
+    await this.until(({missing}) => missing.length === 0);
     await this.tab.evaluate(() => new Promise(requestAnimationFrame));
   }
 }

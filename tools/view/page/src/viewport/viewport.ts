@@ -142,9 +142,10 @@ export class Viewport {
     return this.frame.toPose(place, new Quaternion()).position;
   }
 
-  /** Whether the last frame is drawn, and no other one is due; meshes alone may still be on their way. */
-  get isDrawn(): boolean {
-    return this.stage.isDrawn && this.sceneView.hasEdges && this.content.isComplete;
+  /** Names what is still to be drawn, except of meshes that are on their way. */
+  get missing(): string[] {
+    const edges = this.sceneView.hasEdges ? [] : ['edges'];
+    return [...this.stage.missing, ...edges, ...(this.content.isComplete ? [] : ['triangles'])];
   }
 
   get upAxis(): UpAxis {
