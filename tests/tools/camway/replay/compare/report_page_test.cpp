@@ -168,7 +168,8 @@ TEST_F(ReportPageTest, SaysWhyRequestsAreNotShown) {
   EXPECT_THAT(one.html, HasSubstr("a &lt;member&gt; of another version"));
   snapshot_ = nullptr;
   EXPECT_THAT(page({}).omissions,
-              ElementsAre("2 of 2 requests cannot be shown in 3D: its scene is not known"));
+              ElementsAre("2 of 2 requests cannot be shown in 3D: its scene is not known "
+                          "(--scene, --root)"));
 }
 
 TEST_F(ReportPageTest, IsAPageWithoutScriptWhereTheProgramHasNone) {
