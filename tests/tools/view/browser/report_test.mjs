@@ -62,7 +62,7 @@ test('a report shows a request that differs with both paths', async () => {
   await next.until(({state}) => state.connection === 'review');
   assert.notDeepEqual((await next.state()).request, review_request(report, '5'));
   await page.button('Close').click();
-  assert.equal(await page.tab.locator('iframe').count(), 0);
+  await page.tab.locator('iframe').waitFor({state: 'detached'});
   await page.close();
 });
 

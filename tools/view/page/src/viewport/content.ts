@@ -54,6 +54,11 @@ export class Content {
     return this.keyframesView.places;
   }
 
+  /** Whether nothing of the findings is on its way. */
+  get isComplete(): boolean {
+    return this.findings.isComplete;
+  }
+
   showPath(now: State, frame: Frame, theme: Theme, pixelRatio: number): void {
     const { request, answer, selection } = now;
     const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;

@@ -142,8 +142,9 @@ export class Viewport {
     return this.frame.toPose(place, new Quaternion()).position;
   }
 
+  /** Whether the last frame is drawn, and no other one is due; meshes alone may still be on their way. */
   get isDrawn(): boolean {
-    return this.stage.isDrawn;
+    return this.stage.isDrawn && this.sceneView.hasEdges && this.content.isComplete;
   }
 
   get upAxis(): UpAxis {
