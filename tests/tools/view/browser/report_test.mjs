@@ -14,6 +14,8 @@ const kMostBytes = 3e6;
 const kShift_m = 0.03;
 const kNow = 0x0072b2;
 const kRecorded = 0xe69f00;
+/// Small, as each pixel is drawn by the processor.
+const kWindow = {width: 900, height: 600};
 
 /// The office as it is when someone has moved all of it, so that answers in it differ.
 const moved = path.join(folder, 'moved.obj');
@@ -29,7 +31,7 @@ test('a report shows a request that differs with both paths', async () => {
   const bytes = fs.statSync(report).size;
   console.log(`# the report has ${bytes} bytes`);
   assert.ok(bytes < kMostBytes);
-  const page = await open_page(pathToFileURL(report).href);
+  const page = await open_page(pathToFileURL(report).href, {window: kWindow});
   const rows = page.tab.locator('tbody tr');
   assert.equal(await rows.count(), 6);
   await page.tab.locator('th', {hasText: 'distance (m)'}).click();

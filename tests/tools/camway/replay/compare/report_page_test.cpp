@@ -132,16 +132,16 @@ TEST_F(ReportPageTest, ShowsAllRequestsOrNone) {
 }
 
 TEST_F(ReportPageTest, IsNoLargerThanItMayBe) {
-  const std::size_t whole = page({}).html.size();
+  const std::size_t whole = page({.pictures = 1}).html.size();
   const std::size_t bare = page({.reviewed = Reviewed::kNone, .pictures = 0}).html.size() + 3000;
   ASSERT_LT(bare, whole);
-  EXPECT_EQ(page({.most_bytes = 1}).html.find("data-review"), std::string::npos);
+  EXPECT_EQ(page({.pictures = 0, .most_bytes = 1}).html.find("data-review"), std::string::npos);
   constexpr std::size_t kSteps = 6;
   std::size_t last = 0;
   for (std::size_t step = 0; step <= kSteps; ++step) {
     // The last step has room for what an estimate takes as larger than it is.
     const std::size_t most = bare + (whole - bare) * step / (kSteps - 1);
-    const ReportPage made = page({.most_bytes = most});
+    const ReportPage made = page({.pictures = 1, .most_bytes = most});
     EXPECT_LE(made.html.size(), most) << step;
     EXPECT_GE(shown(made).size(), last) << "more room shows no less";
     last = shown(made).size();
@@ -152,7 +152,7 @@ TEST_F(ReportPageTest, IsNoLargerThanItMayBe) {
       EXPECT_THAT(made.omissions, IsEmpty());
     }
   }
-  EXPECT_THAT(page({.most_bytes = bare}).omissions,
+  EXPECT_THAT(page({.pictures = 1, .most_bytes = bare}).omissions,
               ElementsAre("2 of 2 requests are not shown in 3D: the page would have more than 0 MB "
                           "(--most-mb)",
                           HasSubstr("no floor plans beyond the first 0")));
@@ -168,7 +168,8 @@ TEST_F(ReportPageTest, SaysWhyRequestsAreNotShown) {
   EXPECT_THAT(one.html, HasSubstr("a &lt;member&gt; of another version"));
   snapshot_ = nullptr;
   EXPECT_THAT(page({}).omissions,
-              ElementsAre("2 of 2 requests cannot be shown in 3D: its scene is not known"));
+              ElementsAre("2 of 2 requests cannot be shown in 3D: its scene is not known "
+                          "(--scene, --root)"));
 }
 
 TEST_F(ReportPageTest, IsAPageWithoutScriptWhereTheProgramHasNone) {

@@ -159,15 +159,17 @@ TEST_F(ReportTest, PicturesShowTheWorstVerdictsFirst) {
   const auto pictures = [&](std::size_t most, std::size_t most_bytes = 1'000'000) {
     return pictures_of(compared_, no_scene, head_, {most, most_bytes});
   };
-  ASSERT_EQ(pictures(1).list.size(), 1U);
-  EXPECT_EQ(pictures(1).list[0].index, 1U);
-  EXPECT_FALSE(pictures(1).is_cut);
-  EXPECT_THAT(pictures(1).list[0].svg, HasSubstr("<svg"));
+  const Pictures one = pictures(1);
+  ASSERT_EQ(one.list.size(), 1U);
+  EXPECT_EQ(one.list[0].index, 1U);
+  EXPECT_FALSE(one.is_cut);
+  EXPECT_THAT(one.list[0].svg, HasSubstr("<svg"));
   EXPECT_TRUE(pictures(0).list.empty());
-  const std::size_t bytes = pictures(1).list[0].svg.size();
-  EXPECT_EQ(pictures(2, bytes).list.size(), 1U);
-  EXPECT_TRUE(pictures(2, bytes).is_cut);
-  EXPECT_TRUE(pictures(2, bytes - 1).list.empty());
+  const std::size_t bytes = one.list[0].svg.size();
+  const Pictures cut = pictures(2, bytes);
+  EXPECT_EQ(cut.list.size(), 1U);
+  EXPECT_TRUE(cut.is_cut);
+  EXPECT_TRUE(pictures(1, bytes - 1).list.empty());
   compared_[0].difference = {};
   compared_[0].verdict = Verdict::kSame;
   EXPECT_EQ(pictures(5).list.size(), 1U) << "the same needs no picture";
