@@ -67,9 +67,9 @@ struct Session {
 
   // The next members are of recordings of a daemon. A plain log has none of this.
   std::vector<record::FileBegin> parts;
-  std::vector<RecordedUpdate> updates;  ///< changes of scenes, in their order
+  std::vector<RecordedUpdate> updates;      ///< changes of scenes, in their order
   std::vector<record::Omission> omissions;  ///< those with one reason are summed up
-  std::uint64_t damaged_events = 0;  ///< events of the session that cannot be read
+  std::uint64_t damaged_events = 0;         ///< events of the session that cannot be read
 
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
   std::uint64_t scene_requests = 0;

@@ -68,7 +68,8 @@ void add_session_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("LOG", flags->log,
                    "Log of lcm-logger, folder of a daemon's recordings, or packed session")
       ->required();
-  command->add_option("--prefix", flags->prefix, "Prefix of the daemon's channels")->capture_default_str();
+  command->add_option("--prefix", flags->prefix, "Prefix of the daemon's channels")
+      ->capture_default_str();
   command
       ->add_option("--key-file", flags->key_file,
                    "Use only messages that were signed with a key of this file")
