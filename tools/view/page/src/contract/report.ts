@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report of `camway replay` holds of reviews, each part in an element of JSON: tools/view/review/review_shelf.h.
+// The parts of reviews in a report of `camway replay`, each in an element of JSON: tools/view/review/review_shelf.h.
 
 import type { Review, SceneDescription } from './door.js';
 
