@@ -47,6 +47,10 @@ test('a report shows a request that differs with both paths', async () => {
   assert.notDeepEqual(answer.segments, compared.other.segments);
   const legend = await review.tab.locator('.legend').innerText();
   assert.match(legend, /now\s+recorded/);
+  // The tools above the scene have these colours, too.
+  await review.tab.evaluate(() => {
+    for (const tool of document.querySelectorAll('#viewport > [data-part]')) tool.style.visibility = 'hidden';
+  });
   const both = await review.view();
   assert.ok(count_of(both, kNow) > 100, 'the path now is not drawn');
   assert.ok(count_of(both, kRecorded) > 20, 'the recorded path is not drawn');
