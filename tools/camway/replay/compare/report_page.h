@@ -25,7 +25,8 @@ inline constexpr std::size_t kMegabyte = 1'000'000;
 
 struct PageOptions {
   Reviewed reviewed = Reviewed::kDiffering;
-  std::size_t pictures = 6;  ///< most floor plans
+  std::size_t pictures =
+      2;  ///< most floor plans: one of an office takes 1.2 MB, a request in 3D some kB
   /// Most bytes of the page. A table that is larger alone makes the page larger.
   std::size_t most_bytes = 16 * kMegabyte;
 };
