@@ -78,10 +78,8 @@ struct Extent {
   along(axes, triangle[0] - origin, a);
   along(axes, triangle[1] - origin, b);
   along(axes, triangle[2] - origin, c);
-  const lanes::Numbers lower = a < b ? a : b;
-  const lanes::Numbers higher = a > b ? a : b;
-  out.least = lower < c ? lower : c;
-  out.greatest = higher > c ? higher : c;
+  out.least = lanes::smaller(lanes::smaller(a, b), c);
+  out.greatest = lanes::larger(lanes::larger(a, b), c);
 }
 
 /// Squared distance between an extent and that of a box.
@@ -89,8 +87,7 @@ struct Extent {
                                                  const lanes::Numbers& high) {
   const lanes::Numbers above = extent.least - high;
   const lanes::Numbers below = low - extent.greatest;
-  lanes::Numbers gap = above > below ? above : below;
-  gap = gap > 0.0 ? gap : lanes::Numbers{};
+  const lanes::Numbers gap = lanes::larger(lanes::larger(above, below), lanes::Numbers{});
   return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
 }
 
@@ -125,7 +122,7 @@ struct Plane {
 [[gnu::always_inline]] inline double squared_gap(const Plane& plane, double origin,
                                                  const lanes::Numbers& low,
                                                  const lanes::Numbers& high) {
-  const lanes::Numbers size = plane.share < 0.0 ? -plane.share : plane.share;
+  const lanes::Numbers size = lanes::magnitude(plane.share);
   const lanes::Numbers middles = plane.share * (0.5 * (low + high));
   const lanes::Numbers radii = size * (0.5 * (high - low));
   const double middle = origin + (middles[0] + middles[1] + middles[2]);
@@ -166,8 +163,8 @@ void OrientedBox::fit(std::span<const Triangle> body) {
     for (const Vec3& vertex : triangle) {
       lanes::Numbers at;
       along(axes, vertex - origin_, at);
-      low = at < low ? at : low;
-      high = at > high ? at : high;
+      low = lanes::smaller(at, low);
+      high = lanes::larger(at, high);
     }
   }
   std::memcpy(low_.data(), &low, sizeof low);
