@@ -93,8 +93,8 @@ struct Extent {
 
 /// The plane of a triangle as boxes along some axes see it.
 struct Plane {
-  Vec3 normal;            ///< of any length
-  double squared_length;  ///< of the normal
+  Vec3 normal;             ///< of any length
+  double squared_length;   ///< of the normal
   double least, greatest;  ///< of the triangle along the normal, from its first vertex
   lanes::Numbers share;    ///< the normal along the axes
 

@@ -50,9 +50,8 @@ LocalPair to_local(const Triangle& a, const Triangle& b) {
   const Numbers b0 = dot(axes, lanes::repeat(p.b[0]));
   const Numbers b1 = dot(axes, lanes::repeat(p.b[1]));
   const Numbers b2 = dot(axes, lanes::repeat(p.b[2]));
-  const Numbers gap =
-      larger(smaller(smaller(b0, b1), b2) - larger(larger(a0, a1), a2),
-             smaller(smaller(a0, a1), a2) - larger(larger(b0, b1), b2));
+  const Numbers gap = larger(smaller(smaller(b0, b1), b2) - larger(larger(a0, a1), a2),
+                             smaller(smaller(a0, a1), a2) - larger(larger(b0, b1), b2));
   const Numbers size = magnitude(axes.x) + magnitude(axes.y) + magnitude(axes.z);
   // False for NaN, so an overflow is no proof.
   const auto is_apart = gap > 16.0 * kUnitRoundoff * size * p.scale + kSmallestNormal;

@@ -124,21 +124,6 @@ struct Avx2 {
 };
 #endif
 
-/// The steps of a frame: their size in metres, and relative to the largest one.
-struct Steps {
-  int largest;  ///< exponent
-  HalfFloats share_of_largest;
-  Doubles steps_per_m;
-};
-
-[[gnu::always_inline]] inline void steps_of(const ByteFrame& frame, Steps& out) {
-  const Longs exponent = {frame.exponent[0], frame.exponent[1], frame.exponent[2], 0};
-  out.largest = std::max({frame.exponent[0], frame.exponent[1], frame.exponent[2]});
-  out.steps_per_m = reinterpret_cast<Doubles>((1023 - exponent) << 52);
-  const Doubles shares = reinterpret_cast<Doubles>((1023 - out.largest + exponent) << 52);
-  out.share_of_largest = __builtin_convertvector(shares, HalfFloats);
-}
-
 /// Squared gaps on one axis, in units of which a step is `weight`; a product with a power of two is
 /// exact. The sides of the box are rounded down: `from` is the lower one, `minus_to` the upper one,
 /// negated.
@@ -184,33 +169,42 @@ struct Steps {
 }
 
 /// The bounds along the axes of the world.
-[[gnu::always_inline]] inline void bounds_along_world(const ByteFrame& frame, const Steps& steps,
-                                                      const Sides& boxes, const BoxSides& box,
+[[gnu::always_inline]] inline void bounds_along_world(const FramedBox& box, const Sides& boxes,
                                                       Floats& sum) {
-  const Doubles origin = {frame.origin[0], frame.origin[1], frame.origin[2], 0.0};
-  Doubles low, high;
-  load(box.low_m, low);
-  load(box.high_m, high);
-  // Both sides are rounded down, the upper one negated.
-  Doubles down = (low - origin) * steps.steps_per_m;
-  Doubles up = (origin - high) * steps.steps_per_m;
-  HalfFloats from, minus_to;
-  move_down(down, kLeastMove, from);
-  move_down(up, kLeastMove, minus_to);
   Floats on_axis;
-  squared_gaps(boxes, 0, from[0], minus_to[0], steps.share_of_largest[0], sum);
-  squared_gaps(boxes, 1, from[1], minus_to[1], steps.share_of_largest[1], on_axis);
+  squared_gaps(boxes, 0, box.from[0], box.minus_to[0], box.share_of_largest[0], sum);
+  squared_gaps(boxes, 1, box.from[1], box.minus_to[1], box.share_of_largest[1], on_axis);
   sum += on_axis;
-  squared_gaps(boxes, 2, from[2], minus_to[2], steps.share_of_largest[2], on_axis);
+  squared_gaps(boxes, 2, box.from[2], box.minus_to[2], box.share_of_largest[2], on_axis);
   sum += on_axis;
 }
 
 /// Raises the bounds to those along the axes of the body.
-[[gnu::always_inline]] inline void raise_to_bounds_along_body(const ByteFrame& frame,
-                                                              const Steps& steps,
-                                                              const Sides& boxes,
-                                                              const ObliqueSides& body,
-                                                              Floats& squared) {
+[[gnu::always_inline]] inline void raise_to_bounds_along_body(const FramedBox& box,
+                                                              const Sides& boxes, Floats& squared) {
+  Floats sum, on_axis;
+  squared_oblique_gaps(boxes, box.weights[0], box.above_from[0], box.below_from[0], sum);
+  for (std::size_t k = 1; k < 3; ++k) {
+    squared_oblique_gaps(boxes, box.weights[k], box.above_from[k], box.below_from[k], on_axis);
+    sum += on_axis;
+  }
+  squared = sum > squared ? sum : squared;
+}
+
+/// Bounds up to this one are near, in units of the frame's largest step.
+[[gnu::always_inline]] inline float limit_of(const FramedBox& box, double squared_reach_m2) {
+  const double limit = squared_reach_m2 * power_of_two(-2 * box.largest) * (1.0 + kLimitMove);
+  return static_cast<float>(std::min(limit, kLargestLimit)) + std::numeric_limits<float>::min();
+}
+
+[[gnu::always_inline]] inline void store(const HalfFloats& numbers, std::array<float, 4>& out) {
+  std::memcpy(out.data(), &numbers, sizeof numbers);
+}
+
+/// The sides along the axes of the body.
+[[gnu::always_inline]] inline void put_body_in(const ByteFrame& frame,
+                                               const HalfFloats& share_of_largest,
+                                               const ObliqueSides& body, FramedBox& out) {
   Doubles axis_x, axis_y, axis_z, low, high;
   load(body.axis[0], axis_x);
   load(body.axis[1], axis_y);
@@ -221,28 +215,18 @@ struct Steps {
   const Doubles offset = axis_x * (frame.origin[0] - body.origin_m[0]) +
                          axis_y * (frame.origin[1] - body.origin_m[1]) +
                          axis_z * (frame.origin[2] - body.origin_m[2]);
-  const double per_m = power_of_two(-steps.largest);
+  const double per_m = power_of_two(-out.largest);
   Doubles down = (offset - high) * per_m;
   Doubles up = (low - offset) * per_m;
   HalfFloats above_from, below_from;
   move_down(down, kObliqueMove, above_from);
   move_down(up, kObliqueMove, below_from);
-  const HalfFloats x = __builtin_convertvector(axis_x, HalfFloats) * steps.share_of_largest[0];
-  const HalfFloats y = __builtin_convertvector(axis_y, HalfFloats) * steps.share_of_largest[1];
-  const HalfFloats z = __builtin_convertvector(axis_z, HalfFloats) * steps.share_of_largest[2];
-  Floats sum, on_axis;
-  squared_oblique_gaps(boxes, {x[0], y[0], z[0]}, above_from[0], below_from[0], sum);
-  for (std::size_t k = 1; k < 3; ++k) {
-    squared_oblique_gaps(boxes, {x[k], y[k], z[k]}, above_from[k], below_from[k], on_axis);
-    sum += on_axis;
-  }
-  squared = sum > squared ? sum : squared;
-}
-
-/// Bounds up to this one are near, in units of the frame's largest step.
-[[gnu::always_inline]] inline float limit_of(const Steps& steps, double squared_reach_m2) {
-  const double limit = squared_reach_m2 * power_of_two(-2 * steps.largest) * (1.0 + kLimitMove);
-  return static_cast<float>(std::min(limit, kLargestLimit)) + std::numeric_limits<float>::min();
+  store(above_from, out.above_from);
+  store(below_from, out.below_from);
+  const HalfFloats x = __builtin_convertvector(axis_x, HalfFloats) * share_of_largest[0];
+  const HalfFloats y = __builtin_convertvector(axis_y, HalfFloats) * share_of_largest[1];
+  const HalfFloats z = __builtin_convertvector(axis_z, HalfFloats) * share_of_largest[2];
+  for (std::size_t k = 0; k < 3; ++k) out.weights[k] = {x[k], y[k], z[k]};
 }
 
 }  // namespace
@@ -258,62 +242,77 @@ ObliqueSides::ObliqueSides(const geometry::OrientedBox& box) {
   }
 }
 
+CAMWAY_FOR_EVERY_PROCESSOR
+void put_in_frame(const ByteFrame& frame, const BoxSides& box, const ObliqueSides* body,
+                  FramedBox& out) {
+  const Longs exponent = {frame.exponent[0], frame.exponent[1], frame.exponent[2], 0};
+  out.largest = std::max({frame.exponent[0], frame.exponent[1], frame.exponent[2]});
+  const Doubles steps_per_m = reinterpret_cast<Doubles>((1023 - exponent) << 52);
+  const Doubles shares = reinterpret_cast<Doubles>((1023 - out.largest + exponent) << 52);
+  const HalfFloats share_of_largest = __builtin_convertvector(shares, HalfFloats);
+  store(share_of_largest, out.share_of_largest);
+  const Doubles origin = {frame.origin[0], frame.origin[1], frame.origin[2], 0.0};
+  Doubles low, high;
+  load(box.low_m, low);
+  load(box.high_m, high);
+  // Both sides are rounded down, the upper one negated.
+  Doubles down = (low - origin) * steps_per_m;
+  Doubles up = (origin - high) * steps_per_m;
+  HalfFloats from, minus_to;
+  move_down(down, kLeastMove, from);
+  move_down(up, kLeastMove, minus_to);
+  store(from, out.from);
+  store(minus_to, out.minus_to);
+  out.is_oblique = body != nullptr;
+  if (body != nullptr) put_body_in(frame, share_of_largest, *body, out);
+}
+
 namespace {
 
-[[gnu::always_inline]] inline void store(const Floats& squared, const Steps& steps, BoxGaps& out) {
+[[gnu::always_inline]] inline void store(const Floats& squared, const FramedBox& box,
+                                         BoxGaps& out) {
   std::memcpy(out.squared.data(), &squared, sizeof squared);
-  out.square_m2 = power_of_two(2 * steps.largest);
+  out.square_m2 = power_of_two(2 * box.largest);
 }
 
 // The two versions differ in their processor alone. GCC inlines no function with instructions of
 // AVX2 into one that is compiled for all processors, so they cannot share this frame.
 #ifdef CAMWAY_WITH_AVX2
-CAMWAY_WITH_AVX2 void gaps_on(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
-                              const ObliqueSides* body, double squared_reach_m2, BoxGaps& out) {
-  Steps steps;
+CAMWAY_WITH_AVX2 void gaps_on(const FramedBox& box, const ByteBoxes& boxes, double squared_reach_m2,
+                              BoxGaps& out) {
   Sides sides;
   Floats squared;
-  steps_of(frame, steps);
   Avx2::sides_of(boxes, sides);
-  bounds_along_world(frame, steps, sides, box, squared);
-  const float limit = limit_of(steps, squared_reach_m2);
+  bounds_along_world(box, sides, squared);
+  const float limit = limit_of(box, squared_reach_m2);
   out.near = Avx2::not_above(squared, limit);
-  if (body != nullptr && out.near != 0) {
-    raise_to_bounds_along_body(frame, steps, sides, *body, squared);
+  if (box.is_oblique && out.near != 0) {
+    raise_to_bounds_along_body(box, sides, squared);
     out.near = Avx2::not_above(squared, limit);
   }
-  store(squared, steps, out);
+  store(squared, box, out);
 }
 #endif
 
-CAMWAY_WITHOUT_AVX2 void gaps_on(const ByteFrame& frame, const ByteBoxes& boxes,
-                                 const BoxSides& box, const ObliqueSides* body,
+CAMWAY_WITHOUT_AVX2 void gaps_on(const FramedBox& box, const ByteBoxes& boxes,
                                  double squared_reach_m2, BoxGaps& out) {
-  Steps steps;
   Sides sides;
   Floats squared;
-  steps_of(frame, steps);
   Portable::sides_of(boxes, sides);
-  bounds_along_world(frame, steps, sides, box, squared);
-  const float limit = limit_of(steps, squared_reach_m2);
+  bounds_along_world(box, sides, squared);
+  const float limit = limit_of(box, squared_reach_m2);
   out.near = Portable::not_above(squared, limit);
-  if (body != nullptr && out.near != 0) {
-    raise_to_bounds_along_body(frame, steps, sides, *body, squared);
+  if (box.is_oblique && out.near != 0) {
+    raise_to_bounds_along_body(box, sides, squared);
     out.near = Portable::not_above(squared, limit);
   }
-  store(squared, steps, out);
+  store(squared, box, out);
 }
 
 }  // namespace
 
-void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
-              double squared_reach_m2, BoxGaps& out) {
-  gaps_on(frame, boxes, box, nullptr, squared_reach_m2, out);
-}
-
-void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
-              const ObliqueSides& body, double squared_reach_m2, BoxGaps& out) {
-  gaps_on(frame, boxes, box, &body, squared_reach_m2, out);
+void box_gaps(const FramedBox& box, const ByteBoxes& boxes, double squared_reach_m2, BoxGaps& out) {
+  gaps_on(box, boxes, squared_reach_m2, out);
 }
 
 }  // namespace camway::scene
