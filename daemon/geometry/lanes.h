@@ -39,7 +39,6 @@ CAMWAY_INLINE Vectors repeat(const Vec3& v) {
 CAMWAY_INLINE Vec3 get(const Vectors& v, std::size_t lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
 }
-CAMWAY_INLINE Triangle stored(const Vectors& v) { return {get(v, 0), get(v, 1), get(v, 2)}; }
 /// Lane `lane` in every lane.
 CAMWAY_INLINE Vectors repeat(const Vectors& v, std::size_t lane) { return repeat(get(v, lane)); }
 /// The corners that follow: less the triangle, this is its edges.
@@ -66,13 +65,14 @@ CAMWAY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 CAMWAY_INLINE Vectors operator*(double s, const Vectors& v) { return {s * v.x, s * v.y, s * v.z}; }
+CAMWAY_INLINE Numbers magnitude(const Numbers& x) { return x < 0.0 ? -x : x; }
+/// The second where one is no number.
+CAMWAY_INLINE Numbers smaller(const Numbers& a, const Numbers& b) { return a < b ? a : b; }
+CAMWAY_INLINE Numbers larger(const Numbers& a, const Numbers& b) { return a > b ? a : b; }
+
 /// The largest magnitude of a coordinate.
 CAMWAY_INLINE double largest_coordinate(const Vectors& v) {
-  const Numbers x = v.x < 0.0 ? -v.x : v.x;
-  const Numbers y = v.y < 0.0 ? -v.y : v.y;
-  const Numbers z = v.z < 0.0 ? -v.z : v.z;
-  const Numbers more = x > y ? x : y;
-  const Numbers most = more > z ? more : z;
+  const Numbers most = larger(larger(magnitude(v.x), magnitude(v.y)), magnitude(v.z));
   const double first = most[0] > most[1] ? most[0] : most[1];
   return first > most[2] ? first : most[2];
 }

@@ -67,6 +67,70 @@ struct Axes {
   out = axes.x * v.x() + axes.y * v.y() + axes.z * v.z();
 }
 
+/// The extent of a triangle along axes, from an origin.
+struct Extent {
+  lanes::Numbers least, greatest;
+};
+
+[[gnu::always_inline]] inline void find_extent(const Axes& axes, const Vec3& origin,
+                                               const Triangle& triangle, Extent& out) {
+  lanes::Numbers a, b, c;
+  along(axes, triangle[0] - origin, a);
+  along(axes, triangle[1] - origin, b);
+  along(axes, triangle[2] - origin, c);
+  out.least = lanes::smaller(lanes::smaller(a, b), c);
+  out.greatest = lanes::larger(lanes::larger(a, b), c);
+}
+
+/// Squared distance between an extent and that of a box.
+[[gnu::always_inline]] inline double squared_gap(const Extent& extent, const lanes::Numbers& low,
+                                                 const lanes::Numbers& high) {
+  const lanes::Numbers above = extent.least - high;
+  const lanes::Numbers below = low - extent.greatest;
+  const lanes::Numbers gap = lanes::larger(lanes::larger(above, below), lanes::Numbers{});
+  return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+}
+
+/// The plane of a triangle as boxes along some axes see it.
+struct Plane {
+  Vec3 normal;             ///< of any length
+  double squared_length;   ///< of the normal
+  double least, greatest;  ///< of the triangle along the normal, from its first vertex
+  lanes::Numbers share;    ///< the normal along the axes
+
+  /// Otherwise a square below could leave the range of doubles.
+  [[nodiscard]] bool is_usable() const {
+    return squared_length > kLeastSquare && squared_length < kGreatestSquare;
+  }
+};
+
+[[gnu::always_inline]] inline void find_plane(const Axes& axes, const Triangle& triangle,
+                                              Plane& out) {
+  const Vec3 e = triangle[1] - triangle[0];
+  const Vec3 f = triangle[2] - triangle[0];
+  out.normal = e.cross(f);
+  out.squared_length = out.normal.squaredNorm();
+  along(axes, out.normal, out.share);
+  const double ne = out.normal.dot(e);
+  const double nf = out.normal.dot(f);
+  out.least = std::min({0.0, ne, nf});
+  out.greatest = std::max({0.0, ne, nf});
+}
+
+/// Squared distance between a plane and a box. `origin` is where the extents of the box begin,
+/// along the normal from the first vertex of the triangle.
+[[gnu::always_inline]] inline double squared_gap(const Plane& plane, double origin,
+                                                 const lanes::Numbers& low,
+                                                 const lanes::Numbers& high) {
+  const lanes::Numbers size = lanes::magnitude(plane.share);
+  const lanes::Numbers middles = plane.share * (0.5 * (low + high));
+  const lanes::Numbers radii = size * (0.5 * (high - low));
+  const double middle = origin + (middles[0] + middles[1] + middles[2]);
+  const double radius = radii[0] + radii[1] + radii[2];
+  const double gap = std::max(middle - radius - plane.greatest, plane.least - middle - radius);
+  return gap > 0.0 ? gap * gap / plane.squared_length : 0.0;
+}
+
 }  // namespace
 
 OrientedBox::OrientedBox(std::span<const Triangle> body) {
@@ -86,16 +150,25 @@ OrientedBox OrientedBox::around(std::span<const Triangle> body) const {
   return box;
 }
 
+CAMWAY_FOR_EVERY_PROCESSOR
 void OrientedBox::fit(std::span<const Triangle> body) {
   origin_ = body.front().front();
-  low_ = high_ = Lanes::Zero();
+  Axes axes;
+  load(x_, axes.x);
+  load(y_, axes.y);
+  load(z_, axes.z);
+  lanes::Numbers low = {};
+  lanes::Numbers high = {};
   for (const Triangle& triangle : body) {
     for (const Vec3& vertex : triangle) {
-      const Lanes along = along_axes(vertex - origin_);
-      low_ = low_.min(along);
-      high_ = high_.max(along);
+      lanes::Numbers at;
+      along(axes, vertex - origin_, at);
+      low = lanes::smaller(at, low);
+      high = lanes::larger(at, high);
     }
   }
+  std::memcpy(low_.data(), &low, sizeof low);
+  std::memcpy(high_.data(), &high, sizeof high);
 }
 
 // Errors, with u = 2^-53, `scale` as in the contract and axes a_k orthonormal up to 8u:
@@ -109,24 +182,15 @@ void OrientedBox::fit(std::span<const Triangle> body) {
 CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
   Axes axes;
-  lanes::Numbers low, high, a, b, c;
+  lanes::Numbers low, high;
   load(x_, axes.x);
   load(y_, axes.y);
   load(z_, axes.z);
   load(low_, low);
   load(high_, high);
-  along(axes, triangle[0] - origin_, a);
-  along(axes, triangle[1] - origin_, b);
-  along(axes, triangle[2] - origin_, c);
-  const lanes::Numbers lower = a < b ? a : b;
-  const lanes::Numbers higher = a > b ? a : b;
-  const lanes::Numbers least = lower < c ? lower : c;
-  const lanes::Numbers greatest = higher > c ? higher : c;
-  const lanes::Numbers above = least - high;
-  const lanes::Numbers below = low - greatest;
-  lanes::Numbers gap = above > below ? above : below;
-  gap = gap > 0.0 ? gap : lanes::Numbers{};
-  return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+  Extent extent;
+  find_extent(axes, origin_, triangle, extent);
+  return squared_gap(extent, low, high);
 }
 
 // Errors in units of u·scale, once the length of the normal n is divided out (|n|_1 <=
@@ -139,30 +203,50 @@ double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
 // Together 117, inside 192 again. The rounding of n does not matter: any direction is a proof.
 CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
-  const Vec3 e = triangle[1] - triangle[0];
-  const Vec3 f = triangle[2] - triangle[0];
-  const Vec3 normal = e.cross(f);
-  const double squared_length = normal.squaredNorm();
-  // Otherwise a square below could leave the range of doubles.
-  if (!(squared_length > kLeastSquare && squared_length < kGreatestSquare)) return 0.0;
   Axes axes;
-  lanes::Numbers low, high, share;
+  lanes::Numbers low, high;
   load(x_, axes.x);
   load(y_, axes.y);
   load(z_, axes.z);
   load(low_, low);
   load(high_, high);
-  along(axes, normal, share);
-  const lanes::Numbers size = share < 0.0 ? -share : share;
-  const lanes::Numbers middles = share * (0.5 * (low + high));
-  const lanes::Numbers radii = size * (0.5 * (high - low));
-  const double middle = normal.dot(origin_ - triangle[0]) + (middles[0] + middles[1] + middles[2]);
-  const double radius = radii[0] + radii[1] + radii[2];
-  const double ne = normal.dot(e);
-  const double nf = normal.dot(f);
-  const double gap = std::max(middle - radius - std::max({0.0, ne, nf}),
-                              std::min({0.0, ne, nf}) - middle - radius);
-  return gap > 0.0 ? gap * gap / squared_length : 0.0;
+  Plane plane;
+  find_plane(axes, triangle, plane);
+  if (!plane.is_usable()) return 0.0;
+  return squared_gap(plane, plane.normal.dot(origin_ - triangle[0]), low, high);
+}
+
+// The boxes have the axes in common and, where the parts begin at the same corner, the origin.
+CAMWAY_FOR_EVERY_PROCESSOR
+bool OrientedBox::bound_two(std::span<const OrientedBox, 2> parts, const Triangle& triangle,
+                            double most_m2, TwoBounds& out) const {
+  Axes axes;
+  lanes::Numbers low, high;
+  load(x_, axes.x);
+  load(y_, axes.y);
+  load(z_, axes.z);
+  load(low_, low);
+  load(high_, high);
+  Plane plane;
+  find_plane(axes, triangle, plane);
+  double origin = plane.normal.dot(origin_ - triangle[0]);
+  if (plane.is_usable() && squared_gap(plane, origin, low, high) > most_m2) return false;
+  const Vec3* from = &origin_;
+  Extent extent;
+  find_extent(axes, *from, triangle, extent);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const OrientedBox& part = parts[i];
+    load(part.low_, low);
+    load(part.high_, high);
+    if (part.origin_ != *from) {
+      from = &part.origin_;
+      origin = plane.normal.dot(*from - triangle[0]);
+      find_extent(axes, *from, triangle, extent);
+    }
+    out.axes_m2[i] = squared_gap(extent, low, high);
+    out.plane_m2[i] = plane.is_usable() ? squared_gap(plane, origin, low, high) : 0.0;
+  }
+  return true;
 }
 
 double OrientedBox::squared_distance_bound_m2(const Triangle& triangle) const {

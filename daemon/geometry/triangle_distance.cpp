@@ -13,18 +13,6 @@
 namespace camway::geometry {
 namespace {
 
-/// Parameter in [0, 1] of the point of `from + s·edge` closest to `point`. For a zero edge: 0.
-[[gnu::always_inline]] inline double closest_parameter(const Vec3& from, const Vec3& edge,
-                                                       const Vec3& point) {
-  const double length2 = edge.squaredNorm();
-  return length2 > 0.0 ? clamp_to_unit(edge.dot(point - from) / length2) : 0.0;
-}
-
-/// Vector from the closest point of a segment to `point`.
-Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) {
-  return point - (from + closest_parameter(from, edge, point) * edge);
-}
-
 /// Vectors between the closest points of one segment and three, from the first to the others. If
 /// the lines are parallel any parameter is correct: the end points, which the caller tries as well,
 /// decide.
@@ -78,13 +66,10 @@ class Search {
   /// Each points from a point of `a` to a point of `b`.
   [[gnu::always_inline]] bool is_final(const lanes::Vectors& offsets) {
     const lanes::Numbers squared = squared_norm(offsets);
-    std::size_t shortest = lanes::kLanes;
-    for (std::size_t lane = 0; lane < lanes::kLanes; ++lane) {
-      if (!(squared[lane] < best2_)) continue;
-      best2_ = squared[lane];
-      shortest = lane;
-    }
-    return shortest < lanes::kLanes && proves(get(offsets, shortest));
+    const double least = std::min({squared[0], squared[1], squared[2]});
+    if (!(least < best2_)) return false;
+    best2_ = least;
+    return proves(get(offsets, squared[0] == least ? 0 : squared[1] == least ? 1 : 2));
   }
 
   [[gnu::always_inline]] bool is_final(const Vec3& offset) {
@@ -156,15 +141,24 @@ bool is_point(const Triangle& triangle) {
   return search.is_final(b + t * f - point);
 }
 
+/// Vectors from the closest points of three edges, which begin at `from`, to `point`.
+[[gnu::always_inline]] inline lanes::Vectors offsets_from_edges(const lanes::Vectors& from,
+                                                                const lanes::Vectors& edges,
+                                                                const lanes::Vectors& point) {
+  const lanes::Numbers s = lanes::unit_quotient(dot(edges, point - from), squared_norm(edges));
+  return point - (from + s * edges);
+}
+
 /// Every vertex against every edge. In exact arithmetic `edges_settle` covers these cases.
-bool vertices_settle(Search& search, const lanes::Vectors& first, const lanes::Vectors& second) {
-  const Triangle a = lanes::stored(first);
-  const Triangle b = lanes::stored(second);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t k = (j + 1) % 3;
-      if (search.is_final(offset_from_segment(a[j], a[k] - a[j], b[i]))) return true;
-      if (search.is_final(-offset_from_segment(b[j], b[k] - b[j], a[i]))) return true;
+[[gnu::always_inline]] inline bool vertices_settle(Search& search, const lanes::Vectors& a,
+                                                   const lanes::Vectors& b) {
+  const lanes::Vectors edges_a = lanes::rotated(a) - a;
+  const lanes::Vectors edges_b = lanes::rotated(b) - b;
+  for (std::size_t i = 0; i < lanes::kLanes; ++i) {
+    const lanes::Vectors of_a = offsets_from_edges(a, edges_a, lanes::repeat(b, i));
+    const lanes::Vectors of_b = offsets_from_edges(b, edges_b, lanes::repeat(a, i));
+    for (std::size_t j = 0; j < lanes::kLanes; ++j) {
+      if (search.is_final(get(of_a, j)) || search.is_final(Vec3(-get(of_b, j)))) return true;
     }
   }
   return false;
@@ -207,10 +201,6 @@ double unit_for_scale(double scale) {
 //    for the rounding of the six dot products: 56u·scale.
 // 5. The final square root and sum of squares: 3u·2·sqrt(3)·scale = 11u·scale.
 // Sum: 162u·scale; 192 covers the second order. Tests see about a tenth of it.
-double triangle_distance_error_m(double scale_m) {
-  return 192.0 * kUnitRoundoff * scale_m + kSmallestNormal;
-}
-
 double triangle_distance_error_m(const Triangle& a, const Triangle& b) {
   return triangle_distance_error_m(scale_of(a, b));
 }
@@ -246,9 +236,11 @@ TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) 
   lanes::Vectors lb = lanes::load(b) - origin;
   const double scale = std::max(lanes::largest_coordinate(la), lanes::largest_coordinate(lb));
   const double unit_m = unit_for_scale(scale);
-  const double factor = 1.0 / unit_m;
-  la = factor * la;
-  lb = factor * lb;
+  if (unit_m != 1.0) {
+    const double factor = 1.0 / unit_m;
+    la = factor * la;
+    lb = factor * lb;
+  }
   Search search(la, lb, scale / unit_m, beyond_m / unit_m);
   const bool is_settled = is_point(a)
                               ? point_settles(search, la, lb)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/types.h"
 
 namespace camway::geometry {
@@ -43,6 +44,8 @@ double triangle_distance_error_m(const Triangle& a, const Triangle& b);
 
 /// Bound of the error for every pair whose coordinates differ by at most `scale_m` in any axis.
 /// [Units: metres]
-double triangle_distance_error_m(double scale_m);
+inline double triangle_distance_error_m(double scale_m) {
+  return 192.0 * kUnitRoundoff * scale_m + kSmallestNormal;  // derived beside `triangle_gap`
+}
 
 }  // namespace camway::geometry

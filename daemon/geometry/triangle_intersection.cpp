@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/base/cpu_dispatch.h"
 #include "daemon/geometry/exact_triangles.h"
+#include "daemon/geometry/lanes.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::geometry {
@@ -32,44 +34,44 @@ LocalPair to_local(const Triangle& a, const Triangle& b) {
   return local;
 }
 
-/// Bound of the error of the computed gap between two projections on `axis`.
+/// Whether one of three axes separates the triangles, beyond the error of the computed gap between
+/// their projections.
 ///
 /// With |v| <= scale per coordinate: v itself carries u·scale from the translation, a product u,
 /// the two sums of a dot product 2u, each relative to at most |axis|_1·scale. That is 4u for each
 /// of the two projections, and 2u for their difference (which is at most 2·|axis|_1·scale): 10u to
 /// first order. 16 leaves room for the terms of second order and the rounding of the bound itself.
 /// The rounding of the axis does not matter: any axis that separates is a proof.
-double projection_gap_error(const Vec3& axis, double scale) {
-  return 16.0 * kUnitRoundoff * axis.lpNorm<1>() * scale + kSmallestNormal;
-}
-
-bool axis_separates(const LocalPair& p, const Vec3& axis) {
-  const double a0 = axis.dot(p.a[0]), a1 = axis.dot(p.a[1]), a2 = axis.dot(p.a[2]);
-  const double b0 = axis.dot(p.b[0]), b1 = axis.dot(p.b[1]), b2 = axis.dot(p.b[2]);
-  const double gap = std::max(std::min({b0, b1, b2}) - std::max({a0, a1, a2}),
-                              std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
+[[gnu::always_inline]] inline bool any_separates(const LocalPair& p, const lanes::Vectors& axes) {
+  using lanes::larger, lanes::magnitude, lanes::Numbers, lanes::smaller;
+  const Numbers a0 = dot(axes, lanes::repeat(p.a[0]));
+  const Numbers a1 = dot(axes, lanes::repeat(p.a[1]));
+  const Numbers a2 = dot(axes, lanes::repeat(p.a[2]));
+  const Numbers b0 = dot(axes, lanes::repeat(p.b[0]));
+  const Numbers b1 = dot(axes, lanes::repeat(p.b[1]));
+  const Numbers b2 = dot(axes, lanes::repeat(p.b[2]));
+  const Numbers gap = larger(smaller(smaller(b0, b1), b2) - larger(larger(a0, a1), a2),
+                             smaller(smaller(a0, a1), a2) - larger(larger(b0, b1), b2));
+  const Numbers size = magnitude(axes.x) + magnitude(axes.y) + magnitude(axes.z);
   // False for NaN, so an overflow is no proof.
-  return gap > projection_gap_error(axis, p.scale);
+  const auto is_apart = gap > 16.0 * kUnitRoundoff * size * p.scale + kSmallestNormal;
+  return (is_apart[0] | is_apart[1] | is_apart[2]) != 0;
 }
 
-bool surely_apart(const LocalPair& p) {
-  const std::array<Vec3, 3> ea = {p.a[1] - p.a[0], p.a[2] - p.a[1], p.a[0] - p.a[2]};
-  const std::array<Vec3, 3> eb = {p.b[1] - p.b[0], p.b[2] - p.b[1], p.b[0] - p.b[2]};
-  const Vec3 normal_a = ea[0].cross(ea[1]);
-  const Vec3 normal_b = eb[0].cross(eb[1]);
-  if (axis_separates(p, normal_b) || axis_separates(p, normal_a)) return true;
-  for (const Vec3& e : ea) {
-    for (const Vec3& f : eb) {
-      if (axis_separates(p, e.cross(f))) return true;
-    }
+[[gnu::always_inline]] inline bool surely_apart(const LocalPair& p) {
+  const lanes::Vectors a = lanes::load(p.a);
+  const lanes::Vectors b = lanes::load(p.b);
+  const lanes::Vectors ea = lanes::rotated(a) - a;
+  const lanes::Vectors eb = lanes::rotated(b) - b;
+  const Vec3 normal_a = (p.a[1] - p.a[0]).cross(p.a[2] - p.a[1]);
+  const Vec3 normal_b = (p.b[1] - p.b[0]).cross(p.b[2] - p.b[1]);
+  if (any_separates(p, lanes::load(normal_b, normal_a, normal_a))) return true;
+  for (std::size_t i = 0; i < lanes::kLanes; ++i) {
+    if (any_separates(p, cross(lanes::repeat(ea, i), eb))) return true;
   }
   // Coplanar pairs are separated only by an edge's normal within the plane.
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (axis_separates(p, normal_a.cross(ea[i])) || axis_separates(p, normal_b.cross(eb[i]))) {
-      return true;
-    }
-  }
-  return false;
+  return any_separates(p, cross(lanes::repeat(normal_a), ea)) ||
+         any_separates(p, cross(lanes::repeat(normal_b), eb));
 }
 
 /// Sign of six times the signed volume of a tetrahedron, 0 if rounding may have produced it.
@@ -123,6 +125,7 @@ bool share_a_vertex(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
+CAMWAY_FOR_EVERY_PROCESSOR
 bool triangles_touch(const Triangle& a, const Triangle& b) {
   if (boxes_apart(a, b)) return false;
   const LocalPair local = to_local(a, b);

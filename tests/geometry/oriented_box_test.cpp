@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -69,6 +70,39 @@ TEST(OrientedBox, IsExactForAQuadrilateralAndWhatFacesIt) {
     const double error_m = 2.0 * triangle_distance_error_m(scale_of(quad, other) + 10.0);
     EXPECT_NEAR(bound_m, distance_m, error_m);
   }
+}
+
+TEST(OrientedBox, BoundsTwoPartsBitForBitAsOneByOne) {
+  RandomTriangles random(544);
+  int excluded = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    auto [a, other] = random.close_pair();
+    Triangle b = random.thin_triangle();
+    // Halves of a quadrilateral begin at the same corner, and so have their origin in common.
+    if (i % 2 == 0) b = {a[0], a[2], Vec3(a[0] + a[2] - a[1])};
+    if (i % 4 != 0) other = moved(other, 10.0 * random.in_cube(1.0));
+    if (i % 50 == 0) other[2] = other[1];  // has no plane
+    const Vec3 shift = i % 3 == 0 ? Vec3(1e6 * random.in_cube(1.0)) : Vec3(0, 0, 0);
+    const std::array<Triangle, 2> body = {moved(a, shift), moved(b, shift)};
+    other = moved(other, shift);
+    const OrientedBox whole(body);
+    const std::array<OrientedBox, 2> parts = {whole.around({&body[0], 1}),
+                                              whole.around({&body[1], 1})};
+    const double plane_m2 = whole.plane_bound_m2(other);
+    const double most_m2 = i % 5 == 0 ? plane_m2 : plane_m2 * random.uniform(0.0, 2.0);
+    OrientedBox::TwoBounds bounds;
+    ASSERT_EQ(whole.bound_two(parts, other, most_m2, bounds), !(plane_m2 > most_m2));
+    if (plane_m2 > most_m2) {
+      ++excluded;
+      continue;
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_EQ(bounds.axes_m2[k], parts[k].axes_bound_m2(other)) << to_text(other);
+      ASSERT_EQ(bounds.plane_m2[k], parts[k].plane_bound_m2(other)) << to_text(other);
+    }
+  }
+  EXPECT_GT(excluded, 1000);
+  EXPECT_LT(excluded, 10'000);
 }
 
 }  // namespace

@@ -66,9 +66,14 @@ void BodySearch::settle() {
 
 void BodySearch::ask(std::uint32_t index) {
   const Triangle triangle = part_->triangle(index);
+  // Two parts are usually the halves of a quadrilateral.
+  if (parts() == 2 && part_boxes_) return ask_two(triangle, index);
   if (cannot_win(box_.plane_bound_m2(triangle), index)) return;
   if (parts() == 1) {
     ask_pair(0, triangle, index);
+  } else if (parts() == 2) {
+    part_boxes_ = {box_.around(hull_of(0)), box_.around(hull_of(1))};
+    ask_two(triangle, index);
   } else if (parts() <= kMaxOriented) {
     ask_few(triangle, index);
   } else {
@@ -76,29 +81,56 @@ void BodySearch::ask(std::uint32_t index) {
   }
 }
 
+/// Parts that a triangle may touch, the most promising first.
+class BodySearch::PartOrder {
+ public:
+  void add(double squared_m2, std::uint32_t part) {
+    std::size_t place = count_++;
+    for (; place > 0 && order_[place - 1].squared_m2 > squared_m2; --place) {
+      order_[place] = order_[place - 1];
+    }
+    order_[place] = {squared_m2, part};
+  }
+  [[nodiscard]] std::span<const Waiting> parts() const { return {order_.data(), count_}; }
+
+ private:
+  std::array<Waiting, kMaxOriented> order_;
+  std::size_t count_ = 0;
+};
+
+void BodySearch::ask_two(const Triangle& triangle, std::uint32_t index) {
+  if (index >= touched_) return;
+  OrientedBox::TwoBounds bounds;
+  const std::span<const OrientedBox, 2> boxes(part_boxes_->data(), 2);
+  if (!box_.bound_two(boxes, triangle, squared_reach_m2_, bounds)) return;
+  PartOrder order;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const double along_axes_m2 = bounds.axes_m2[i];
+    if (!cannot_win(along_axes_m2, index))
+      order.add(std::max(along_axes_m2, bounds.plane_m2[i]), i);
+  }
+  ask_parts(order, triangle, index);
+}
+
 void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
   if (!part_boxes_) {
     part_boxes_.emplace();
-    for (std::size_t i = 0; i < parts(); ++i) {
-      // Two parts are usually the halves of a quadrilateral, whose axes fit both.
-      (*part_boxes_)[i] = parts() == 2 ? box_.around(hull_of(i)) : OrientedBox(hull_of(i));
-    }
+    for (std::size_t i = 0; i < parts(); ++i) (*part_boxes_)[i] = OrientedBox(hull_of(i));
   }
-  std::array<Waiting, kMaxOriented> order;
-  std::size_t count = 0;
+  PartOrder order;
   for (std::uint32_t i = 0; i < parts(); ++i) {
     const OrientedBox& box = (*part_boxes_)[i];
     const double along_axes_m2 = box.axes_bound_m2(triangle);
     if (cannot_win(along_axes_m2, index)) continue;
-    const double squared_m2 = std::max(along_axes_m2, box.plane_bound_m2(triangle));
-    std::size_t place = count++;
-    for (; place > 0 && order[place - 1].squared_m2 > squared_m2; --place) {
-      order[place] = order[place - 1];
-    }
-    order[place] = {squared_m2, i};
+    order.add(std::max(along_axes_m2, box.plane_bound_m2(triangle)), i);
   }
-  for (std::size_t i = 0; i < count && !is_done_; ++i) {
-    if (!cannot_win(order[i].squared_m2, index)) ask_pair(order[i].triangle, triangle, index);
+  ask_parts(order, triangle, index);
+}
+
+void BodySearch::ask_parts(const PartOrder& order, const Triangle& triangle, std::uint32_t index) {
+  for (const Waiting& part : order.parts()) {
+    if (is_done_) return;
+    if (!cannot_win(part.squared_m2, index)) ask_pair(part.triangle, triangle, index);
   }
 }
 

@@ -82,6 +82,8 @@ class BodySearch {
     std::array<Waiting, 64> waiting;
   };
 
+  class PartOrder;
+
   /// Tests part `part` of the body against scene triangle `index`.
   virtual void ask_pair(std::size_t part, const geometry::Triangle& triangle,
                         std::uint32_t index) = 0;
@@ -95,7 +97,9 @@ class BodySearch {
   }
   [[nodiscard]] geometry::Box bounds_of(std::size_t part) const;
   void ask(std::uint32_t index);
+  void ask_two(const geometry::Triangle& triangle, std::uint32_t index);
   void ask_few(const geometry::Triangle& triangle, std::uint32_t index);
+  void ask_parts(const PartOrder& order, const geometry::Triangle& triangle, std::uint32_t index);
   void ask_groups(const geometry::Triangle& triangle, std::uint32_t index);
 
   std::span<const geometry::Triangle> hull_;

@@ -34,35 +34,34 @@ class IndexWalk {
   /// A leaf, whose entries within reach a query visits.
   class Leaf {
    public:
-    Leaf(const IndexTree& tree, const IndexOffsets& offsets, std::uint32_t parent,
-         std::uint32_t leaf)
-        : tree_(tree), offsets_(offsets), parent_(parent), leaf_(leaf) {}
+    Leaf(IndexWalk& walk, std::uint32_t parent, std::uint32_t leaf)
+        : walk_(walk), parent_(parent), leaf_(leaf) {}
 
-    [[nodiscard]] std::uint32_t id() const { return offsets_.leaf + leaf_; }
+    [[nodiscard]] std::uint32_t id() const { return walk_.offsets_.leaf + leaf_; }
 
     /// Calls `visit(entry)` for each entry whose box is within reach, until `visit` returns false.
     template <class Query, class Visit>
     void for_each(const Query& query, const Visit& visit) const {
-      const std::uint32_t begin = tree_.arrays_.leaf_begin[leaf_];
-      const std::uint32_t end = tree_.arrays_.leaf_begin[leaf_ + 1];
+      const IndexArrays& arrays = walk_.tree_.arrays_;
+      const std::uint32_t begin = arrays.leaf_begin[leaf_];
+      const std::uint32_t end = arrays.leaf_begin[leaf_ + 1];
+      const FramedBox& box = walk_.box_in(query, parent_);
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
-        look(query, tree_.arrays_.nodes[parent_].frame, tree_.arrays_.boxes[first / kNodeWidth],
-             gaps);
+        box_gaps(box, arrays.boxes[first / kNodeWidth], query.squared_reach_m2(), gaps);
         // A group of eight boxes may belong to several leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);
         if (end - first < kNodeWidth) near &= (1U << (end - first)) - 1U;
         for (; near != 0; near &= near - 1U) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-          if (!visit(offsets_.entry + tree_.arrays_.references[first + i])) return;
+          if (!visit(walk_.offsets_.entry + arrays.references[first + i])) return;
         }
       }
     }
 
    private:
-    const IndexTree& tree_;
-    const IndexOffsets& offsets_;
+    IndexWalk& walk_;
     std::uint32_t parent_;
     std::uint32_t leaf_;
   };
@@ -77,7 +76,7 @@ class IndexWalk {
       if (top.leaf == kNode) {
         push_children(query, top.node);
       } else {
-        query.leaf(Leaf(tree_, offsets_, top.node, top.leaf));
+        query.leaf(Leaf(*this, top.node, top.leaf));
         if (query.is_done()) return;
       }
     }
@@ -95,14 +94,15 @@ class IndexWalk {
     std::uint32_t leaf;  ///< the leaf; kNode for a node
   };
 
+  /// The box of the query in the frame of a node. The leaves below a node have its frame, and are
+  /// mostly looked at right after it.
   template <class Query>
-  static void look(const Query& query, const ByteFrame& frame, const ByteBoxes& boxes,
-                   BoxGaps& gaps) {
-    if (query.oblique() != nullptr) {
-      box_gaps(frame, boxes, query.sides(), *query.oblique(), query.squared_reach_m2(), gaps);
-    } else {
-      box_gaps(frame, boxes, query.sides(), query.squared_reach_m2(), gaps);
+  const FramedBox& box_in(const Query& query, std::uint32_t node) {
+    if (framed_in_ != node) {
+      put_in_frame(tree_.arrays_.nodes[node].frame, query.sides(), query.oblique(), framed_);
+      framed_in_ = node;
     }
+    return framed_;
   }
 
   void push(const Waiting& waiting) { stack_[size_++] = waiting; }
@@ -111,7 +111,7 @@ class IndexWalk {
   void push_children(const Query& query, std::uint32_t at) {
     const IndexNode& node = tree_.arrays_.nodes[at];
     BoxGaps gaps;
-    look(query, node.frame, node.boxes, gaps);
+    box_gaps(box_in(query, at), node.boxes, query.squared_reach_m2(), gaps);
     const std::size_t begin = size_;
     for (unsigned near = gaps.near & ((1U << node.child_count) - 1U); near != 0;
          near &= near - 1U) {
@@ -133,6 +133,8 @@ class IndexWalk {
   IndexOffsets offsets_;
   std::size_t size_ = 0;
   std::array<Waiting, kStackSize> stack_;
+  FramedBox framed_;
+  std::uint32_t framed_in_ = kNode;  ///< node of whose frame `framed_` is
 };
 
 }  // namespace camway::scene

@@ -39,7 +39,9 @@ void TreeWalk::look(std::uint32_t place, const ByteFrame& frame, const ByteBoxes
                     BoxGaps& gaps) const {
   const TreeBody::Placed& placed = body_.placed(place);
   const double squared_reach_m2 = search_.squared_reach_m2(body_.node(placed.node));
-  box_gaps(frame, boxes, placed.sides, placed.oblique, squared_reach_m2, gaps);
+  FramedBox framed;
+  put_in_frame(frame, placed.sides, &placed.oblique, framed);
+  box_gaps(framed, boxes, squared_reach_m2, gaps);
 }
 
 void TreeWalk::expand(const Waiting& pair) {

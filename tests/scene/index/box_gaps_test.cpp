@@ -42,6 +42,16 @@ struct BoxSample {
   ByteBoxes bytes;
 };
 
+/// Returns the bounds between a box, or a body in it, and the boxes of a sample.
+BoxGaps gaps_between(const BoxSample& sample, const Box& box, const ObliqueSides* body,
+                     double squared_reach_m2) {
+  FramedBox framed;
+  put_in_frame(sample.frame, BoxSides(box), body, framed);
+  BoxGaps gaps;
+  box_gaps(framed, sample.bytes, squared_reach_m2, gaps);
+  return gaps;
+}
+
 struct Place {
   double from_origin_m;
   double size_m;
@@ -82,9 +92,8 @@ TEST(BoxGaps, NeverExceedTheDistanceAndComeCloseToIt) {
       const double reach_m = (place.size_m + 1e-3) * random.log_uniform(1e-3, 1e6);
       Box box(Vec3(at + reach_m * random.in_cube(1.0)));
       box.extend(Vec3(box.min() + (place.size_m + 1e-3) * random.in_cube(0.3)));
-      BoxGaps gaps;
       const double squared_reach_m2 = reach_m * reach_m * random.uniform(0.0, 2.0);
-      box_gaps(s.frame, s.bytes, BoxSides(box), squared_reach_m2, gaps);
+      const BoxGaps gaps = gaps_between(s, box, nullptr, squared_reach_m2);
       for (std::size_t k = 0; k < s.boxes.size(); ++k) {
         const double truth_m2 = geometry::squared_box_distance_m2(s.boxes[k], box);
         const double bound_m2 = static_cast<double>(gaps.squared[k]) * gaps.square_m2;
@@ -118,8 +127,7 @@ TEST(BoxGaps, CountTouchingAsNoGap) {
       // Shares exactly one corner with the box.
       Box corner(s.boxes[k].max());
       corner.extend(Vec3(s.boxes[k].max() + Vec3(1, 1, 1)));
-      BoxGaps gaps;
-      box_gaps(s.frame, s.bytes, BoxSides(corner), 0.0, gaps);
+      const BoxGaps gaps = gaps_between(s, corner, nullptr, 0.0);
       ASSERT_EQ(gaps.squared[k], 0.0F);
       ASSERT_NE(gaps.near >> k & 1U, 0U);
     }
@@ -130,9 +138,8 @@ TEST(BoxGaps, ProveNothingOfWhatIsNotANumber) {
   RandomTriangles random(534);
   const BoxSample s(random, Vec3(1, 2, 3), 1.0);
   const double nan = std::nan("");
-  BoxGaps gaps;
-  box_gaps(s.frame, s.bytes, BoxSides(Box(Vec3(nan, nan, nan), Vec3(nan, nan, nan))), 0.0, gaps);
-  EXPECT_EQ(gaps.near, 0xFFU);
+  const Box none(Vec3(nan, nan, nan), Vec3(nan, nan, nan));
+  EXPECT_EQ(gaps_between(s, none, nullptr, 0.0).near, 0xFFU);
 }
 
 TEST(ObliqueGaps, NeverExceedTheDistanceToTheBody) {
@@ -148,11 +155,10 @@ TEST(ObliqueGaps, NeverExceedTheDistanceToTheBody) {
           Triangle{p, p + size_m * random.in_cube(1.0), p + size_m * random.in_cube(1.0)}};
       const OrientedBox oriented(body);
       const double squared_reach_m2 = size_m * size_m * random.log_uniform(1e-6, 10.0);
-      BoxGaps gaps;
-      box_gaps(s.frame, s.bytes, BoxSides(geometry::bounds(body[0])), squared_reach_m2, gaps);
-      const BoxGaps before = gaps;
-      box_gaps(s.frame, s.bytes, BoxSides(geometry::bounds(body[0])), ObliqueSides(oriented),
-               squared_reach_m2, gaps);
+      const Box box = geometry::bounds(body[0]);
+      const ObliqueSides oblique(oriented);
+      const BoxGaps before = gaps_between(s, box, nullptr, squared_reach_m2);
+      const BoxGaps gaps = gaps_between(s, box, &oblique, squared_reach_m2);
       ASSERT_EQ(gaps.near & ~before.near, 0U);
       improved += gaps.near != before.near ? 1 : 0;
       for (std::size_t k = 0; k < s.boxes.size(); ++k) {
