@@ -3,13 +3,37 @@
 #include <camway/client.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "client/c/handles.h"
 #include "client/c/sized.h"
 
+namespace camway {
+
+// Weak: the static library does without libsodium, which signing needs. A program that links that
+// library, and camway::authentication for itself, has the function; another one has none.
+[[gnu::weak]] LoadedAuthentication authentication_from(const std::string& key_file,
+                                                       double window_s);
+
+}  // namespace camway
+
 namespace camway::c {
 namespace {
+
+/// Window of signed messages, as `authentication_from` has it.
+constexpr double kKeyWindow_s = 30.0;
+
+std::shared_ptr<const Authentication> authentication_of(const camway_client_options& given) {
+  if (given.key_file == nullptr) return nullptr;
+  if (&authentication_from == nullptr) {
+    throw Refusal{CAMWAY_INVALID,
+                  "key_file: this program is linked without camway::authentication"};
+  }
+  LoadedAuthentication loaded = authentication_from(given.key_file, given.key_window_s);
+  if (!loaded.authentication) throw Refusal{CAMWAY_INVALID, std::move(loaded.error)};
+  return std::move(loaded.authentication);
+}
 
 camway_client_options default_options() {
   const ClientOptions defaults;
@@ -20,6 +44,7 @@ camway_client_options default_options() {
   options.try_timeout_s = defaults.try_timeout_s;
   options.max_try_timeout_s = defaults.max_try_timeout_s;
   options.watch_lease_s = defaults.watch_lease_s;
+  options.key_window_s = kKeyWindow_s;
   return options;
 }
 
@@ -34,6 +59,7 @@ ClientOptions options_of(const camway_client_options& given) {
   options.try_timeout_s = given.try_timeout_s;
   options.max_try_timeout_s = given.max_try_timeout_s;
   options.watch_lease_s = given.watch_lease_s;
+  options.authentication = authentication_of(given);
   return options;
 }
 

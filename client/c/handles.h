@@ -16,6 +16,7 @@
 
 namespace camway::c {
 
+class EventQueue;
 class PendingCall;
 
 /// The object that a handle of the C interface stands for.
@@ -32,6 +33,10 @@ struct ObjectOf<camway_answer> {
 template <>
 struct ObjectOf<camway_pending> {
   using Type = PendingCall;
+};
+template <>
+struct ObjectOf<camway_event_queue> {
+  using Type = EventQueue;
 };
 template <>
 struct ObjectOf<camway_scene_answer> {

@@ -20,6 +20,8 @@ class Handling {
     if (client == nullptr || client != current()) return;
     throw Refusal{CAMWAY_BUSY, "a handler of this client must not wait for it"};
   }
+  /// Throws in a handler of any client.
+  static void refuse_to_wait_at_all() { refuse_to_wait(current()); }
 
  private:
   static const void*& current() {

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "client/c/pending_call.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "client/c/handles.h"
 #include "client/c/handling.h"
+#include "client/c/waiting.h"
 
 namespace camway::c {
 namespace {
 
 static_assert(CAMWAY_CERTIFYING == static_cast<int>(PlanProgress::Stage::kCertifying));
-
-/// Longest wait that the clock can add to now: a year.
-constexpr double kLongest_s = 365.0 * 86'400.0;
 
 camway_progress progress_of(const PlanProgress& from) {
   camway_progress progress{};
@@ -56,10 +53,7 @@ PendingCall::Answer PendingCall::wait(double timeout_s) const {
   if (!is_answered()) {
     if (!(timeout_s > 0.0)) return nullptr;
     Handling::refuse_to_wait(waits_for_);
-    const std::chrono::duration<double> timeout(std::min(timeout_s, kLongest_s));
-    const auto until = std::chrono::steady_clock::now() +
-                       std::chrono::duration_cast<std::chrono::steady_clock::duration>(timeout);
-    if (answer_->wait_until(until) != std::future_status::ready) return nullptr;
+    if (answer_->wait_until(end_of_wait(timeout_s)) != std::future_status::ready) return nullptr;
   }
   return {answer_, &answer_->get()};
 }

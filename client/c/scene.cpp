@@ -3,44 +3,14 @@
 #include <camway/client.h>
 
 #include <algorithm>
-#include <memory>
-#include <string>
-#include <utility>
 
 #include "client/c/handles.h"
+#include "client/c/scene_calls.h"
 #include "client/c/scene_shapes.h"
 #include "client/c/sized.h"
 
 namespace camway::c {
 namespace {
-
-/// Returns the status of an answer, and gives a handle of it to the caller, who may want none.
-camway_status hand_over_scene(SceneAnswer found, camway_scene_answer** answer) {
-  const camway_status status = returned(found.status, found.error);
-  if (status == CAMWAY_OK && answer != nullptr) {
-    *answer = Handles::all().add<camway_scene_answer>(
-        std::make_shared<const SceneAnswer>(std::move(found)));
-  }
-  return status;
-}
-
-/// Runs a call about scenes: `call` returns the answer of a client.
-template <class Call>
-camway_status ask_about_scenes(camway_client* client, camway_scene_answer** answer,
-                               const Call& call) noexcept {
-  return guarded([&] {
-    if (answer != nullptr) *answer = nullptr;
-    return hand_over_scene(call(*Handles::all().find(client)), answer);
-  });
-}
-
-camway_status put(camway_client* client, const char* scene, const char* object,
-                  const SceneShape& shape, const camway_pose* pose, camway_scene_answer** answer) {
-  return ask_about_scenes(client, answer, [&](Client& found) {
-    return found.put_object(text_of(scene, "scene"), text_of(object, "object"), shape,
-                            pose_of(pose));
-  });
-}
 
 camway_scene_info info_of(const SceneInfo& from) {
   camway_scene_info info{};
@@ -65,19 +35,6 @@ camway_object_info info_of(const SceneObject& from) {
   std::copy_n(from.bounds_min_m.begin(), 3, info.bounds_min_m);
   std::copy_n(from.bounds_max_m.begin(), 3, info.bounds_max_m);
   return info;
-}
-
-template <class List>
-const auto& item_of(const List& list, std::size_t index) {
-  if (index < list.size()) return list[index];
-  throw Refusal{CAMWAY_INVALID, "index: is " + std::to_string(index) + ", and there are " +
-                                    std::to_string(list.size())};
-}
-
-camway_status write_count(std::size_t size, std::size_t* count) {
-  require(count, "count");
-  *count = size;
-  return CAMWAY_OK;
 }
 
 }  // namespace
@@ -167,29 +124,32 @@ camway_status camway_scene_unload(camway_client* client, const char* scene,
 camway_status camway_scene_put_box(camway_client* client, const char* scene, const char* object,
                                    const double size_m[3], const camway_pose* pose,
                                    camway_scene_answer** answer) {
-  return guarded([&] {
+  const auto shape = [&] {
     require(size_m, "size_m");
-    return put(client, scene, object, camway::SceneBox{{size_m[0], size_m[1], size_m[2]}}, pose,
-               answer);
-  });
+    return camway::SceneBox{{size_m[0], size_m[1], size_m[2]}};
+  };
+  return put(client, scene, object, shape, pose, answer);
 }
 
 camway_status camway_scene_put_sphere(camway_client* client, const char* scene, const char* object,
                                       double radius_m, const camway_pose* pose,
                                       camway_scene_answer** answer) {
-  return put(client, scene, object, camway::SceneSphere{radius_m, 0.0}, pose, answer);
+  const auto shape = [&] { return camway::SceneSphere{radius_m, 0.0}; };
+  return put(client, scene, object, shape, pose, answer);
 }
 
 camway_status camway_scene_put_cylinder(camway_client* client, const char* scene,
                                         const char* object, double radius_m, double height_m,
                                         const camway_pose* pose, camway_scene_answer** answer) {
-  return put(client, scene, object, camway::SceneCylinder{radius_m, height_m, 0.0}, pose, answer);
+  const auto shape = [&] { return camway::SceneCylinder{radius_m, height_m, 0.0}; };
+  return put(client, scene, object, shape, pose, answer);
 }
 
 camway_status camway_scene_put_file(camway_client* client, const char* scene, const char* object,
                                     const camway_mesh_file* mesh, const camway_pose* pose,
                                     camway_scene_answer** answer) {
-  return guarded([&] { return put(client, scene, object, mesh_of(mesh), pose, answer); });
+  const auto shape = [&] { return mesh_of(mesh); };
+  return put(client, scene, object, shape, pose, answer);
 }
 
 camway_status camway_scene_put_triangles(camway_client* client, const char* scene,
@@ -197,10 +157,8 @@ camway_status camway_scene_put_triangles(camway_client* client, const char* scen
                                          size_t num_vertices, const uint32_t* triangles,
                                          size_t num_triangles, const camway_pose* pose,
                                          camway_scene_answer** answer) {
-  return guarded([&] {
-    return put(client, scene, object, ply_of(vertices_m, num_vertices, triangles, num_triangles),
-               pose, answer);
-  });
+  const auto shape = [&] { return ply_of(vertices_m, num_vertices, triangles, num_triangles); };
+  return put(client, scene, object, shape, pose, answer);
 }
 
 camway_status camway_scene_move(camway_client* client, const char* scene, const char* object,

@@ -37,6 +37,14 @@ template <>
 inline constexpr std::size_t kFirstSize<camway_object_info> = 144;
 template <>
 inline constexpr std::size_t kFirstSize<camway_mesh_file> = 56;
+template <>
+inline constexpr std::size_t kFirstSize<camway_watch_event> = 56;
+template <>
+inline constexpr std::size_t kFirstSize<camway_path_measures> = 88;
+template <>
+inline constexpr std::size_t kFirstSize<camway_scene_revision> = 56;
+template <>
+inline constexpr std::size_t kFirstSize<camway_scan_map> = 56;
 
 template <class T>
 void require_size(std::size_t size) {

@@ -2,36 +2,20 @@
 #include <camway/camway.h>
 #include <camway/client.h>
 
-#include <optional>
-#include <vector>
+#include <memory>
 
-#include "client/c/answer.h"
 #include "client/c/handles.h"
 #include "client/c/handling.h"
 #include "client/c/request.h"
+#include "client/c/watch_event.h"
 
 namespace camway::c {
 namespace {
 
-static_assert(CAMWAY_EVENT_RESTARTED == static_cast<int>(WatchEvent::Kind::kRestarted));
-
 void deliver(const WatchEvent& from, const void* client, camway_watch_handler handler, void* user) {
-  std::vector<camway_collision> broken;
-  for (const CollisionInterval& interval : from.broken) broken.push_back(collision_of(interval));
-  std::optional<ScopedHandle<camway_answer>> answer;
-  if (from.answer) answer.emplace(std::make_shared<const PlanResponse>(*from.answer));
-  camway_watch_event event{};
-  event.struct_size = sizeof event;
-  event.kind = static_cast<std::int32_t>(from.kind);
-  event.watch = from.request_id;
-  event.scene_revision = from.scene_revision;
-  event.status = static_cast<camway_status>(from.status);
-  event.num_broken = static_cast<std::uint32_t>(broken.size());
-  event.error = from.error.c_str();
-  event.answer = answer ? answer->get() : nullptr;
-  event.broken = broken.empty() ? nullptr : broken.data();
+  const WatchEventInC event(std::make_shared<const WatchEvent>(from), 0);
   const Handling handling(client);
-  handler(user, &event);
+  handler(user, &event.get());
 }
 
 }  // namespace

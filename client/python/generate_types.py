@@ -61,6 +61,7 @@ def cpp_text(structs, enums):
         visits = " ".join(f"visit({i}, value.{member.name});" for i, member in enumerate(struct.members))
         lines += ["template <>", f"struct Described<{struct.cpp_name}> {{",
                   f'  static constexpr const char* kName = "{struct.python_name}";',
+                  f"  static constexpr bool kIsLazy = {str(struct.name in python_types.LAZY).lower()};",
                   f"  static constexpr std::array<const char*, {len(struct.members)}> kMembers = {{{names}}};",
                   "  template <class Visit, class Struct>",
                   "  static void visit_members(const Visit& visit, Struct& value) {",

@@ -18,9 +18,11 @@ ROWS = {
 #: Structs that users fill: their arrays may be anything of which NumPy makes an array.
 _INPUTS = {"Camera", "Body", "Keyframe", "PathEnd", "PathFrame", "Orientation", "MotionLimits", "Bounds",
            "PlanRequest", "OccupancyBatch", "SceneBox", "ScenePoints", "SceneMesh", "Pose", "Segment"}
+#: Structs of many members, most of which a program does not look at: those are converted when they are asked for.
+LAZY = {"PlanResponse"}
 #: Functions of the classes, which `_functions.py` has.
 _MIXINS = {"Body": "BodyFunctions", "Orientation": "OrientationFunctions", "PlanRequest": "RequestFunctions",
-           "PlanResponse": "AnswerFunctions", "PathKeyframe": "PathKeyframeFunctions",
+           "PlanResponse": "AnswerFunctions", "Keyframe": "KeyframeFunctions", "PathKeyframe": "PathKeyframeFunctions",
            "SceneMesh": "SceneMeshFunctions", "Latency": "LatencyFunctions", "DaemonStatus": "OutcomeFunctions",
            "SceneAnswer": "OutcomeFunctions", "OccupancyAnswer": "OutcomeFunctions",
            "SceneMap": "OutcomeFunctions", "SceneTriangles": "OutcomeFunctions"}
@@ -38,7 +40,7 @@ import numpy as np
 import numpy.typing as npt
 
 from camway import _functions
-from camway._base import Booleans, Floats, Integers, Path, Quaternion, Struct, Vector, field
+from camway._base import Booleans, Floats, Integers, Lazy, Path, Quaternion, Struct, Vector, field
 
 '''
 
@@ -183,7 +185,8 @@ def _class_doc(struct):
 
 def data_class(struct):
     mixin = _MIXINS.get(struct.name)
-    bases = f"_functions.{mixin}, Struct" if mixin else "Struct"
+    base = "Lazy" if struct.name in LAZY else "Struct"
+    bases = f"_functions.{mixin}, {base}" if mixin else base
     doc = _class_doc(struct)
     lines = ["", "@dataclasses.dataclass(slots=True, eq=False)", f"class {struct.python_name}({bases}):",
              f'    """{doc[0]}'] + [f"    {line}".rstrip() for line in doc[1:]] + ['    """', ""]

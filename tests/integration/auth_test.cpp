@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <camway/authentication.h>
+#include <camway/camway.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -108,6 +109,23 @@ TEST_F(AuthTest, ListensToThoseWithItsKeysOnly) {
   chmod(file("mine").c_str(), 0644);
   EXPECT_EQ(camway({"status", "--key-file", file("mine")}, said), 2) << said;
   EXPECT_THAT(said, HasSubstr("chmod 600"));
+}
+
+TEST_F(AuthTest, TheInterfaceInCSigns) {
+  start_daemon_with_keys(kOld);
+  const std::string mine = write_keys("mine", kOld);
+  const std::string url = patient().url;
+  camway_client_options options;
+  ASSERT_EQ(camway_client_options_init(&options, sizeof options), CAMWAY_OK);
+  options.url = url.c_str();
+  options.key_file = mine.c_str();
+  camway_client* client = nullptr;
+  ASSERT_EQ(camway_client_create(&options, &client), CAMWAY_OK) << camway_last_error();
+  EXPECT_EQ(camway_scene_list(client, nullptr), CAMWAY_OK) << camway_last_error();
+  camway_client_free(client);
+  options.key_window_s = -1.0;
+  EXPECT_EQ(camway_client_create(&options, &client), CAMWAY_INVALID);
+  EXPECT_THAT(camway_last_error(), HasSubstr("window_s"));
 }
 
 TEST_F(AuthTest, WhatWasHeardIsNotTakenAgain) {

@@ -49,9 +49,12 @@ target_compile_features(camway_client_shared INTERFACE cxx_std_17)
 target_link_libraries(camway_client_shared INTERFACE Threads::Threads)
 camway_versioned(camway_client_shared ${camway_cxx_abi} ${PROJECT_VERSION} camway.map)
 
+# The one for C signs, too: programs in C cannot link what is in C++.
 camway_installed_library(camway_c_shared SHARED camway_c c
-  ${camway_client_objects} $<TARGET_OBJECTS:camway_client_c>)
+  ${camway_client_objects} $<TARGET_OBJECTS:camway_client_c>
+  $<TARGET_OBJECTS:camway_client_authentication> $<TARGET_OBJECTS:camway_wire_auth>)
 camway_versioned(camway_c_shared ${camway_c_abi_major} ${camway_c_abi}.0 camway_c.map)
+target_link_libraries(camway_c_shared PRIVATE PkgConfig::SODIUM)
 
 # Signing by shared keys, for those who ask for it: COMPONENTS authentication. Its users need libsodium. It
 # has the wire checks itself, which the shared library does not export.

@@ -24,10 +24,14 @@
 #include <camway/c/answer.h>
 #include <camway/c/base.h>
 #include <camway/c/client.h>
+#include <camway/c/event_queue.h>
+#include <camway/c/measures.h>
 #include <camway/c/occupancy.h>
 #include <camway/c/plan.h>
 #include <camway/c/request.h>
+#include <camway/c/scan.h>
 #include <camway/c/scene.h>
+#include <camway/c/scene_history.h>
 #include <camway/c/watch.h>
 
 #endif

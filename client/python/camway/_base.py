@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
+from camway import _native
 from camway._native import Path
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -21,7 +22,7 @@ Quaternion: TypeAlias = "Sequence[float] | Floats"
 
 _Default = TypeVar("_Default")
 
-__all__ = ["Booleans", "Floats", "Integers", "Path", "Quaternion", "Struct", "Vector", "field"]
+__all__ = ["Booleans", "Floats", "Integers", "Lazy", "Path", "Quaternion", "Struct", "Vector", "field"]
 
 
 def field(make: Callable[[], _Default]) -> _Default:
@@ -41,6 +42,22 @@ class Struct:
             return NotImplemented
         names = [member.name for member in dataclasses.fields(self)]
         return all(_is_equal(getattr(self, name), getattr(other, name)) for name in names)
+
+
+class Lazy(Struct):
+    """A class of data whose objects, where C++ made them, get a member when it is first asked for. From then on they
+    have it as others do: it can be changed, and stays the same object."""
+
+    __slots__ = ("_source",)
+
+    if not TYPE_CHECKING:  # where a member that is misspelled has to be found
+
+        def __getattr__(self, name):
+            return _native.fill_member(self, name)
+
+    def __getstate__(self) -> tuple[None, dict[str, Any]]:
+        """Returns all members, for copies and pickles: the source is in C++."""
+        return None, {member.name: getattr(self, member.name) for member in dataclasses.fields(self)}
 
 
 def _is_equal(one: Any, other: Any) -> bool:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import pathlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from camway import _native
+from camway import _errors, _native
 
 if TYPE_CHECKING:
     from camway import _types
@@ -22,15 +23,44 @@ Document: TypeAlias = "str | Mapping[str, Any]"
 
 
 def text_of(document: Document) -> str:
-    """Returns the text of a JSON document."""
-    return document if isinstance(document, str) else json.dumps(document)
+    """Returns the text of a JSON document. Its numbers and lists may be NumPy's. Raises InvalidRequest for a number that
+    JSON does not have."""
+    if isinstance(document, str):
+        return document
+    try:
+        return json.dumps(document, default=_plain, allow_nan=False)
+    except ValueError as error:
+        raise _errors.InvalidRequest(f"{_not_finite(document) or 'document'}: is not finite") from error
+
+
+def _not_finite(value: Any, name: str = "") -> str | None:
+    """Returns the name of the first number in a document that is not finite, such as "keyframes[1].position[0]"."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, float):
+        return None if math.isfinite(value) else name
+    parts: Iterable[tuple[str, Any]] = ()
+    if isinstance(value, Mapping):
+        parts = ((f"{name}.{key}" if name else str(key), part) for key, part in value.items())
+    elif isinstance(value, (list, tuple)):
+        parts = ((f"{name}[{i}]", part) for i, part in enumerate(value))
+    return next((found for part, inside in parts if (found := _not_finite(inside, part)) is not None), None)
+
+
+def _plain(value: Any) -> Any:
+    """Returns a number or an array of NumPy as Python's."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"a document of JSON has no {type(value).__name__}")
 
 
 def request_of(request: _types.Request | Mapping[str, Any]) -> _types.Request:
     """Returns the request of an argument that may be a dictionary as in request files."""
+    if not isinstance(request, Mapping):
+        return request
     from camway import _types
 
-    return _types.Request.from_json(request) if isinstance(request, Mapping) else request
+    return _types.Request.from_json(request)
 
 
 def read_text(file: str | os.PathLike[str]) -> str:
@@ -161,6 +191,39 @@ class AnswerFunctions(OutcomeFunctions):
         return made
 
 
+class KeyframeFunctions:
+    """Makers of keyframes."""
+
+    __slots__ = ()
+
+    @staticmethod
+    def from_arrays(positions_m: npt.ArrayLike, orientations_wxyz: npt.ArrayLike | None = None,
+                    times_s: npt.ArrayLike | None = None) -> list[_types.Keyframe]:
+        """Returns a keyframe for each row of arrays: of three numbers, of four, and one time each. Without
+        orientations, all look down -Z. Raises ValueError for arrays of another shape."""
+        from camway import _types
+
+        positions = _rows(positions_m, 3, "positions_m")
+        count = len(positions)
+        orientations = ([[1.0, 0.0, 0.0, 0.0]] * count if orientations_wxyz is None
+                        else _rows(orientations_wxyz, 4, "orientations_wxyz"))
+        times: list[float | None] = [None] * count if times_s is None else np.ravel(np.asarray(times_s, float)).tolist()
+        for name, length in (("orientations_wxyz", len(orientations)), ("times_s", len(times))):
+            if length != count:
+                raise ValueError(f"{name}: are {length}, and there are {count} positions")
+        return [_types.Keyframe(time_s, position_m, orientation)
+                for time_s, position_m, orientation in zip(times, positions, orientations)]
+
+
+def _rows(array: npt.ArrayLike, columns: int, name: str) -> list[list[float]]:
+    """Returns the rows of an array of numbers. Raises ValueError for an array of another shape."""
+    numbers = np.asarray(array, float)
+    if numbers.ndim != 2 or numbers.shape[1] != columns:
+        raise ValueError(f"{name}: must be an array of rows of {columns} numbers")
+    rows: list[list[float]] = numbers.tolist()
+    return rows
+
+
 class PathKeyframeFunctions:
     """Functions of the keyframes of answers."""
 
@@ -207,6 +270,8 @@ class SceneMeshFunctions:
         corners = np.ascontiguousarray(triangles)
         if points.ndim != 2 or points.shape[1] != 3:
             raise ValueError("vertices_m: must be an array of rows of 3 numbers")
+        if not np.isfinite(points).all():
+            raise ValueError(f"vertices_m[{np.argmin(np.isfinite(points).all(axis=1))}]: is not finite")
         if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
             raise ValueError("triangles: must be an array of rows of 3 numbers, all whole")
         if corners.size and not 0 <= corners.min() <= corners.max() < len(points):

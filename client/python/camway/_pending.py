@@ -36,6 +36,17 @@ class PendingPlan(_FutureOfAnswer):
         """The id of the request; 0 if nothing was sent."""
         return self._request_id
 
+    def result(self, timeout: float | None = None) -> _types.Answer:
+        """Waits for the answer, at most `timeout` seconds; raises TimeoutError after that. Raises Busy in a handler of
+        the client, without whose end no answer comes."""
+        self._refuse_to_wait()
+        return super().result(timeout)
+
+    def exception(self, timeout: float | None = None) -> BaseException | None:
+        """Waits, as `result` does, and returns the error in place of an answer; None if there is an answer."""
+        self._refuse_to_wait()
+        return super().exception(timeout)
+
     def cancel(self) -> bool:
         """Has the daemon cancel the request. The future ends soon: with `camway.Cancelled`, or with the finished
         answer if there is one. Returns False if it has ended."""
@@ -47,6 +58,11 @@ class PendingPlan(_FutureOfAnswer):
 
     def __await__(self) -> Generator[Any, None, _types.Answer]:
         return asyncio.wrap_future(self).__await__()
+
+    def _refuse_to_wait(self) -> None:
+        client = self._client()
+        if client is not None and not self.done():
+            client.refuse_to_wait()
 
     def _take(self, answer: _types.Answer) -> None:
         if self.done():

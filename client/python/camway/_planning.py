@@ -151,12 +151,12 @@ def check(scene: Scene, request: _types.Request | Mapping[str, Any],
         answer: an answer, a path, or a dictionary as in answer files
         folder: of a dictionary, the folder to which the mesh file of its body is relative
     """
-    request_text = json.dumps(request.to_json()) if isinstance(request, _types.Request) else json.dumps(dict(request))
+    request_text = _functions.text_of(request.to_json() if isinstance(request, _types.Request) else dict(request))
     if isinstance(answer, _native.Path):
         path_text = _native.path_to_json(answer)
     elif isinstance(answer, _types.Answer):
         path_text = _native.answer_to_json(answer, False)
     else:
-        path_text = json.dumps(dict(answer))
+        path_text = _functions.text_of(dict(answer))
     free, report, text = _native.check(_native_of(scene), request_text, path_text, os.fspath(folder))
     return Check(free, json.loads(report), text)

@@ -23,6 +23,8 @@ class Watch:
     def __init__(self, client: _native.NativeClient, request: _types.Request,
                  on_event: Callable[[_types.WatchEvent], None] | None) -> None:
         """Made by `Client.watch` alone."""
+        if on_event is not None and not callable(on_event):
+            raise TypeError(f"on_event: must be a function, not {type(on_event).__name__}")
         # The client holds this object while it watches, so this one does not hold the client.
         self._client = weakref.ref(client)
         self._on_event = on_event
@@ -39,12 +41,17 @@ class Watch:
 
     def next_event(self, timeout_s: float | None = None) -> _types.WatchEvent:
         """Waits for the next event. Raises TimeoutError if none comes in time, and EOFError after the event
-        "ended" or `unwatch`. For watches without a handler."""
-        future = self._next()
+        "ended" or `unwatch`. For watches without a handler. Raises Busy in a handler of the client, without whose end
+        no event comes."""
+        future, client = self._next(), self._client()
         try:
+            if client is not None and not future.done():
+                client.refuse_to_wait()
             event = future.result(timeout_s)
-        except BaseException:
+        except BaseException as error:
             self._withdraw(future)
+            if isinstance(error, TimeoutError):
+                raise TimeoutError(f"no event came within {timeout_s} s") from None
             raise
         if event is None:
             raise EOFError("the watch has ended")

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-#include "client/python/module/convert.h"
+#include "client/python/module/lazy.h"
 
 namespace camway::python {
 

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "client/python/module/callback.h"
-#include "client/python/module/convert.h"
 #include "client/python/module/exit_gate.h"
 #include "client/python/module/interruption.h"
+#include "client/python/module/lazy.h"
 #include "client/python/module/module.h"
 
 namespace camway::python {
@@ -125,6 +125,12 @@ class NativeClient {
     return client_;
   }
 
+  /// Throws where no answer comes while the caller waits: in a handler of this client, and in a
+  /// process that was forked from the client's. The end of a closed client has been told already.
+  void refuse_to_wait() const {
+    if (client_) static_cast<void>(client_to_wait_for());
+  }
+
   py::object plan(py::handle request_object, py::handle timeout, const py::object& on_progress) {
     const CountedCall counted;
     const auto request = argument<PlanRequest>(request_object, "request");
@@ -133,18 +139,18 @@ class NativeClient {
     PendingPlan pending = start(*client, request, handlers_for(on_progress, py::none()));
     const auto cancel = [&] { client->cancel(pending.request_id); };
     const auto end = timeout_s ? after(*timeout_s) : no_end();
-    if (wait_for(pending.answer, end, cancel)) return to_python(pending.answer.get());
+    if (wait_for(pending.answer, end, cancel)) return lazy_to_python(pending.answer.get());
     cancel();
     if (wait_for(pending.answer, steady_clock::now() + kCancelGrace, cancel)) {
-      const PlanResponse answer = pending.answer.get();
-      if (answer.status != Status::kCancelled) return to_python(answer);
+      PlanResponse answer = pending.answer.get();
+      if (answer.status != Status::kCancelled) return lazy_to_python(std::move(answer));
     }
     PlanResponse answer;
     answer.status = Status::kTimeout;
     answer.request_id = pending.request_id;
     answer.error = "no answer came within " + std::string(py::str(py::float_(*timeout_s))) +
                    " s (timeout_s), so the request was cancelled";
-    return to_python(answer);
+    return lazy_to_python(std::move(answer));
   }
 
   std::int64_t plan_async(py::handle request_object, const py::object& on_answer,
@@ -234,7 +240,8 @@ class NativeClient {
   pid_t process_;
 };
 
-using Text = const std::string&;
+std::string text(py::handle value, const char* name) { return argument<std::string>(value, name); }
+std::int64_t id_of(py::handle value) { return argument<std::int64_t>(value, "request_id"); }
 
 void add_plan_calls(py::class_<NativeClient>& type) {
   type.def(py::init<const py::dict&>(), py::arg("options"))
@@ -244,27 +251,29 @@ void add_plan_calls(py::class_<NativeClient>& type) {
                              [](const NativeClient& mine) { return mine.client()->warning(); })
       .def_property_readonly("client_id",
                              [](const NativeClient& mine) { return mine.client()->client_id(); })
+      .def("refuse_to_wait", &NativeClient::refuse_to_wait)
       .def("plan", &NativeClient::plan, py::arg("request"), py::arg("timeout_s"),
            py::arg("on_progress"))
       .def("plan_async", &NativeClient::plan_async, py::arg("request"), py::arg("on_answer"),
            py::arg("on_progress"))
       .def(
-          "cancel", [](NativeClient& mine, std::int64_t id) { mine.client()->cancel(id); },
+          "cancel", [](NativeClient& mine, py::handle id) { mine.client()->cancel(id_of(id)); },
           py::arg("request_id"))
       .def("watch", &NativeClient::watch, py::arg("request"), py::arg("on_event"))
       .def(
-          "unwatch", [](NativeClient& mine, std::int64_t id) { mine.client()->unwatch(id); },
+          "unwatch", [](NativeClient& mine, py::handle id) { mine.client()->unwatch(id_of(id)); },
           py::arg("request_id"))
       .def(
           "unwatch_and_wait",
-          [](NativeClient& mine, std::int64_t id, double timeout_s) {
+          [](NativeClient& mine, py::handle request_id, py::handle timeout) {
             return mine.wait_for_call(
-                [=](Client& client) { return client.unwatch(id, timeout_s); });
+                [id = id_of(request_id), timeout_s = timeout_of(timeout).value_or(0.0)](
+                    Client& client) { return client.unwatch(id, timeout_s); });
           },
           py::arg("request_id"), py::arg("timeout_s"))
       .def(
           "take_better",
-          [](NativeClient& mine, std::int64_t id) { mine.client()->take_better(id); },
+          [](NativeClient& mine, py::handle id) { mine.client()->take_better(id_of(id)); },
           py::arg("request_id"))
       .def(
           "status",
@@ -286,11 +295,12 @@ void add_plan_calls(py::class_<NativeClient>& type) {
 void add_scene_calls(py::class_<NativeClient>& type) {
   type.def(
           "load_scene",
-          [](NativeClient& mine, Text scene, py::handle mesh, double resolution_m,
+          [](NativeClient& mine, py::handle scene, py::handle mesh, py::handle resolution,
              py::handle bounds) {
-            return mine.ask([=, mesh = argument<SceneMesh>(mesh, "mesh"),
+            return mine.ask([mesh = argument<SceneMesh>(mesh, "mesh"),
+                             resolution_m = argument<double>(resolution, "occupancy_resolution_m"),
                              bounds = argument<Bounds>(bounds, "body_bounds"),
-                             scene = scene](Client& client) {
+                             scene = text(scene, "scene")](Client& client) {
               return client.load_scene(scene, mesh, resolution_m, bounds);
             });
           },
@@ -298,8 +308,10 @@ void add_scene_calls(py::class_<NativeClient>& type) {
           py::arg("body_bounds"))
       .def(
           "unload_scene",
-          [](NativeClient& mine, Text scene) {
-            return mine.ask([scene = scene](Client& client) { return client.unload_scene(scene); });
+          [](NativeClient& mine, py::handle scene) {
+            return mine.ask([scene = text(scene, "scene")](Client& client) {
+              return client.unload_scene(scene);
+            });
           },
           py::arg("scene"))
       .def("list_scenes",
@@ -308,22 +320,26 @@ void add_scene_calls(py::class_<NativeClient>& type) {
            })
       .def(
           "describe_scene",
-          [](NativeClient& mine, Text scene) {
-            return mine.ask(
-                [scene = scene](Client& client) { return client.describe_scene(scene); });
+          [](NativeClient& mine, py::handle scene) {
+            return mine.ask([scene = text(scene, "scene")](Client& client) {
+              return client.describe_scene(scene);
+            });
           },
           py::arg("scene"))
       .def(
           "scene_history",
-          [](NativeClient& mine, Text scene) {
-            return mine.ask(
-                [scene = scene](Client& client) { return client.scene_history(scene); });
+          [](NativeClient& mine, py::handle scene) {
+            return mine.ask([scene = text(scene, "scene")](Client& client) {
+              return client.scene_history(scene);
+            });
           },
           py::arg("scene"))
       .def(
           "restore_scene",
-          [](NativeClient& mine, Text scene, std::int64_t revision, Text as) {
-            return mine.ask([=, scene = scene, as = as](Client& client) {
+          [](NativeClient& mine, py::handle scene, py::handle revision, py::handle as) {
+            return mine.ask([scene = text(scene, "scene"),
+                             revision = argument<std::int64_t>(revision, "revision"),
+                             as = text(as, "restore_as")](Client& client) {
               return client.restore_scene(scene, revision, as);
             });
           },
@@ -339,37 +355,36 @@ void add_scene_calls(py::class_<NativeClient>& type) {
 void add_object_calls(py::class_<NativeClient>& type) {
   type.def(
           "put_object",
-          [](NativeClient& mine, Text scene, Text object, py::handle shape, py::handle pose) {
+          [](NativeClient& mine, py::handle scene, py::handle object, py::handle shape,
+             py::handle pose) {
             return mine.ask([shape = argument<SceneShape>(shape, "shape"),
-                             pose = argument<Pose>(pose, "pose"), scene = scene,
-                             object = object](Client& client) {
+                             pose = argument<Pose>(pose, "pose"), scene = text(scene, "scene"),
+                             object = text(object, "object")](Client& client) {
               return client.put_object(scene, object, shape, pose);
             });
           },
           py::arg("scene"), py::arg("object"), py::arg("shape"), py::arg("pose"))
       .def(
           "move_object",
-          [](NativeClient& mine, Text scene, Text object, py::handle pose) {
-            return mine.ask([pose = argument<Pose>(pose, "pose"), scene = scene,
-                             object = object](Client& client) {
+          [](NativeClient& mine, py::handle scene, py::handle object, py::handle pose) {
+            return mine.ask([pose = argument<Pose>(pose, "pose"), scene = text(scene, "scene"),
+                             object = text(object, "object")](Client& client) {
               return client.move_object(scene, object, pose);
             });
           },
           py::arg("scene"), py::arg("object"), py::arg("pose"))
       .def(
           "remove_object",
-          [](NativeClient& mine, Text scene, Text object) {
-            return mine.ask([scene = scene, object = object](Client& client) {
-              return client.remove_object(scene, object);
-            });
+          [](NativeClient& mine, py::handle scene, py::handle object) {
+            return mine.ask([scene = text(scene, "scene"), object = text(object, "object")](
+                                Client& client) { return client.remove_object(scene, object); });
           },
           py::arg("scene"), py::arg("object"))
       .def(
           "object_triangles",
-          [](NativeClient& mine, Text scene, Text digest) {
-            return mine.ask([scene = scene, digest = digest](Client& client) {
-              return client.object_triangles(scene, digest);
-            });
+          [](NativeClient& mine, py::handle scene, py::handle digest) {
+            return mine.ask([scene = text(scene, "scene"), digest = text(digest, "digest")](
+                                Client& client) { return client.object_triangles(scene, digest); });
           },
           py::arg("scene"), py::arg("digest"));
 }
@@ -377,28 +392,30 @@ void add_object_calls(py::class_<NativeClient>& type) {
 void add_map_calls(py::class_<NativeClient>& type) {
   type.def(
           "insert_scan",
-          [](NativeClient& mine, Text scene, Text object, py::handle points_m,
+          [](NativeClient& mine, py::handle scene, py::handle object, py::handle points_m,
              py::handle origin_m) {
             using Points = std::vector<std::array<double, 3>>;
             return mine.ask([points = argument<Points>(points_m, "points_m"),
                              origin = argument<std::array<double, 3>>(origin_m, "origin_m"),
-                             scene = scene, object = object](Client& client) {
+                             scene = text(scene, "scene"),
+                             object = text(object, "object")](Client& client) {
               return client.insert_scan(scene, object, points, origin);
             });
           },
           py::arg("scene"), py::arg("object"), py::arg("points_m"), py::arg("origin_m"))
       .def(
           "export_map",
-          [](NativeClient& mine, Text scene) {
-            return mine.ask([scene = scene](Client& client) { return client.export_map(scene); });
+          [](NativeClient& mine, py::handle scene) {
+            return mine.ask([scene = text(scene, "scene")](Client& client) {
+              return client.export_map(scene);
+            });
           },
           py::arg("scene"))
       .def(
           "export_map_to",
-          [](NativeClient& mine, Text scene, Text file) {
-            return mine.ask([scene = scene, file = file](Client& client) {
-              return client.export_map_to(scene, file);
-            });
+          [](NativeClient& mine, py::handle scene, py::handle file) {
+            return mine.ask([scene = text(scene, "scene"), file = text(file, "file")](
+                                Client& client) { return client.export_map_to(scene, file); });
           },
           py::arg("scene"), py::arg("file"));
 }

@@ -32,6 +32,8 @@ concept IsDescribed = requires {
   Described<T>::kName;
 };
 template <class T>
+concept IsLazy = IsDescribed<T> && Described<T>::kIsLazy;
+template <class T>
 concept IsNamed = requires {
   Names<T>::kValues;
 };
@@ -120,6 +122,17 @@ inline double number_of(py::handle value) {
   return number;
 }
 
+inline std::string utf8_of(py::handle value) {
+  if (!PyUnicode_Check(value.ptr())) refuse_type("must be a text, not " + type_name(value));
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (bytes == nullptr) {
+    forget_error();
+    refuse_value("has a surrogate, which is no character");
+  }
+  return {bytes, static_cast<std::size_t>(size)};
+}
+
 template <std::integral Number>
 Number integer_of(py::handle value) {
   const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
@@ -133,6 +146,12 @@ Number integer_of(py::handle value) {
   return static_cast<Number>(number);
 }
 
+/// Whether an array holds real numbers, or nothing at all.
+inline bool has_numbers(const py::array& array) {
+  const char kind = array.dtype().kind();
+  return kind == 'f' || kind == 'i' || kind == 'u' || array.size() == 0;
+}
+
 /// Returns an array of numbers with `kWidth` columns; an empty list has any number of them.
 template <class Number>
 py::array_t<Number> rows_of(py::handle value, std::size_t width) {
@@ -140,8 +159,7 @@ py::array_t<Number> rows_of(py::handle value, std::size_t width) {
   const std::string shape = "must be an array of rows of " + std::to_string(width) + " numbers";
   const py::array any = py::array::ensure(value);
   // An array of floats as indices would be cut to whole numbers.
-  const bool is_number = any && (any.dtype().kind() == 'f' || any.dtype().kind() == 'i' ||
-                                 any.dtype().kind() == 'u' || any.size() == 0);
+  const bool is_number = any && has_numbers(any);
   const bool is_whole =
       any && (std::floating_point<Number> || any.dtype().kind() != 'f' || any.size() == 0);
   if (!is_number || !is_whole) {
@@ -163,6 +181,9 @@ template <class T>
 void from_python(py::handle value, T& mine);
 template <class T>
 py::object to_python(const T& mine);
+/// Converts a struct whose members are converted when they are first asked for (`lazy.h`).
+template <IsDescribed T>
+py::object lazy_to_python(T value);
 
 /// Converts the items of a list, a tuple or another sequence.
 template <class Take>
@@ -268,7 +289,7 @@ void name_from_python(py::handle value, T& mine) {
   if (!PyUnicode_Check(value.ptr())) {
     refuse_type("must be a name, not " + type_name(value));
   }
-  const auto text = value.cast<std::string>();
+  const std::string text = utf8_of(value);
   std::string known;
   for (const auto& [number, name] : Names<T>::kValues) {
     if (text == name) {
@@ -294,8 +315,7 @@ void from_python(py::handle value, T& mine) {
   } else if constexpr (std::integral<T>) {
     mine = integer_of<T>(value);
   } else if constexpr (std::same_as<T, std::string>) {
-    if (!PyUnicode_Check(value.ptr())) refuse_type("must be a text, not " + type_name(value));
-    mine = value.cast<std::string>();
+    mine = utf8_of(value);
   } else if constexpr (requires { mine.has_value(); }) {
     if (value.is_none()) {
       mine.reset();
@@ -426,6 +446,8 @@ py::object to_python(const T& mine) {
     return py::str("unknown");
   } else if constexpr (std::same_as<T, Path>) {
     return py::cast(mine);
+  } else if constexpr (IsLazy<T>) {
+    return lazy_to_python(mine);
   } else if constexpr (IsDescribed<T>) {
     return struct_to_python(mine);
   } else if constexpr (IsVector<T>) {

@@ -8,7 +8,7 @@
 #include "client/messages/convert.h"
 #include "client/messages/plan.h"
 #include "client/messages/plan_faults.h"
-#include "client/python/module/convert.h"
+#include "client/python/module/lazy.h"
 #include "client/python/module/module.h"
 #include "daemon/messages/plan.h"
 #include "tools/camway/common/request_file.h"
@@ -118,7 +118,7 @@ void add_documents(py::module_& module) {
   module.def(
       "answer_from_json",
       [](const std::string& text, const std::string& source) {
-        return to_python(answer_from_json(text, source));
+        return lazy_to_python(answer_from_json(text, source));
       },
       py::arg("text"), py::arg("source"));
   module.def("answer_to_json", &answer_to_json, py::arg("answer"), py::arg("has_timing"));

@@ -18,8 +18,10 @@ inline constexpr std::chrono::milliseconds kSignalPeriod{50};
 
 /// Whether this is the thread in which Python runs the handlers of signals.
 inline bool is_main_thread() {
-  const pybind11::module_ threading = pybind11::module_::import("threading");
-  return threading.attr("main_thread")().attr("ident").cast<unsigned long>() ==
+  // The function is looked up once, and never destroyed: other modules may end later.
+  static PyObject* const main_thread =
+      pybind11::object(pybind11::module_::import("threading").attr("main_thread")).release().ptr();
+  return pybind11::handle(main_thread)().attr("ident").cast<unsigned long>() ==
          PyThread_get_thread_ident();
 }
 

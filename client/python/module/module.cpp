@@ -11,6 +11,7 @@ PYBIND11_MODULE(_native, module) {
   module.doc() = "The part of the package camway that is written in C++.";
   module.attr("__version__") = CAMWAY_VERSION;
   add_path(module);
+  add_lazy(module);
   add_client(module);
   add_documents(module);
   add_scene(module);

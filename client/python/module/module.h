@@ -9,6 +9,7 @@ namespace camway::python {
 void add_path(pybind11::module_& module);
 void add_client(pybind11::module_& module);
 void add_documents(pybind11::module_& module);
+void add_lazy(pybind11::module_& module);
 void add_scene(pybind11::module_& module);
 void add_planning(pybind11::module_& module);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "client/python/module/convert.h"
@@ -41,11 +42,12 @@ Path make_path(py::handle list) {
 py::tuple evaluate(const Path& path, py::handle times) {
   const CountedCall counted;
   using Times = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  const Times given = Times::ensure(times);
-  if (!given) {
+  const py::array any = py::array::ensure(times);
+  if (!any || !has_numbers(any)) {
     forget_error();
     throw py::type_error("times_s: must be an array of numbers, not " + type_name(times));
   }
+  const auto given = Times::ensure(any);
   std::vector<py::ssize_t> shape(given.shape(), given.shape() + given.ndim());
   shape.push_back(3);
   py::array_t<double> positions(shape);
@@ -64,6 +66,30 @@ py::tuple evaluate(const Path& path, py::handle times) {
     }
   }
   return py::make_tuple(positions, orientations);
+}
+
+/// Returns an array of `points` by `numbers` for each segment, which begin at `offset` in it. The
+/// array is a read-only view: its memory is the path's, which it keeps.
+py::array view_of(const py::object& owner, std::size_t offset, py::ssize_t points,
+                  py::ssize_t numbers) {
+  constexpr auto kNumber = static_cast<py::ssize_t>(sizeof(double));
+  const std::vector<Segment>& segments = owner.cast<const Path&>().segments();
+  const auto count = static_cast<py::ssize_t>(segments.size());
+  if (count == 0) return py::array_t<double>({count, points, numbers});
+  py::array view(py::dtype::of<double>(), {count, points, numbers},
+                 {static_cast<py::ssize_t>(sizeof(Segment)), numbers * kNumber, kNumber},
+                 reinterpret_cast<const std::byte*>(segments.data()) + offset, owner);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+py::array joints_of(const Path& path) {
+  const std::vector<Segment>& segments = path.segments();
+  py::array_t<double> joints(static_cast<py::ssize_t>(segments.empty() ? 0 : segments.size() + 1));
+  double* time = joints.mutable_data();
+  for (const Segment& segment : segments) *time++ = segment.t0_s;
+  if (!segments.empty()) *time = segments.back().t1_s;
+  return joints;
 }
 
 bool equal(const Path& one, const Path& other) {
@@ -97,8 +123,25 @@ void add_path(py::module_& module) {
       .def_property_readonly(
           "segments", [](const Path& path) { return to_python(path.segments()); },
           "A new list of the segments, with the numbers that were proved.")
+      .def_property_readonly(
+          "joints_s", &joints_of,
+          "A new array of the instants at which segments begin, and the last one: N + 1 for N "
+          "segments.")
+      .def_property_readonly(
+          "control_positions_m",
+          [](const py::object& path) { return view_of(path, offsetof(Segment, position_m), 4, 3); },
+          "`Segment.position_m` of all N segments, as a read-only array of shape (N, 4, 3).")
+      .def_property_readonly(
+          "control_orientations_wxyz",
+          [](const py::object& path) {
+            return view_of(path, offsetof(Segment, orientation_wxyz), 7, 4);
+          },
+          "`Segment.orientation_wxyz` of all N segments, as a read-only array of shape (N, 7, 4).")
       .def(
-          "pose", [](const Path& path, double time_s) { return to_python(path.pose(time_s)); },
+          "pose",
+          [](const Path& path, py::handle time_s) {
+            return to_python(path.pose(argument<double>(time_s, "time_s")));
+          },
           py::arg("time_s"),
           "Returns the `camway.Pose` at a time. A time outside of the path gives its first or last "
           "pose; NaN, or an empty path, gives NaN.")

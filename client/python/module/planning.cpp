@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/python/module/convert.h"
 #include "client/python/module/documents.h"
 #include "client/python/module/exit_gate.h"
 #include "client/python/module/interruption.h"
+#include "client/python/module/lazy.h"
 #include "client/python/module/module.h"
 #include "client/python/module/scene.h"
 #include "daemon/base/deadline.h"
@@ -76,7 +76,7 @@ py::tuple plan_given(const LoadedScene& scene, const tools::RequestFile& request
                        snapshot.digest};
   py::list list;
   for (const std::string& warning : warnings) list.append(warning);
-  return py::make_tuple(to_python(to_answer(answer.result, made_in)), list);
+  return py::make_tuple(lazy_to_python(to_answer(answer.result, made_in)), list);
 }
 
 tools::RequestFile file_of(py::handle object) {

@@ -30,27 +30,27 @@ def start_daemon(programs):
     return daemon
 
 
-def processor_ms(process):
-    """Processor time of all threads of a process, which a busy machine changes little."""
-    tasks = pathlib.Path(f"/proc/{process}/task").iterdir()
-    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks) / 1e6
-
-
 def measure(client, peer, request, count):
-    """Milliseconds of Python and of C++ for `count` pairs of calls. Who is first changes from pair to pair: the second
-    finds warm caches in the daemon."""
+    """Milliseconds of Python and of C++ for `count` pairs of calls: that pass, and those of the processor, of all threads
+    of the process, which a busy machine changes little; of Python also those in which it reads all members of the
+    answer afterwards. Who is first changes from pair to pair: the second finds warm
+    caches in the daemon."""
 
     def by_python(seed):
         request.seed = seed
-        begin_s = time.perf_counter()
+        processor_begin_s, begin_s = time.process_time(), time.perf_counter()
         answer = client.plan(request)
-        mine.append(1000 * (time.perf_counter() - begin_s))
+        taken_s, processor_s = time.perf_counter() - begin_s, time.process_time() - processor_begin_s
+        begin_s = time.perf_counter()
+        for name in answer.__match_args__:
+            getattr(answer, name)
+        mine.append((1000 * taken_s, 1000 * processor_s, 1000 * (time.perf_counter() - begin_s)))
         return answer.ok
 
     def by_cpp(seed):
         print(seed, file=peer.stdin, flush=True)
-        taken_ms, is_ok = peer.stdout.readline().split()
-        theirs.append(float(taken_ms))
+        taken_ms, processor_ms, is_ok = peer.stdout.readline().split()
+        theirs.append((float(taken_ms), float(processor_ms)))
         return is_ok == "1"
 
     mine, theirs = [], []
@@ -81,17 +81,15 @@ def main():
                                       stdout=subprocess.PIPE, text=True) as peer:
                     request = camway.Request.load(file)
                     request.scene = SCENE
-                    before = processor_ms("self"), processor_ms(peer.pid)
                     mine, theirs = measure(client, peer, request, arguments.count)
-                    after = processor_ms("self"), processor_ms(peer.pid)
                     peer.stdin.close()
-                # Writing to the peer and reading from it counts for Python here.
-                processor = [(after[i] - before[i]) / arguments.count for i in (0, 1)]
-                medians = statistics.median(mine), statistics.median(theirs)
-                rows.append({"request": name, "python_ms": medians[0], "cpp_ms": medians[1],
-                             "more_ms": medians[0] - medians[1], "processor_more_ms": processor[0] - processor[1]})
+                python_ms, python_processor_ms, read_ms = map(statistics.median, zip(*mine))
+                cpp_ms, cpp_processor_ms = map(statistics.median, zip(*theirs))
+                rows.append({"request": name, "python_ms": python_ms, "cpp_ms": cpp_ms, "more_ms": python_ms - cpp_ms,
+                             "python_processor_ms": python_processor_ms, "cpp_processor_ms": cpp_processor_ms,
+                             "processor_more_ms": python_processor_ms - cpp_processor_ms, "read_ms": read_ms})
                 line = ("{request:24} Python {python_ms:.3f} ms, C++ {cpp_ms:.3f} ms, {more_ms:+.3f} ms; "
-                        "{processor_more_ms:+.3f} ms of processor time")
+                        "{processor_more_ms:+.3f} ms of processor time; {read_ms:.3f} ms to read all of the answer")
                 print(line.format(**rows[-1]))
     finally:
         daemon.terminate()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <camway/authentication.h>
 #include <camway/camway.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/c/sized.h"
 #include "tests/client/c/c_client.h"
 #include "tests/client/client_fixture.h"
 
@@ -23,6 +25,16 @@ using CMisuseTest = testing_support::ClientTest;
 
 void ignore_event(void*, const camway_watch_event*) {}
 
+/// A queue that lives as long as the process.
+camway_event_queue* queue_of_events() {
+  static camway_event_queue* const queue = [] {
+    camway_event_queue* made = nullptr;
+    EXPECT_EQ(camway_event_queue_create(&made), CAMWAY_OK);
+    return made;
+  }();
+  return queue;
+}
+
 /// Calls of every function that takes a handle of a client, which is not live.
 std::vector<std::pair<std::string, std::function<camway_status(camway_client*)>>> client_calls() {
   static const double xyz[3] = {1, 1, 1};
@@ -34,6 +46,8 @@ std::vector<std::pair<std::string, std::function<camway_status(camway_client*)>>
   static std::int64_t watch;
   static camway_daemon_status status;
   static const CRequest request;
+  static camway_scan_map map;
+  camway_scan_map_init(&map, sizeof map);
   static camway_mesh_file mesh;
   camway_mesh_file_init(&mesh, sizeof mesh);
   mesh.file = "a.obj";
@@ -42,6 +56,8 @@ std::vector<std::pair<std::string, std::function<camway_status(camway_client*)>>
       {"plan", [](C c) { return camway_plan(c, &request, 1.0, &answer); }},
       {"start", [](C c) { return camway_plan_start(c, &request, nullptr, &pending); }},
       {"watch", [](C c) { return camway_watch_start(c, &request, ignore_event, nullptr, &watch); }},
+      {"poll",
+       [](C c) { return camway_watch_start_polled(c, &request, queue_of_events(), &watch); }},
       {"unwatch", [](C c) { return camway_watch_end(c, 1, 0.1); }},
       {"take", [](C c) { return camway_watch_take_better(c, 1); }},
       {"status", [](C c) { return camway_daemon_status_get(c, 0.1, &status, sizeof status); }},
@@ -60,6 +76,14 @@ std::vector<std::pair<std::string, std::function<camway_status(camway_client*)>>
        }},
       {"move", [](C c) { return camway_scene_move(c, "s", "o", nullptr, nullptr); }},
       {"remove", [](C c) { return camway_scene_remove(c, "s", "o", nullptr); }},
+      {"history", [](C c) { return camway_scene_history(c, "s", nullptr); }},
+      {"restore", [](C c) { return camway_scene_restore(c, "s", 1, nullptr, nullptr); }},
+      {"put map",
+       [](C c) { return camway_scene_put_scan_map(c, "s", "o", &map, nullptr, nullptr); }},
+      {"scan", [](C c) { return camway_scene_insert_scan(c, "s", "o", xyz, 1, xyz, nullptr); }},
+      {"put points",
+       [](C c) { return camway_scene_put_points(c, "s", "o", xyz, 1, 0.1, nullptr, nullptr); }},
+      {"export", [](C c) { return camway_scene_export_map(c, "s", "f.bt", nullptr); }},
       {"cancel", [](C c) { return camway_scene_cancel_calls(c); }},
       {"points", [](C c) { return camway_occupancy_points(c, "s", xyz, 1, occupied); }},
       {"spheres", [](C c) { return camway_occupancy_spheres(c, "s", xyz, one, 1, occupied); }},
@@ -100,6 +124,10 @@ void for_each_answer_call(const camway_answer* answer, const Check& check) {
   check(camway_answer_collisions(answer, nullptr, 0, &count));
   check(camway_answer_remaining(answer, nullptr, 0, &count));
   check(camway_answer_keyframe_faults(answer, nullptr, 0, &count));
+  check(camway_answer_corrections(answer, nullptr, 0, &count));
+  camway_path_measures measures;
+  check(camway_answer_measures(answer, &measures, sizeof measures));
+  check(camway_answer_measures_before(answer, &measures, sizeof measures));
   check(camway_answer_error(answer) == nullptr ? CAMWAY_BAD_ARGUMENT : CAMWAY_OK);
   check(camway_answer_message(answer) == nullptr ? CAMWAY_BAD_ARGUMENT : CAMWAY_OK);
 }
@@ -125,10 +153,18 @@ TEST_F(CMisuseTest, HandlesOfAnotherKindAreRefused) {
     EXPECT_EQ(camway_scene_answer_num_scenes(scene, &count), CAMWAY_BAD_ARGUMENT);
     EXPECT_EQ(camway_scene_answer_num_objects(scene, &count), CAMWAY_BAD_ARGUMENT);
     EXPECT_EQ(camway_scene_answer_message(scene), nullptr);
+    camway_scene_revision revision;
+    EXPECT_EQ(camway_scene_answer_num_revisions(scene, &count), CAMWAY_BAD_ARGUMENT);
+    EXPECT_EQ(camway_scene_answer_revision_at(scene, 0, &revision, sizeof revision),
+              CAMWAY_BAD_ARGUMENT);
+    auto* const queue = static_cast<camway_event_queue*>(none);
+    camway_watch_event event;
+    EXPECT_EQ(camway_event_queue_next(queue, 0.0, &event, sizeof event), CAMWAY_BAD_ARGUMENT);
     const camway_status freed = none == nullptr ? CAMWAY_OK : CAMWAY_BAD_ARGUMENT;
     EXPECT_EQ(camway_answer_free(static_cast<camway_answer*>(none)), freed);
     EXPECT_EQ(camway_pending_free(pending), freed);
     EXPECT_EQ(camway_scene_answer_free(scene), freed);
+    EXPECT_EQ(camway_event_queue_free(queue), freed);
   }
   EXPECT_EQ(camway_client_free(nullptr), CAMWAY_OK);
 }
@@ -145,6 +181,18 @@ TEST_F(CMisuseTest, NothingIsWrittenThroughNull) {
   EXPECT_EQ(camway_plan_start(c, &request, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
   EXPECT_EQ(camway_watch_start(c, &request, ignore_event, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
   EXPECT_EQ(camway_watch_start(c, &request, nullptr, nullptr, &watch), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_watch_start_polled(c, &request, nullptr, &watch), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_watch_start_polled(c, &request, queue_of_events(), nullptr),
+            CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_event_queue_create(nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_put_scan_map(c, "s", "o", nullptr, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_insert_scan(c, "s", "o", nullptr, 1, xyz, nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_insert_scan(c, "s", "o", xyz, 1, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_put_points(c, "s", "o", nullptr, 1, 0.1, nullptr, nullptr),
+            CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_history(c, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_restore(c, nullptr, 1, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_scene_export_map(c, "s", nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
   EXPECT_EQ(camway_daemon_status_get(c, 0.0, nullptr, sizeof(camway_daemon_status)),
             CAMWAY_BAD_ARGUMENT);
   EXPECT_EQ(camway_scene_describe(c, nullptr, nullptr), CAMWAY_BAD_ARGUMENT);
@@ -221,7 +269,7 @@ template <class Struct, class Init>
 void expect_checks_size(const Init& init) {
   Longer<Struct> longer;
   std::memset(&longer, 0xff, sizeof longer);
-  for (const std::size_t wrong : {std::size_t{0}, std::size_t{4}, sizeof(Struct) - 1}) {
+  for (const std::size_t wrong : {std::size_t{0}, std::size_t{4}, c::kFirstSize<Struct> - 1}) {
     EXPECT_EQ(init(&longer.known, wrong), CAMWAY_BAD_ARGUMENT) << wrong;
     EXPECT_THAT(camway_last_error(), HasSubstr("struct_size"));
   }
@@ -240,6 +288,7 @@ TEST(CSizes, StructsOfOtherSizesAreInitialisedAsFarAsTheyAreKnown) {
   expect_checks_size<camway_body>(camway_body_init);
   expect_checks_size<camway_plan_handlers>(camway_plan_handlers_init);
   expect_checks_size<camway_mesh_file>(camway_mesh_file_init);
+  expect_checks_size<camway_scan_map>(camway_scan_map_init);
 }
 
 TEST_F(CMisuseTest, AMemberThatTheLibraryDoesNotKnowIsRefusedOnlyIfItIsSet) {
@@ -265,6 +314,10 @@ TEST_F(CMisuseTest, BadOptionsAndNetworksAreTold) {
   EXPECT_EQ(camway_client_create(&options, &client), CAMWAY_INVALID);
   EXPECT_THAT(camway_last_error(), HasSubstr("prefix"));
   options.prefix = nullptr;
+  options.key_file = "/nowhere/keys";
+  EXPECT_EQ(camway_client_create(&options, &client), CAMWAY_INVALID);
+  EXPECT_EQ(camway_last_error(), authentication_from("/nowhere/keys").error);
+  options.key_file = nullptr;
   options.url = "nonsense://";
   EXPECT_EQ(camway_client_create(&options, &client), CAMWAY_NETWORK_UNUSABLE);
   EXPECT_EQ(client, nullptr);

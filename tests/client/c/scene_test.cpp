@@ -76,6 +76,10 @@ TEST_F(CSceneTest, EveryCallIsSentAsTheClientOfCxxSendsIt) {
   mesh.file = "chair.obj";
   mesh.scale = 0.01;
   mesh.up = SceneMesh::Up::kZToY;
+  camway_scan_map map;
+  camway_scan_map_init(&map, sizeof map);
+  map.resolution_m = 0.1;
+  const camway_scan_map told = {sizeof told, 1, 0.2, 0.8, 0.3, 0.2, 0.9, 7.0};
   camway_client* const c = client.get();
   const std::vector<std::pair<std::function<camway_status()>, std::function<SceneAnswer()>>> calls =
       {
@@ -105,6 +109,24 @@ TEST_F(CSceneTest, EveryCallIsSentAsTheClientOfCxxSendsIt) {
            [&] { return cxx.move_object("s", "o", same); }},
           {[&] { return camway_scene_remove(c, "s", "o", nullptr); },
            [&] { return cxx.remove_object("s", "o"); }},
+          {[&] { return camway_scene_put_scan_map(c, "s", "o", &map, &pose, nullptr); },
+           [&] {
+             return cxx.put_object("s", "o", SceneVoxels{0.1, {}, {}}, same);
+           }},
+          {[&] { return camway_scene_put_scan_map(c, "s", "o", &told, nullptr, nullptr); },
+           [&] {
+             return cxx.put_object(
+                 "s", "o",
+                 SceneVoxels{0.2, SceneMesh::Unknown::kOccupied, {0.8, 0.3, 0.2, 0.9, 7.0}});
+           }},
+          {[&] { return camway_scene_restore(c, "s", 4, "t", nullptr); },
+           [&] { return cxx.restore_scene("s", 4, "t"); }},
+          {[&] { return camway_scene_restore(c, "s", 4, nullptr, nullptr); },
+           [&] { return cxx.restore_scene("s", 4); }},
+          {[&] { return camway_scene_history(c, "s", nullptr); },
+           [&] { return cxx.scene_history("s"); }},
+          {[&] { return camway_scene_export_map(c, "s", "f.bt", nullptr); },
+           [&] { return cxx.export_map_to("s", "f.bt"); }},
           {[&] { return camway_scene_unload(c, "s", nullptr); },
            [&] { return cxx.unload_scene("s"); }},
       };
@@ -147,6 +169,46 @@ TEST_F(CSceneTest, AnswersListScenes) {
   EXPECT_STREQ(camway_scene_answer_message(list), "");
   EXPECT_EQ(camway_scene_answer_free(list), CAMWAY_OK);
   EXPECT_EQ(camway_scene_answer_free(list), CAMWAY_BAD_ARGUMENT);
+}
+
+TEST_F(CSceneTest, AHistoryListsRevisions) {
+  FakeDaemon daemon;
+  daemon.on_scene = [](const scene_request_t& asked) {
+    scene_response_t response{};
+    response.client_id = asked.client_id;
+    response.request_id = asked.request_id;
+    response.scene = scene_named(asked.scene);
+    response.changes.resize(2);
+    response.changes[0].revision = 3;
+    response.changes[0].operation = "load";
+    response.changes[1] = {4, 1'700'000'000'000'000, "restore", "chair", "me", 2};
+    response.num_changes = response.total = 2;
+    return std::vector<Bytes>{wire::encode(response)};
+  };
+  daemon.start();
+  CClient client;
+  camway_scene_answer* history = nullptr;
+  ASSERT_EQ(camway_scene_history(client.get(), "s", &history), CAMWAY_OK) << camway_last_error();
+  std::size_t count = 0;
+  ASSERT_EQ(camway_scene_answer_num_revisions(history, &count), CAMWAY_OK);
+  ASSERT_EQ(count, 2u);
+  camway_scene_revision revision;
+  ASSERT_EQ(camway_scene_answer_revision_at(history, 0, &revision, sizeof revision), CAMWAY_OK);
+  EXPECT_EQ(revision.revision, 3);
+  EXPECT_STREQ(revision.operation, "load");
+  EXPECT_STREQ(revision.object, "");
+  EXPECT_STREQ(revision.client_id, "");
+  ASSERT_EQ(camway_scene_answer_revision_at(history, 1, &revision, sizeof revision), CAMWAY_OK);
+  EXPECT_EQ(revision.revision, 4);
+  EXPECT_EQ(revision.utime, 1'700'000'000'000'000);
+  EXPECT_STREQ(revision.operation, "restore");
+  EXPECT_STREQ(revision.object, "chair");
+  EXPECT_STREQ(revision.client_id, "me");
+  EXPECT_EQ(revision.restored_revision, 2);
+  EXPECT_EQ(revision.struct_size, sizeof revision);
+  EXPECT_EQ(camway_scene_answer_revision_at(history, 2, &revision, sizeof revision),
+            CAMWAY_INVALID);
+  camway_scene_answer_free(history);
 }
 
 TEST_F(CSceneTest, AFailureGivesNoHandle) {

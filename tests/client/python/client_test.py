@@ -154,21 +154,24 @@ class ClientTest(unittest.TestCase):
         seen = []
 
         def ask(_):
+            pending, watch = self.client.plan_async(long_request()), self.client.watch(long_request())
             for call in (lambda: self.client.plan(request_of("office-graze-column")), self.client.list_scenes,
-                         self.client.status):
+                         self.client.status, lambda: pending.result(30), lambda: watch.next_event(30)):
                 try:
                     seen.append(call())
-                except camway.Error as error:
+                except (camway.Error, TimeoutError) as error:
                     seen.append(error)
+            pending.cancel()
+            watch.unwatch()
 
         with camway.Client() as other:
             pending = self.client.plan_async(request_of("office-graze-column"))
             pending.add_done_callback(lambda _: seen.append(other.list_scenes()[0].name))
             pending.result(60)
             self.client.watch(request_of("office-graze-column"), ask)
-            while len(seen) < 4:
+            while len(seen) < 6:
                 time.sleep(0.02)
-        self.assertEqual([type(each) for each in seen], [str] + [camway.Busy] * 3)
+        self.assertEqual([type(each) for each in seen], [str] + [camway.Busy] * 5)
         self.assertRegex(str(seen[1]), "^a handler of this client must not wait for it")
         self.assertTrue(self.client.plan(request_of("office-graze-column")).ok)
 
@@ -191,7 +194,16 @@ class ClientTest(unittest.TestCase):
                 (TypeError, "timeout_s: must be a number, not str", lambda: self.client.status("1")),
                 (TypeError, "on_progress: must be a function, not int",
                  lambda: self.client.plan_async(request, on_progress=3)),
-                (TypeError, "request: must be a camway.Request, not str", lambda: self.client.plan("office"))):
+                (TypeError, "request: must be a camway.Request, not str", lambda: self.client.plan("office")),
+                (TypeError, "on_event: must be a function, not int", lambda: self.client.watch(request, 3)),
+                (TypeError, "scene: must be a text, not bytes", lambda: self.client.describe_scene(b"office")),
+                (TypeError, "revision: must be a whole number, not str",
+                 lambda: self.client.restore_scene("office", "1")),
+                (TypeError, "request_id: must be a whole number, not str", lambda: self.client.cancel("1")),
+                (ValueError, "timeout_s: must be seconds, not NaN",
+                 lambda: self.client.watch(request).unwatch(float("nan"))),
+                (TimeoutError, "no event came within 0.0 s",
+                 lambda: self.client.watch(long_request()).next_event(0.0))):
             with self.assertRaisesRegex(kind, f"^{text}$"):
                 call()
 
@@ -390,18 +402,22 @@ class EndTest(unittest.TestCase):
 
     def test_a_forked_process_says_that_it_needs_a_client_of_its_own(self):
         client = camway.Client()
+        pending, watch = client.plan_async(long_request()), client.watch(long_request())
         child = os.fork()
         if child == 0:
             code = 1
             try:
-                with self.assertRaisesRegex(camway.Error, "forked"):
-                    client.list_scenes()
+                for call in (client.list_scenes, pending.result, watch.next_event):
+                    with self.assertRaisesRegex(camway.Error, "forked"):
+                        call()
                 client.close()
                 with camway.Client() as own:
                     code = 0 if own.plan(request_of("office-graze-column")).ok else 2
             finally:
                 os._exit(code)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+        pending.cancel()
+        watch.unwatch()
         self.assertTrue(client.plan(request_of("office-graze-column")).ok)
         client.close()
 

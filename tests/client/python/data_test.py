@@ -5,6 +5,8 @@ import dataclasses
 import inspect
 import json
 import pickle
+import sys
+import threading
 import unittest
 
 import numpy as np
@@ -54,6 +56,84 @@ class PackageTest(unittest.TestCase):
         self.assertNotEqual(request, 1)
 
 
+class LazyTest(unittest.TestCase):
+    """Answers whose members are converted when they are asked for are as others."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.office = camway.Scene.load(support.SCENES / "office.obj")
+
+    def answer(self, name="office-graze-slalom"):
+        return camway.plan(self.office, support.request_document(name))
+
+    def test_members_do_not_depend_on_the_order_in_which_they_are_asked_for(self):
+        names = [member.name for member in dataclasses.fields(camway.Answer)]
+        rng = support.generator(self)
+        document = self.answer().to_json(timing=False)
+        whole = camway.Answer(**{name: getattr(camway.Answer.from_json(document), name) for name in names})
+        self.assertGreater(len(whole.keyframes), 2)
+        for _ in range(20):
+            lazy = camway.Answer.from_json(document)
+            for name in rng.sample(names, rng.randint(0, len(names))):
+                value = getattr(lazy, name)
+                self.assertEqual(value, getattr(whole, name), name)
+                self.assertIs(type(value), type(getattr(whole, name)), name)
+                self.assertIs(getattr(lazy, name), value, "each time the same object")
+            self.assertEqual(lazy, whole)
+            self.assertEqual(repr(lazy), repr(whole))
+
+    def test_members_can_be_changed_and_stay_so(self):
+        answer = self.answer()
+        answer.message = "mine"
+        answer.keyframes.append(answer.keyframes[0])
+        answer.keyframes[1].position_m = (1.0, 2.0, 3.0)
+        answer.collisions = []
+        self.assertEqual(answer.message, "mine")
+        self.assertIs(answer.keyframes[-1], answer.keyframes[0])
+        self.assertEqual(answer.keyframes[1].position_m, (1.0, 2.0, 3.0))
+        self.assertEqual(answer.collisions, [])
+        self.assertNotEqual(answer, self.answer())
+
+    def test_they_are_copied_and_pickled_whole(self):
+        wanted = self.answer().to_json(timing=False)
+        for copied in (copy.copy, copy.deepcopy, lambda answer: pickle.loads(pickle.dumps(answer)),
+                       lambda answer: dataclasses.replace(answer, message=answer.message)):
+            answer = self.answer()
+            status = answer.status
+            other = copied(answer)
+            del answer
+            self.assertEqual(other.status, status)
+            self.assertEqual(other.to_json(timing=False), wanted)
+            with self.assertRaises(AttributeError):
+                other._source  # noqa: B018  it would be of the process that made it
+        self.assertEqual(set(dataclasses.asdict(self.answer())), set(camway.Answer.__match_args__))
+
+    def test_there_are_no_other_members(self):
+        for answer in (self.answer(), camway.Answer()):
+            with self.assertRaisesRegex(AttributeError, "^'(camway._types.)?Answer' object has no attribute 'keyframe_'$"):
+                answer.keyframe_
+            with self.assertRaises(AttributeError):
+                answer.keyframe_ = 3
+            self.assertFalse(hasattr(answer, "__array__"))
+
+    def test_threads_see_the_same_objects(self):
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(1e-6)
+        for _ in range(20):
+            answer, seen, barrier = self.answer("office-graze-column"), [], threading.Barrier(8)
+
+            def look():
+                barrier.wait()
+                seen.append([answer.keyframes, answer.corrections, answer.path])
+
+            threads = [threading.Thread(target=look) for _ in range(8)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(len({tuple(map(id, each)) for each in seen}), 1)
+
+
 class ConversionTest(unittest.TestCase):
     def refused(self, error, text, **members):
         with self.assertRaisesRegex(error, text):
@@ -87,6 +167,44 @@ class ConversionTest(unittest.TestCase):
             keyframe.position_m = np.array(keyframe.position_m)
             keyframe.orientation_wxyz = list(keyframe.orientation_wxyz)
         self.assertEqual(_native.request_to_json(given), _native.request_to_json(wanted))
+
+    def test_keyframes_are_made_of_arrays(self):
+        rng = np.random.default_rng(5)
+        positions, orientations = rng.normal(size=(6, 3)), rng.normal(size=(6, 4))
+        made = camway.Keyframe.from_arrays(positions.astype(np.float32), orientations[::-1], range(6))
+        self.assertEqual(made, [camway.Keyframe(float(i), positions[i].astype(np.float32).tolist(),
+                                                orientations[5 - i].tolist()) for i in range(6)])
+        self.assertIs(type(made[0].position_m[0]), float)
+        self.assertEqual(camway.Keyframe.from_arrays([[1, 2, 3]]), [camway.Keyframe(position_m=(1.0, 2.0, 3.0))])
+        self.assertEqual(camway.Keyframe.from_arrays(np.empty((0, 3))), [])
+        for text, arguments in (("positions_m: must be an array of rows of 3 numbers", [[1, 2, 3]]),
+                                ("positions_m: must be an array of rows of 3 numbers", [1.0]),
+                                ("orientations_wxyz: are 1, and there are 2 positions",
+                                 [positions[:2], orientations[:1]]),
+                                ("times_s: are 2, and there are 1 positions", [positions[:1], None, [0, 1]])):
+            with self.assertRaisesRegex(ValueError, f"^{text}$"):
+                camway.Keyframe.from_arrays(*arguments)
+
+    def test_numbers_of_documents_may_be_numpys_and_have_to_be_finite(self):
+        wanted = support.request_document("office-graze-column")
+        given = copy.deepcopy(wanted)
+        for keyframe in given["keyframes"]:
+            keyframe["position"] = np.array(keyframe["position"])
+            keyframe["orientation"] = np.array(keyframe["orientation"])
+        given["camera"]["near"] = np.float64(given["camera"]["near"])
+        self.assertEqual(camway.Request.from_json(given), camway.Request.from_json(wanted))
+        given["keyframes"][1]["position"][2] = np.nan
+        with self.assertRaisesRegex(camway.InvalidRequest, r"^keyframes\[1\]\.position\[2\]: is not finite$") as raised:
+            camway.Request.from_json(given)
+        self.assertEqual(raised.exception.field, "keyframes[1].position[2]")
+        given["keyframes"][1]["position"] = {1.0, 2.0}
+        with self.assertRaisesRegex(TypeError, "^a document of JSON has no set$"):
+            camway.Request.from_json(given)
+        with self.assertRaisesRegex(ValueError, r"^vertices_m\[1\]: is not finite$"):
+            camway.SceneMesh.from_arrays([[0, 0, 0], [1, np.nan, 0], [0, 1, 0]], [[0, 1, 2]])
+
+    def test_texts_are_characters(self):
+        self.refused(ValueError, "^scene: has a surrogate, which is no character$", scene="b\udc80")
 
     def test_invalid_requests_name_their_field(self):
         request = camway.Request(keyframes=[camway.Keyframe(), camway.Keyframe(orientation_wxyz=(0, 0, 0, 0))])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Planning without a daemon: the same bits as the command, evaluation of paths, checks, interruptions."""
+import gc
 import json
 import math
 import os
@@ -201,8 +202,33 @@ class PathTest(unittest.TestCase):
             self.assertEqual((positions.shape, orientations.shape), (shape + (3,), shape + (4,)))
         self.assertTrue(np.isnan(self.path.evaluate([math.nan])[0]).all())
         self.assertTrue(np.isnan(camway.Path().evaluate([0.0])[1]).all())
-        with self.assertRaisesRegex(TypeError, "^times_s: "):
-            self.path.evaluate(["soon"])
+        for times in (["soon"], None, "1", [1j], [[1], [1, 2]], np.array([1.0], object)):
+            with self.assertRaisesRegex(TypeError, "^times_s: must be an array of numbers, not "):
+                self.path.evaluate(times)
+        with self.assertRaisesRegex(TypeError, "^time_s: must be a number, not str$"):
+            self.path.pose("1")
+
+    def test_control_points_are_views_that_keep_the_path(self):
+        path = camway.Path(self.path.segments)
+        segments = path.segments
+        positions, orientations, joints = path.control_positions_m, path.control_orientations_wxyz, path.joints_s
+        for view, name in ((positions, "position_m"), (orientations, "orientation_wxyz")):
+            np.testing.assert_array_equal(view, [getattr(segment, name) for segment in segments])
+            self.assertTrue(np.shares_memory(view, getattr(path, f"control_{name.replace('_', 's_', 1)}")), name)
+            with self.assertRaises(ValueError):
+                view[0] = 0.0
+            with self.assertRaises(ValueError):
+                view.setflags(write=True)
+        self.assertEqual(joints.tolist(), [segment.t0_s for segment in segments] + [path.end_s])
+        wanted = positions.copy()
+        del path, segments
+        gc.collect()
+        others = [camway.Path(self.path.segments[:1]) for _ in range(100)]
+        np.testing.assert_array_equal(positions, wanted)
+        del others
+        empty = camway.Path()
+        self.assertEqual((empty.control_positions_m.shape, empty.control_orientations_wxyz.shape, empty.joints_s.shape),
+                         ((0, 4, 3), (0, 7, 4), (0,)))
 
     def test_paths_are_made_of_segments(self):
         self.assertEqual(camway.Path(self.path.segments), self.path)

@@ -22,6 +22,8 @@ typedef struct camway_client_options {
   double try_timeout_s;      ///< wait before the first repetition of a request; 0.4
   double max_try_timeout_s;  ///< longest wait before a repetition; 5
   double watch_lease_s;      ///< how long a path stays watched after the client's last message; 30
+  const char* key_file;      ///< keys that sign messages, as the daemon's auth.key_file; NULL: none
+  double key_window_s;       ///< largest difference of a signed message's time and the clock; 30
 } camway_client_options;
 
 /// Sets all members to their defaults. `struct_size` is `sizeof(camway_client_options)`.

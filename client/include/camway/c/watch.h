@@ -33,11 +33,12 @@ typedef struct camway_watch_event {
   const char* error;               ///< the reason in words; else ""
   const camway_answer* answer;     ///< CAMWAY_EVENT_ANSWER, CAMWAY_EVENT_BETTER; else NULL
   const camway_collision* broken;  ///< CAMWAY_EVENT_BROKEN: all collisions, without witnesses
+  int64_t num_missed;              ///< events of its watch before it that a queue dropped; else 0
 } camway_watch_event;
 
-/// Takes an event. It runs on the client's thread, so it must be quick and must not call
-/// functions that wait. The event, and all in it, is good until it returns; `camway_answer_copy`
-/// keeps an answer.
+/// Takes an event, unless the program polls (`camway/c/event_queue.h`). It runs on the client's
+/// thread, so it must be quick and must not call functions that wait. The event, and all in it, is
+/// good until it returns; `camway_answer_copy` keeps an answer.
 typedef void (*camway_watch_handler)(void* user, const camway_watch_event* event);
 
 /// Requests a path and has the daemon watch it until `camway_watch_end`. Handles lost messages and
