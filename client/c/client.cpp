@@ -11,8 +11,8 @@
 
 namespace camway {
 
-// Weak: the static library does without libsodium, which signing needs. A program that links that
-// library, and camway::authentication for itself, has the function; another one has none.
+// Weak, so null in a program that links the static library alone: that one does without libsodium,
+// which signing needs. The shared library has it.
 [[gnu::weak]] LoadedAuthentication authentication_from(const std::string& key_file,
                                                        double window_s);
 
@@ -28,7 +28,7 @@ std::shared_ptr<const Authentication> authentication_of(const camway_client_opti
   if (given.key_file == nullptr) return nullptr;
   if (&authentication_from == nullptr) {
     throw Refusal{CAMWAY_INVALID,
-                  "key_file: this program is linked without camway::authentication"};
+                  "key_file: the static library cannot sign; link libcamway_c.so"};
   }
   LoadedAuthentication loaded = authentication_from(given.key_file, given.key_window_s);
   if (!loaded.authentication) throw Refusal{CAMWAY_INVALID, std::move(loaded.error)};
