@@ -19,19 +19,17 @@ using scene::Keeping;
 constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
 /// Time from a failed write to the next attempt.
 constexpr std::chrono::seconds kRetry{1};
-/// A disk that is full, has room and is full again makes few lines.
-constexpr service::LimitedLog::Limits kWarnings{0.05, 5.0};
 
 }  // namespace
 
 RecordWriter::RecordWriter(const std::string& prefix, RecordFacts facts, std::string recording,
-                           LogFiles files, const std::shared_ptr<service::Log>& log)
+                           LogFiles files, std::shared_ptr<service::Log> log,
+                           const TroubleLog::Times& trouble)
     : prefix_(prefix),
       channel_(session_channel(prefix)),
       facts_(std::move(facts)),
       recording_(std::move(recording)),
-      log_(log),
-      warnings_(log, service::LogLevel::kWarn, "recording", kWarnings),
+      trouble_(std::move(log), trouble),
       files_(std::move(files)),
       updates_(files_,
                [this](scene::LogUpdate update) {
@@ -52,11 +50,7 @@ void RecordWriter::write(const ChangedScene& change) {
   // change.
   const bool ready = is_ready();
   if (ready) keep(change);
-  if (change.kind == ChangedScene::Kind::kRemove) {
-    scenes_.erase(change.after->name);
-  } else {
-    scenes_[change.after->name] = change.after;
-  }
+  take(change, scenes_);
   if (!ready) lose(0, 1, wire::utime_now());
 }
 
@@ -86,8 +80,8 @@ void RecordWriter::keep(const ChangedScene& change) {
 
 void RecordWriter::skip(const Omission& omission, const SceneMap& scenes) {
   flush();
-  warnings_.write("not all is recorded: the disk is too slow",
-                  {{"messages", omission.messages}, {"changes", omission.changes}});
+  trouble_.failed(omission.reason);
+  trouble_.lost(omission.messages, omission.changes);
   note_omission(omission);
   // The changes that were left out are in the scenes only.
   if (omission.changes > 0) scenes_ = scenes;
@@ -99,7 +93,7 @@ void RecordWriter::finish() {
   flush();
   retry_at_ = {};
   if (omission_) is_ready();
-  warnings_.report_suppressed();
+  trouble_.finish();
 }
 
 RecordCounts RecordWriter::counts() const {
@@ -122,7 +116,7 @@ bool RecordWriter::is_ready() {
   if (!begin_events() || !write_events()) return false;
   has_begun_ = true;
   omission_.reset();
-  if (is_failing_.exchange(false)) log_->info("the recording goes on");
+  is_failing_ = false;
   return true;
 }
 
@@ -162,6 +156,7 @@ bool RecordWriter::write_events() {
   if (done.fault == AppendFault::kNone) {
     recorded_count_ += messages + changes;
     recorded_bytes_ += bytes;
+    trouble_.succeeded();
     return true;
   }
   fail(done);
@@ -182,15 +177,15 @@ void RecordWriter::note_omission(const Omission& omission) {
 
 void RecordWriter::lose(std::uint64_t messages, std::uint64_t changes, std::int64_t utime) {
   lost_ += messages + changes;
+  trouble_.lost(messages, changes);
   note_omission({utime, std::max(utime, wire::utime_now()), messages, changes, fault_});
 }
 
 void RecordWriter::fail(const AppendResult& why) {
   retry_at_ = Steady::now() + kRetry;
   fault_ = why.error;
-  if (!is_failing_.exchange(true)) {
-    warnings_.write("not all is recorded", {{"reason", why.error}});
-  }
+  is_failing_ = true;
+  trouble_.failed(why.error);
   note_omission({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
 }
 

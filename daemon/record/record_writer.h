@@ -15,9 +15,9 @@
 #include "daemon/record/log_files.h"
 #include "daemon/record/recorder.h"
 #include "daemon/record/session_events.h"
+#include "daemon/record/trouble_log.h"
 #include "daemon/record/update_log.h"
 #include "daemon/scene/log/durable_scenes.h"
-#include "daemon/service/log/limited_log.h"
 
 namespace camway::record {
 
@@ -26,10 +26,8 @@ namespace camway::record {
 /// Not thread-safe, but for `counts`: for the thread that writes.
 class RecordWriter {
  public:
-  using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
-
   RecordWriter(const std::string& prefix, RecordFacts facts, std::string recording, LogFiles files,
-               const std::shared_ptr<service::Log>& log);
+               std::shared_ptr<service::Log> log, const TroubleLog::Times& trouble);
 
   void write(const RecordedMessage& message);
   void write(const ChangedScene& change);
@@ -66,8 +64,7 @@ class RecordWriter {
   const std::string channel_;
   const RecordFacts facts_;
   const std::string recording_;
-  const std::shared_ptr<service::Log> log_;
-  service::LimitedLog warnings_;
+  TroubleLog trouble_;
   LogFiles files_;
   UpdateLog updates_;
   scene::DurableScenes recorded_;

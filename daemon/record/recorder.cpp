@@ -39,6 +39,16 @@ std::uint64_t bytes_of_item(const ChangedScene& change) {
 
 }  // namespace
 
+void take(const ChangedScene& change, SceneMap& newest) {
+  const auto known = newest.find(change.after->name);
+  if (known != newest.end() && known->second->revision > change.after->revision) return;
+  if (change.kind != ChangedScene::Kind::kRemove) {
+    newest[change.after->name] = change.after;
+  } else if (known != newest.end()) {
+    newest.erase(known);
+  }
+}
+
 base::Result<std::unique_ptr<Recorder>> Recorder::open(const RecordOptions& options,
                                                        RecordFacts facts,
                                                        std::shared_ptr<service::Log> log) {
@@ -46,7 +56,7 @@ base::Result<std::unique_ptr<Recorder>> Recorder::open(const RecordOptions& opti
   base::Result<LogFiles> files = LogFiles::open(options.folder, recording, options.limits);
   if (!files) return base::Failure{std::move(files.error)};
   auto writer = std::make_unique<RecordWriter>(options.prefix, std::move(facts), recording,
-                                               *std::move(files), log);
+                                               *std::move(files), std::move(log), options.trouble);
   return std::unique_ptr<Recorder>(new Recorder(options, std::move(writer)));
 }
 
@@ -107,11 +117,7 @@ void Recorder::add(ChangedScene change) {
   {
     const std::lock_guard lock(mutex_);
     if (is_finishing_) return;
-    if (change.kind == ChangedScene::Kind::kRemove) {
-      scenes_.erase(change.after->name);
-    } else {
-      scenes_[change.after->name] = change.after;
-    }
+    take(change, scenes_);
     if (waiting_changes_ >= options_.waiting_changes) return drop(0, 1);
     ++waiting_changes_;
     waiting_bytes_ += bytes_of_item(change);

@@ -19,6 +19,7 @@
 #include "daemon/base/result.h"
 #include "daemon/record/log_files.h"
 #include "daemon/record/session_events.h"
+#include "daemon/record/trouble_log.h"
 #include "daemon/scene/snapshot/scene_change.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "daemon/service/log/log.h"
@@ -36,6 +37,7 @@ struct RecordOptions {
   std::size_t waiting_changes = 4096;  ///< the same for changes of scenes
   /// Time between two writes, since many small ones would cost as much as the messages.
   std::chrono::milliseconds pause{100};
+  TroubleLog::Times trouble;
 };
 
 /// Facts about the daemon that records, for people who look at a recording.
@@ -63,6 +65,13 @@ struct ChangedScene {
   scene::SceneChanges changes;                   ///< kChange only
   scene::ChangeNote note;
 };
+
+/// The newest snapshots of scenes by their names.
+using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
+
+/// Brings a change into the newest scenes. A change that another process has made may come after a
+/// later one of this process, and then changes nothing.
+void take(const ChangedScene& change, SceneMap& newest);
 
 struct RecordedMessage {
   std::int64_t utime = 0;
@@ -101,7 +110,6 @@ class Recorder {
 
  private:
   using Item = std::variant<RecordedMessage, ChangedScene>;
-  using SceneMap = std::map<std::string, std::shared_ptr<const scene::Snapshot>, std::less<>>;
   Recorder(const RecordOptions& options, std::unique_ptr<RecordWriter> writer);
   void add(ChangedScene change);
   /// Counts events that are left out. Requires that `mutex_` is held.

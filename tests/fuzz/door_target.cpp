@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/targets.h"
 #include "tools/view/orders.h"
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 
 namespace camway::testing {
 namespace {

@@ -14,6 +14,7 @@ std::span<const FuzzTarget> fuzz_targets() {
       kStreamAnswerTarget, kSourceRecordTarget, kConfigTarget,       kKeyFileTarget,
       kFleetTarget,        kFleetPartsTarget,   kUnigrafixTarget,    kPointsTarget,
       kBezierTarget,       kCameraFileTarget,   kDoorMessageTarget,  kSentMeshTarget,
+      kPackTarget,
 #ifdef CAMWAY_WITH_INVENTOR
       kInventorFileTarget,
 #endif

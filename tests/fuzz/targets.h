@@ -75,6 +75,7 @@ extern const FuzzTarget kSourceRecordTarget;
 extern const FuzzTarget kConfigTarget;
 extern const FuzzTarget kKeyFileTarget;
 extern const FuzzTarget kDoorMessageTarget;
+extern const FuzzTarget kPackTarget;
 extern const FuzzTarget kInventorFileTarget;  ///< in builds with `CAMWAY_WITH_INVENTOR` alone
 
 }  // namespace camway::testing

@@ -34,20 +34,21 @@ ClientOptions FleetTest::of_prefix(const std::string& prefix) {
   return options;
 }
 
-void FleetTest::start_front(const std::string& prefix) {
+void FleetTest::start_front(const std::string& prefix, const std::vector<std::string>& more) {
   const std::string configuration = file("front-" + prefix + ".toml");
   write_file(configuration, "[fleet]\n" + settings_);
-  const std::vector<std::string> arguments{CAMWAYD_BINARY,
-                                           "--config",
-                                           configuration,
-                                           "--role",
-                                           "front",
-                                           "--fleet",
-                                           servers_,
-                                           "--prefix",
-                                           prefix,
-                                           "--scene",
-                                           "office=" + scene_file("office")};
+  std::vector<std::string> arguments{CAMWAYD_BINARY,
+                                     "--config",
+                                     configuration,
+                                     "--role",
+                                     "front",
+                                     "--fleet",
+                                     servers_,
+                                     "--prefix",
+                                     prefix,
+                                     "--scene",
+                                     "office=" + scene_file("office")};
+  arguments.insert(arguments.end(), more.begin(), more.end());
   fronts_[prefix] = std::make_unique<Process>(
       arguments, file("front-" + prefix + std::to_string(++started_) + ".log"));
   Client listener(of_prefix(prefix));

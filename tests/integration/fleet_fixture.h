@@ -19,7 +19,7 @@ class FleetTest : public IntegrationTest {
   void TearDown() override;
 
   /// Starts the front with the office. `prefix`: other than that of a front before.
-  void start_front(const std::string& prefix = "CAMWAY");
+  void start_front(const std::string& prefix = "CAMWAY", const std::vector<std::string>& more = {});
   /// Starts a planner with one worker, by a command that replaces itself by it (`exec`), if any.
   Process& start_planner(const std::string& id, const std::string& server,
                          const std::vector<std::string>& wrapper = {});

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -222,6 +223,7 @@ TEST_F(RecorderTest, SaysWhatWasLostOnAFullDiskAndGoesOn) {
   if (!disk.is_there()) GTEST_SKIP() << "mounting is not allowed here";
   RecordOptions options;
   options.folder = disk.path() / "recorded";
+  options.trouble.calm = std::chrono::milliseconds(0);
   const auto recorder = open(options);
   ASSERT_NE(recorder, nullptr);
   RecordingJournal journal(nullptr, *recorder);
@@ -255,6 +257,83 @@ TEST_F(RecorderTest, SaysWhatWasLostOnAFullDiskAndGoesOn) {
   EXPECT_THAT(lines, AllOf(HasSubstr("warning not all is recorded"), HasSubstr("No space left"),
                            HasSubstr("info the recording goes on")));
   EXPECT_EQ(lines.find("warning"), lines.rfind("warning")) << lines;
+}
+
+TEST_F(RecorderTest, SaysOnceThatADiskHoversAtFull) {
+  const testing::SmallDisk disk(512);
+  if (!disk.is_there()) GTEST_SKIP() << "mounting is not allowed here";
+  RecordOptions options;
+  options.folder = disk.path() / "recorded";
+  const auto recorder = open(options);
+  ASSERT_NE(recorder, nullptr);
+  for (int i = 0; i < 2; ++i) {
+    disk.fill();
+    ASSERT_TRUE(integration::eventually([&] {
+      say(*recorder, std::string(5000, 'x'));
+      return recorder->counts().is_failing;
+    }));
+    disk.make_room();
+    ASSERT_TRUE(integration::eventually([&] {
+      say(*recorder, "room");
+      return !recorder->counts().is_failing;
+    }));
+  }
+  recorder->finish();
+  const std::string lines = log_.text();
+  EXPECT_EQ(std::ranges::count(lines, '\n'), 2) << lines;
+  EXPECT_THAT(
+      lines, AllOf(HasSubstr("warning not all is recorded"),
+                   HasSubstr("warning not all was recorded failures="), Not(HasSubstr("goes on"))));
+  const Omission missing = missing_in(options.folder);
+  EXPECT_EQ(missing.messages, recorder->counts().dropped);
+}
+
+/// The follower of a fleet's log tells of a change after it was made: the daemon may have made the
+/// next one meanwhile.
+TEST_F(RecorderTest, AChangeOfOthersThatComesLateIsRecordedAndTurnsNothingBack) {
+  RecordOptions options;
+  options.limits.file_bytes = 4096;
+  const auto recorder = open(options);
+  scene::SceneStore store;
+  store.put(wall());
+  const auto first = store.find("wall");
+  store.change("wall", box(1.0));
+  const auto second = store.find("wall");
+  store.change("wall", box(2.0));
+  const auto third = store.find("wall");
+  recorder->scene_put(*first, {});
+  recorder->scene_changed(second->revision, *third, {box(2.0)}, {});
+  recorder->scene_put(*second, {});
+  say(*recorder, std::string(5000, 'x'));
+  say(*recorder, "in the next file");
+  recorder->finish();
+  std::set<std::uint64_t> recorded_revisions;
+  for (const fs::path& log : logs_of(recorded())) {
+    for (const SceneUpdate& update : all<SceneUpdate>(read(log).events)) {
+      recorded_revisions.insert(update.update.entry.revision);
+    }
+  }
+  EXPECT_EQ(recorded_revisions.size(), 3U);
+  const auto logs = logs_of(recorded());
+  ASSERT_GT(logs.size(), 1U);
+  EXPECT_EQ(all<SceneUpdate>(read(logs.back()).events).front().update.entry.revision,
+            third->revision);
+}
+
+TEST_F(RecorderTest, ALateRemovalLeavesTheSceneThatWasMadeSince) {
+  SceneMap newest;
+  scene::SceneStore store;
+  store.put(wall());
+  const auto first = store.find("wall");
+  store.change("wall", box(1.0));
+  const auto second = store.find("wall");
+  take({ChangedScene::Kind::kPut, second, 0, {}, {}}, newest);
+  take({ChangedScene::Kind::kRemove, first, 0, {}, {}}, newest);
+  EXPECT_EQ(newest.at("wall"), second);
+  take({ChangedScene::Kind::kPut, first, 0, {}, {}}, newest);
+  EXPECT_EQ(newest.at("wall"), second);
+  take({ChangedScene::Kind::kRemove, second, 0, {}, {}}, newest);
+  EXPECT_TRUE(newest.empty());
 }
 
 TEST_F(RecorderTest, CountsWhatDoesNotFitTheQueue) {

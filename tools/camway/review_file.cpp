@@ -9,7 +9,7 @@
 #include "tools/support/output_file.h"
 #include "tools/view/here/planner_here.h"
 #include "tools/view/page/embed/embedded_page.h"
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 
 namespace camway::tools {
 namespace {

@@ -24,12 +24,18 @@ function(add_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-add_precompiled(camway_precompiled_library ${precompiled_headers})
-set_target_properties(camway_precompiled_library PROPERTIES POSITION_INDEPENDENT_CODE ON)
+# add_precompiled_library(NAME [OPTION...]): for the libraries that are compiled with these options, too.
+function(add_precompiled_library name)
+  add_precompiled(${name} ${precompiled_headers})
+  target_compile_options(${name} PRIVATE ${ARGN})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()
+
+add_precompiled_library(camway_precompiled_library)
 if(CAMWAY_LIGHT)
-  add_precompiled(camway_precompiled_light ${precompiled_headers})
-  target_compile_options(camway_precompiled_light PRIVATE -O0)
-  set_target_properties(camway_precompiled_light PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  add_precompiled_library(camway_precompiled_light -O0)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
+  add_precompiled_library(camway_precompiled_small -Os)
 endif()
 
 if(CAMWAY_TESTS)

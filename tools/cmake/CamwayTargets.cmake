@@ -61,21 +61,36 @@ endfunction()
 set(computing_rooms daemon/base daemon/geometry daemon/motion daemon/scene daemon/collision
     daemon/correction daemon/paper daemon/planning/request tools/view/display tests/bench tests/collision)
 
-# optimise_little(TARGET): with CAMWAY_LIGHT, compiles a target without optimisation, unless it is part of a
-# room that computes. Sets `precompiled` in the caller to the precompiled header of its flags.
-function(optimise_little name)
+# The rooms that read words and print them, where a release is compiled for size: they are half of its code, and no
+# plan waits for them.
+set(talking_rooms daemon/cli_support daemon/http daemon/process tools/camway tools/view)
+
+# is_part_of(RESULT ROOM ...): whether this folder is one of these rooms or lies in one.
+function(is_part_of result)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
-  set(computes FALSE)
-  foreach(room IN LISTS computing_rooms)
-    cmake_path(IS_PREFIX room ${folder} computes_here)
-    if(computes_here)
-      set(computes TRUE)
+  set(${result} FALSE PARENT_SCOPE)
+  foreach(room IN LISTS ARGN)
+    cmake_path(IS_PREFIX room ${folder} is_inside)
+    if(is_inside)
+      set(${result} TRUE PARENT_SCOPE)
     endif()
   endforeach()
+endfunction()
+
+# optimise_little(TARGET): compiles a target that is no part of a room that computes without optimisation with
+# CAMWAY_LIGHT, and a release's rooms that talk for size. Sets `precompiled` in the caller to the precompiled header
+# of its flags.
+function(optimise_little name)
   set(precompiled camway_precompiled_library PARENT_SCOPE)
+  is_part_of(computes ${computing_rooms})
+  is_part_of(talks ${talking_rooms})
   if(CAMWAY_LIGHT AND NOT computes)
     target_compile_options(${name} PRIVATE -O0)
     set(precompiled camway_precompiled_light PARENT_SCOPE)
+  elseif(CMAKE_BUILD_TYPE STREQUAL "Release" AND talks AND NOT computes)
+    # At -Os, GCC 12 takes an optional that is empty for one whose value is read.
+    target_compile_options(${name} PRIVATE -Os ${CAMWAY_NO_MAYBE_UNINITIALIZED})
+    set(precompiled camway_precompiled_small PARENT_SCOPE)
   endif()
 endfunction()
 

@@ -27,7 +27,7 @@ def _line(program, command, *words):
 
 
 def _value(option):
-    return {"choice": ["-x", "-a", _quoted(" ".join(option.choices))], "file": ["-r", "-F"],
+    return {"choice": ["-x", "-a", _quoted(" ".join(option.choices))], "file": ["-r", "-F"], "named_file": ["-r", "-F"],
             "folder": ["-x", "-a", "'(__fish_complete_directories)'"], "any": ["-x"], "": []}[option.kind]
 
 
@@ -39,7 +39,7 @@ def _lines(program, command):
                  for word in (("-l", name[2:]) if name.startswith("--") else ("-s", name[1:]))]
         yield _line(program, command, *names, *_value(option), "-d", _quoted(option.short_description))
     for option in command.positionals[:1]:
-        if option.kind in ("file", "folder"):
+        if option.kind in ("file", "folder", "named_file"):
             yield _line(program, command, "-F")
 
 

@@ -6,9 +6,11 @@ import json
 import re
 import subprocess
 
-# Forms of values that are names of files and of folders.
-_FILES = {"FILE", "PATH"}
+# Forms of values, and words of positionals, that are names of files and of folders.
+_FILES = {"FILE", "PATH", "LOG", "SESSION", "RESPONSE", "CAMWAY"}
 _FOLDERS = {"DIR", "FOLDER"}
+# The beginning of the form of a value that is a name and a file.
+_NAMED_FILE = "NAME=FILE"
 
 
 @dataclasses.dataclass
@@ -33,10 +35,15 @@ class Option:
 
     @property
     def kind(self):
-        """The kind of the option's value: "file", "folder", "choice", "any"; "" without a value."""
+        """The kind of the option's value: "file", "folder", "named_file", "choice", "any"; "" without a value."""
         if self.choices:
             return "choice"
-        return {"": ""}.get(self.form, "file" if self.form in _FILES else "folder" if self.form in _FOLDERS else "any")
+        form = self.word.upper() if not self.names and self.form == "TEXT" else self.form
+        if not form:
+            return ""
+        if form.startswith(_NAMED_FILE):
+            return "named_file"
+        return "file" if form in _FILES else "folder" if form in _FOLDERS else "any"
 
     @property
     def short_description(self):

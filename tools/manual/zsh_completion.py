@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Completions of a program for zsh: a function for each command, by `_arguments`."""
 
-_ACTIONS = {"file": "_files", "folder": "_files -/", "any": " "}
+_ACTIONS = {"file": "_files", "folder": "_files -/", "named_file": '{compset -P "*=" && _files}', "any": " "}
 
 
 def _quoted(text):

@@ -81,8 +81,10 @@ LC_ALL=C exec awk '
       fault("LCM is for daemon/messages, daemon/service, daemon/fleet, daemon/process, client and tools")
     } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
       fault("assimp is for daemon/scene/import/child")
-    } else if (file ~ /^(Inventor\/|zlib\.h$)/ && here !~ /^(daemon\/scene\/import\/inventor|tests)$/) {
-      fault("Coin and zlib are for daemon/scene/import/inventor")
+    } else if (file ~ /^Inventor\// && here !~ /^(daemon\/scene\/import\/inventor|tests)$/) {
+      fault("Coin is for daemon/scene/import/inventor")
+    } else if (file == "zlib.h" && here !~ /^(daemon\/gzip|tests)$/) {
+      fault("zlib is for daemon/gzip")
     } else if (file ~ /^liblzf\// && here !~ /^(daemon\/scene\/import\/points|tests)$/) {
       fault("LZF is for daemon/scene/import/points")
     } else if (file ~ /^[A-Za-z0-9]+(_[A-Za-z0-9]+)?\.hxx$/ && here !~ /^(daemon\/scene\/import\/cad|tests)$/) {

@@ -11,7 +11,7 @@
 #   TARGET      of these; all if none is named:
 #               wire sent_mesh envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
 #               import_record map_file inventor_file cache_file change_record log_message
-#               stream_answer source_record request_json response_json path_json session config door_message
+#               stream_answer source_record request_json response_json path_json session pack config door_message
 #
 # Needs clang 16 or later, as older ones cannot read the ranges of Debian's C++ library (apt-get install
 # --no-install-recommends clang-16 libclang-rt-16-dev). Builds in build/fuzz. What was found to be of interest stays
@@ -26,7 +26,7 @@ jobs=$(nproc)
 targets=()
 readonly kTargets=(wire sent_mesh envelope key_file fleet fleet_parts mesh points unigrafix bezier camera_file
   import_record map_file inventor_file cache_file change_record log_message stream_answer source_record
-  request_json response_json path_json session config door_message)
+  request_json response_json path_json session pack config door_message)
 
 usage() { sed -n '/^# Fuzzes/,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"; }
 

@@ -14,6 +14,7 @@
 set -euo pipefail
 cd "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../.."
 readonly kName=release
+readonly kMostPrograms_kB=15000
 readonly kDebian=bookworm  # whose packages the programs are linked with
 # shellcheck source=tools/scripts/steps.sh
 source tools/scripts/steps.sh
@@ -80,13 +81,18 @@ write_checksums() {
   (cd "$out" && sha256sum -- *.tar.gz *.deb *.json >SHA256SUMS && cat SHA256SUMS)
 }
 
-# Prints the space that packages take, in kB.
+# Prints the space that packages take, in kB. Fails if the tools, the daemon and their formats take too much.
 print_sizes() {
-  local file
+  local file installed programs=0
   for file in "$out"/*.deb; do
-    printf '%8s kB installed, %8s kB packed  %s\n' "$(dpkg-deb --field "$file" Installed-Size)" \
-      "$(($(stat -c %s "$file") / 1000))" "$(basename "$file")"
+    installed=$(dpkg-deb --field "$file" Installed-Size)
+    printf '%8s kB installed, %8s kB packed  %s\n' "$installed" "$(($(stat -c %s "$file") / 1000))" "$(basename "$file")"
+    case $(basename "$file") in
+      camway_* | camwayd_* | camway-formats_*) programs=$((programs + installed)) ;;
+    esac
   done
+  printf '%8s kB installed by camway, camwayd and camway-formats, at most %s\n' "$programs" "$kMostPrograms_kB"
+  ((programs <= kMostPrograms_kB))
 }
 
 build_again() {
@@ -122,7 +128,7 @@ rm -rf "$folder"
 step "Build and packages" build_packages "$folder" "$out"
 rm -rf "$folder" "${made:-$folder}"
 step "Checksums" write_checksums
-print_sizes
+step "Sizes" print_sizes
 if $is_check; then
   step "The same bytes in another folder" build_again
   step "lintian" run_lintian

@@ -25,12 +25,15 @@ bool Desk::takes_change() {
   return rate_.take(base::TokenBucket::Clock::now());
 }
 
+std::optional<Answer> Desk::refuse_change() const {
+  if (!options_.is_read_only) return std::nullopt;
+  return failure(code::kForbidden,
+                 "scenes are not changed here: camway view was started with --read-only");
+}
+
 void Desk::ask_scene(SceneOrder order, Done done) {
   if (order.is_change()) {
-    if (options_.is_read_only) {
-      return done(failure(code::kForbidden,
-                          "scenes are not changed here: camway view was started with --read-only"));
-    }
+    if (std::optional<Answer> refusal = refuse_change()) return done(*std::move(refusal));
     if (!takes_change()) {
       return done(failure(code::kTooMany, fmt::format("too many changes of scenes: at most {:g} "
                                                       "a second",

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,8 @@ class Desk {
   using Place = std::shared_ptr<void>;
   [[nodiscard]] Place take_place();
 
+  /// Returns the refusal of any change of a scene; nothing where scenes may be changed.
+  [[nodiscard]] std::optional<Answer> refuse_change() const;
   /// Looks at a scene or changes it, if the rules allow it.
   void ask_scene(SceneOrder order, Done done);
   /// Answers with the state of the door and of the backend.

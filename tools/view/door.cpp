@@ -16,7 +16,7 @@
 #include "tools/view/mesh_desk.h"
 #include "tools/view/plan_picture.h"
 #include "tools/view/responses.h"
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 #include "tools/view/routes.h"
 #include "tools/view/session.h"
 
@@ -212,6 +212,10 @@ void DoorServer::ask(const http::Request& request, const http::Reply& reply, con
   if (!send) return;
   if (route.place == Place::kMesh) return send_mesh(route, send);
   Done done = in_json(send);
+  // Ahead of the body, which may be wrong: what it says does not count.
+  if (route.place == Place::kObjects || route.place == Place::kObject) {
+    if (std::optional<Answer> refusal = desk_->refuse_change()) return done(*std::move(refusal));
+  }
   SceneOrder order;
   order.scene = route.scene;
   order.object =

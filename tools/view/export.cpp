@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tools/cameras/export/path_export.h"
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 
 namespace camway::view {
 

@@ -203,7 +203,7 @@ class MessageReader {
     message.id = root_.member("id").integer(0, kLargestId);
     if (root_.failed()) return BadMessage{std::nullopt, notes_.error};
     read_what(message);
-    if (!notes_.error.empty()) return BadMessage{message.id, notes_.error};
+    if (!notes_.error.empty()) return BadMessage{message.id, notes_.error, is_change_};
     return message;
   }
 
@@ -235,6 +235,7 @@ class MessageReader {
   void read_what(Message& message) {
     const auto verb = static_cast<Verb>(tools::named(root_.member("do"), kVerbs));
     if (root_.failed()) return;
+    is_change_ = verb >= Verb::kSceneAdd;
     switch (verb) {
       case Verb::kPlan:
         return read_plan_message(message);
@@ -363,6 +364,7 @@ class MessageReader {
   const Json& document_;
   DocumentNotes notes_;
   Field root_;
+  bool is_change_ = false;
 };
 
 }  // namespace

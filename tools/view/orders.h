@@ -133,6 +133,7 @@ struct Message {
 struct BadMessage {
   std::optional<std::int64_t> id;  ///< if that could be read
   std::string error;
+  bool is_change = false;  ///< whether it asks for a change of a scene
 };
 
 /// Reads a message.

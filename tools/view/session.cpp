@@ -99,10 +99,12 @@ class Session : public std::enable_shared_from_this<Session> {
 void Session::received(const std::string& text) {
   std::variant<Message, BadMessage> read = read_message(text);
   if (const auto* const bad = std::get_if<BadMessage>(&read)) {
+    const std::optional<Answer> refusal = bad->is_change ? desk_->refuse_change() : std::nullopt;
+    const Answer fault = refusal.value_or(failure(code::kInvalid, bad->error));
     const std::lock_guard lock(mutex_);
     send(fmt::format("{{\"id\": {}, {}, \"code\": {}}}",
                      bad->id ? std::to_string(*bad->id) : "null",
-                     error_members(code::kInvalid, bad->error), code::kInvalid));
+                     error_members(fault.code, fault.error), fault.code));
     return;
   }
   Message& message = std::get<Message>(read);

@@ -7,15 +7,18 @@
 import math
 import os
 import pathlib
+import shutil
 import stat
 import sys
 import tempfile
 import time
 import unittest
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/blender"))
 
+import make_archive  # noqa: E402
 from camway import answer, motion, request, run  # noqa: E402
 from camway.motion import Difference, Path, Pose, Sample  # noqa: E402
 
@@ -271,6 +274,29 @@ class WordsTest(unittest.TestCase):
         shot = shot_of(lambda f: ((f, 0, 0), about_z(0)), [1.0, 1.5, 2.0, 2.25], fps=8.0)
         segment = {"t0": 0.0, "t1": 1.25 / 8.0, "position": [(0, 0, 0)] * 4, "orientation": [about_z(0)] * 7}
         self.assertEqual(answer.whole_frames(shot, Path([segment])), [1.0, 2.0, 2.25])
+
+
+class ArchiveTest(unittest.TestCase):
+    """Two builds of a release are compared byte by byte, in folders whose files have other times and modes."""
+
+    def test_same_modules_give_the_same_bytes(self):
+        made = []
+        with tempfile.TemporaryDirectory() as folder:
+            for checkout, mode, at_s in (("one", 0o644, 1e9), ("other", 0o755, 1.7e9)):
+                package = pathlib.Path(folder, checkout, "camway")
+                shutil.copytree(ROOT / "tools/blender/camway", package, ignore=shutil.ignore_patterns("__pycache__"))
+                for module in sorted(package.iterdir(), reverse=checkout == "other"):
+                    module.chmod(mode)
+                    os.utime(module, (at_s, at_s))
+                archive = pathlib.Path(folder, f"{checkout}.zip")
+                make_archive.make_archive(archive, package.parent)
+                made.append(archive.read_bytes())
+            with zipfile.ZipFile(archive) as read:
+                names = read.namelist()
+                self.assertEqual(names, sorted(f"camway/{module.name}" for module in package.glob("*.py")))
+                self.assertIn("camway/__init__.py", names)
+                self.assertEqual(read.read("camway/__init__.py"), (package / "__init__.py").read_bytes())
+        self.assertEqual(*made)
 
 
 if __name__ == "__main__":

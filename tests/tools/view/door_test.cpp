@@ -283,6 +283,12 @@ TEST_F(ViewDoor, AReadOnlyDoorRefusesChanges) {
   const Reached got = client_->send("DELETE", "/v1/scenes/hall/objects/crate");
   EXPECT_EQ(got.code, 403);
   EXPECT_THAT(error_of(got), HasSubstr("--read-only"));
+  // The rule comes first: whether the change could be read does not count.
+  for (const char* const body :
+       {"{", "[]", R"({"form": {"type": "cone"}})", R"({"position": 1})"}) {
+    EXPECT_EQ(client_->post("/v1/scenes/hall/objects", body).code, 403) << body;
+    EXPECT_EQ(client_->send("PATCH", "/v1/scenes/hall/objects/crate", body).code, 403) << body;
+  }
   EXPECT_TRUE(backend_.orders().empty());
   EXPECT_EQ(client_->get("/v1/status").json().at("read_only"), true);
 }
@@ -325,7 +331,7 @@ TEST_F(ViewDoor, APortThatIsTakenIsSaid) {
 }
 
 /// A page of three files.
-constexpr PageFiles kPage{
+const PageFiles kPage{
     {"<html>", "zipped html"}, {"script", "zipped script"}, {"style", "zipped style"}, "policy"};
 
 TEST_F(ViewDoor, ServesThePageCompressedToThoseWhoTakeIt) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -300,6 +301,13 @@ TEST_F(ViewSocket, AReadOnlyDoorChangesNothing) {
   EXPECT_EQ(socket.next().count("answer"), 1U);
   socket.send(R"({"id": 2, "do": "scene.remove", "object": "crate"})");
   EXPECT_EQ(socket.next().at("code"), 403);
+  // The rule comes first: whether the change could be read does not count.
+  for (const char* const what : {"scene.add", "scene.move", "scene.remove"}) {
+    socket.send(fmt::format(R"({{"id": 3, "do": "{}", "object": 7}})", what));
+    EXPECT_EQ(socket.next().at("code"), 403) << what;
+  }
+  socket.send(R"({"id": 3, "do": "scene.describe", "scene": 7})");
+  EXPECT_EQ(socket.next().at("code"), 400);
   EXPECT_EQ(backend_.orders().size(), 1U);
 }
 

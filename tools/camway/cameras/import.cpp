@@ -263,14 +263,14 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
   command.add_option("file", flags.file, "File with the camera path")->required();
   std::vector<std::string> names;
   for (const CameraFormat& format : camera_formats()) names.emplace_back(format.name);
-  command.add_option("--format", flags.format, "What the file is, if its name does not say so")
+  command.add_option("--format", flags.format, "Format of the file, if its name does not say it")
       ->check(cli_support::one_of(names));
   command.add_option("--camera", flags.read.camera, "Name of the camera [the animated one]");
   command.add_option("--animation", flags.read.animation,
                      "Name of the animation of a glTF file [the first that moves the camera]");
   command.add_option("--times", flags.times, "File with a time in seconds in each line, for KITTI")
       ->type_name("FILE");
-  command.add_option("--fps", flags.read.fps, "Frames a second, of files that count frames")
+  command.add_option("--fps", flags.read.fps, "Frames a second of a file that counts frames")
       ->check(cli_support::above_0());
   const auto set_axes = [&flags](const std::string& axes) {
     flags.read.axes = axes == "cv" ? CameraAxes::kCv : CameraAxes::kGl;
@@ -284,76 +284,83 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
 
 void add_log_flags(CLI::App& command, LogTrackOptions& log) {
   command.add_option("--channel", log.channel,
-                     "Of a log: the channel with the poses [the only one]");
+                     "Channel of a log that has the poses [the only one]");
   command
       .add_option(
           "--type", log.types,
-          "Of a log: .lcm file with the struct of its messages, and of those in it that are "
-          "not in files beside it; may stand several times")
+          "File .lcm with the struct of a log's messages; may stand several times, for structs in "
+          "it that are not in files beside it")
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--position", log.position,
-                  "Of a log: member with the position: pos, pose.pos, poses[0].pos or x,y,z; of a "
-                  "list, each element is a pose")
+      .add_option(
+          "--position", log.position,
+          "Member of a log's message with the position: pos, pose.pos, poses[0].pos or x,y,z; "
+          "each element of a list is a pose")
       ->type_name("MEMBER");
-  command.add_option("--orientation", log.orientation, "Of a log: member with the quaternion")
+  command
+      .add_option("--orientation", log.orientation, "Member of a log's message with the quaternion")
       ->type_name("MEMBER");
   cli_support::add_choice(command, "--quaternion", log.order, base::named_values<QuaternionOrder>(),
-                          "Of a log: order of its numbers");
+                          "Order of the numbers of a quaternion in a log");
   command
-      .add_option("--time", log.time,
-                  "Of a log: member with the time [utime or timestamp, else when it was received]")
+      .add_option(
+          "--time", log.time,
+          "Member of a log's message with the time [utime or timestamp, else the time when the "
+          "message was received]")
       ->type_name("MEMBER");
   const auto set_unit = [&log](const std::string& name) {
     log.unit = base::value_of<TimeUnit>(name);
   };
   command
-      .add_option_function<std::string>(
-          "--time-unit", set_unit, "Of a log: unit of --time [the one that fits the log's times]")
+      .add_option_function<std::string>("--time-unit", set_unit,
+                                        "Unit of --time [the one that fits the log's times]")
       ->check(cli_support::one_of({"s", "ms", "us", "ns"}));
 }
 
 void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
   command.add_option("--scene", flags.scene, "Scene file that the request names")
       ->type_name("FILE");
-  command.add_option("--scale", flags.scale, "Metres per unit, of this file and of the scene")
+  command.add_option("--scale", flags.scale, "Metres per unit of this file and of the scene")
       ->check(cli_support::above_0())
       ->capture_default_str();
   cli_support::add_choice(command, "--up", flags.up, base::named_values<scene::UpAxis>(),
-                          "Turns the axes, of this file and of the scene");
+                          "Turn the axes of this file and of the scene");
 }
 
 void add_lens_flags(CLI::App& command, ImportFlags& flags) {
   const CLI::Validator angle = cli_support::number_in(
       {"above 0 and below 180", [](double deg) { return deg > 0.0 && deg < 180.0; }});
-  command.add_option("--fov-x-deg", flags.lens.fov_x_deg, "Full angle of view across")
+  command.add_option("--fov-x-deg", flags.lens.fov_x_deg, "Full horizontal angle of view")
       ->check(angle);
-  command.add_option("--fov-y-deg", flags.lens.fov_y_deg, "Full angle of view upwards")
+  command.add_option("--fov-y-deg", flags.lens.fov_y_deg, "Full vertical angle of view")
       ->check(angle);
   command.add_option("--aspect", flags.lens.aspect, "Width of the picture divided by its height")
       ->check(cli_support::above_0());
   command.add_option("--near-m", flags.lens.near_m, "Near distance")->check(cli_support::above_0());
   command
       .add_option("--body", flags.body,
-                  "The request's body, which needs no field of view, as JSON; poses are its own "
-                  "[the camera]")
+                  "Body of the request, as JSON; the poses are those of the body, and no field of "
+                  "view is needed [the camera]")
       ->type_name("JSON");
 }
 
 void add_keyframe_flags(CLI::App& command, ImportFlags& flags) {
-  CLI::Option* const all = command.add_flag("--all", flags.all, "Every pose becomes a keyframe");
+  CLI::Option* const all = command.add_flag("--all", flags.all, "Make every pose a keyframe");
   CLI::Option* const every =
-      command.add_option("--every", flags.every, "Every N-th pose becomes a keyframe")
+      command.add_option("--every", flags.every, "Make every N-th pose a keyframe")
           ->check(cli_support::whole_number(1, 1'000'000))
           ->excludes(all);
   command
-      .add_option("--within-m", flags.within_m, "Farthest that the path may be from a pose [0.005]")
+      .add_option("--within-m", flags.within_m,
+                  "Largest distance of the path from a pose, metres [0.005]")
       ->check(cli_support::above_0())
       ->excludes(all)
       ->excludes(every);
-  command.add_option("--within-deg", flags.within_deg, "Farthest that it may be turned [0.2]")
+  command
+      .add_option("--within-deg", flags.within_deg,
+                  "Largest turn of the path from a pose, degrees [0.2]")
       ->check(cli_support::above_0())
       ->excludes(all)
       ->excludes(every);
@@ -373,7 +380,7 @@ std::string formats_help() {
 void add_import_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<ImportFlags>();
   CLI::App* command = app.add_subcommand(
-      "import", "Make a request of a camera path of another program, with few keyframes");
+      "import", "Make a request with few keyframes from a camera path of another program");
   add_file_flags(*command, *flags);
   add_log_flags(*command, flags->log);
   add_scene_flags_of_import(*command, *flags);

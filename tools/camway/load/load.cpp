@@ -246,7 +246,7 @@ void add_run_flags(CLI::App& command, LoadFlags& flags) {
       ->capture_default_str();
   add_key_file(command, flags.key_file);
   command.add_option("--url", flags.run.url, "LCM network [LCM_DEFAULT_URL]");
-  command.add_option("--prefix", flags.run.prefix, "Of the daemon's channels")
+  command.add_option("--prefix", flags.run.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
 }
 

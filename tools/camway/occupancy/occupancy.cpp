@@ -134,7 +134,7 @@ CLI::Option* add_map_flags(CLI::App& command, OccupancyFlags& flags) {
 void add_daemon_flags(CLI::App& command, OccupancyFlags& flags, CLI::Option* daemon) {
   command.add_option("--url", flags.url, "LCM network, with --daemon [LCM_DEFAULT_URL]")
       ->needs(daemon);
-  command.add_option("--prefix", flags.prefix, "Of the daemon's channels")
+  command.add_option("--prefix", flags.prefix, "Prefix of the daemon's channels")
       ->needs(daemon)
       ->capture_default_str();
   add_key_file(command, flags.key_file)->needs(daemon);

@@ -7,9 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -43,7 +46,8 @@ std::map<std::string, std::filesystem::path> responses_in(const std::string& fol
   return files;
 }
 
-std::vector<std::string> command_of(const ReplayFlags& flags, const std::string& responses) {
+std::vector<std::string> command_of(const ReplayFlags& flags, std::int64_t begin_utime,
+                                    const std::string& responses) {
   std::vector<std::string> command{
       flags.baseline_build,    "replay",    flags.log,
       "--responses",           responses,   "--prefix",
@@ -54,6 +58,7 @@ std::vector<std::string> command_of(const ReplayFlags& flags, const std::string&
   add("--scene", flags.sources.scenes);
   add("--root", flags.sources.roots);
   if (!flags.key_file.empty()) add("--key-file", {flags.key_file});
+  std::ranges::move(words_of(flags.selection, begin_utime), std::back_inserter(command));
   // The answers of both builds are cut short by the same deadlines.
   if (flags.run.least_deadline_s > 0.0) {
     add("--least-deadline-s", {fmt::format("{}", flags.run.least_deadline_s)});
@@ -62,13 +67,13 @@ std::vector<std::string> command_of(const ReplayFlags& flags, const std::string&
 }
 
 /// Has the other build replay the log. Returns why that failed; empty on success.
-std::string take_answers_of_build(const ReplayFlags& flags,
+std::string take_answers_of_build(const ReplayFlags& flags, std::int64_t begin_utime,
                                   std::vector<RecordedRequest>& requests) {
   const base::Result<ScratchFolder> folder = ScratchFolder::make("replay");
   if (!folder) return folder.error;
   const std::string responses = (folder->path() / "responses").string();
   const std::string output = (folder->path() / "output").string();
-  const base::Result<int> code = run_program(command_of(flags, responses), output);
+  const base::Result<int> code = run_program(command_of(flags, begin_utime, responses), output);
   if (!code) return flags.baseline_build + ": " + code.error;
   // Its verdict does not matter: it is about the log.
   if (!responses_in(responses).empty()) return take_responses(responses, requests);
@@ -137,7 +142,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (!scenes) return ExitCode::kInvalidInput;
   // The requests with the answers of the other build.
   std::vector<RecordedRequest> requests = session.requests;
-  std::string fault = take_answers_of_build(flags, requests);
+  std::string fault = take_answers_of_build(flags, session.begin_utime, requests);
   if (!fault.empty()) return invalid_replay(fault);
   std::vector<ComparedRequest> compared;
   const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tools/support/output_file.h"
+#include "tools/view/page/embed/embedded_page.h"
 
 namespace camway::tools {
 
@@ -25,8 +26,11 @@ std::string write_reports(const ReportHead& head, const std::vector<ComparedRequ
   std::string fault;
   if (!files.json.empty()) fault = write_file(files.json, json_report(head, compared));
   if (!fault.empty() || files.html.empty()) return fault;
-  const auto pictures = pictures_of(compared, scene_of, head, files.pictures);
-  return write_file(files.html, html_report(head, compared, pictures));
+  const ReportPage page = report_page(head, compared, scene_of, files.page, view::embedded_page());
+  for (const std::string& omission : page.omissions) {
+    fmt::print("note: {}: {}\n", files.html, omission);
+  }
+  return write_file(files.html, page.html);
 }
 
 ExitCode code_of(const std::vector<ComparedRequest>& compared, const Failing& failing,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "tools/camway/replay/compare/comparison.h"
 #include "tools/camway/replay/compare/pictures.h"
 #include "tools/camway/replay/compare/report.h"
+#include "tools/camway/replay/compare/report_page.h"
 
 namespace camway::tools {
 
@@ -16,13 +16,14 @@ namespace camway::tools {
 struct ReportFiles {
   std::string json;
   std::string html;
-  std::size_t pictures = 6;  ///< largest number of pictures in the page
+  PageOptions page;
 };
 
 /// Returns why a report could not be written; empty if it could. Asked before long work.
 std::string why_unwritable(const ReportFiles& files);
 
-/// Prints the table and writes the files. Returns an error that names the file; empty on success.
+/// Prints the table, writes the files, and prints what the page lacks. Returns an error that names
+/// the file; empty on success.
 std::string write_reports(const ReportHead& head, const std::vector<ComparedRequest>& compared,
                           const SceneOf& scene_of, const ReportFiles& files);
 

@@ -7,6 +7,7 @@
 #include "daemon/cli_support/flag_checks.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/replay/replay_flags.h"
+#include "tools/camway/replay/selection_flags.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -47,53 +48,6 @@ ExitCode run_replay(const ReplayFlags& flags) {
                     : replay_offline(flags, read.keys.get());
 }
 
-/// Adds an option whose text `read` turns into a value.
-template <class Value, class Read>
-CLI::Option* add_read(CLI::App& command, const std::string& flag, Value& value, const Read& read,
-                      const std::string& description, const std::string& form) {
-  const auto set = [&value, read](const std::string& text) { value = *read(text); };
-  const auto check = [read, form](const std::string& text) {
-    return read(text) ? std::string() : text + ": must be " + form;
-  };
-  return command.add_option_function<std::string>(flag, set, description)->check(check);
-}
-
-CLI::Option* add_words(CLI::App& command, const std::string& flag, std::vector<std::string>& words,
-                       const std::string& description) {
-  return command.add_option(flag, words, description)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_selection_flags(CLI::App& command, Selection& selection) {
-  const std::string time_form =
-      "seconds after the first event, or a time such as "
-      "2026-11-27T08:30:00Z";
-  add_read(command, "--from", selection.from, &log_time_of,
-           "Only requests received at this time of the log or later: seconds after its first "
-           "event, or a time of the clock, 2026-11-27T08:30:00Z",
-           time_form)
-      ->type_name("TIME");
-  add_read(command, "--to", selection.to, &log_time_of,
-           "Only requests received at this time or earlier", time_form)
-      ->type_name("TIME");
-  add_read(command, "--id", selection.ids, &id_ranges_of, "Only requests with these ids: 3,7..9",
-           "ids and ranges such as 3,7..9")
-      ->type_name("IDS");
-  add_words(command, "--client", selection.clients,
-            "Only requests of these clients, with ',' between them")
-      ->type_name("CLIENT");
-  add_words(command, "--scene-name", selection.scenes,
-            "Only requests in scenes of these names, with ',' between them")
-      ->type_name("NAME");
-  add_words(
-      command, "--status", selection.statuses,
-      "Only requests with these recorded statuses, with ',' between them; none: without an answer")
-      ->type_name("STATUS")
-      ->check(cli_support::one_of(status_words()));
-}
-
 void add_threshold_flags(CLI::App& command, ReplayFlags& flags) {
   Thresholds& thresholds = flags.run.thresholds;
   CLI::Option* const tolerance =
@@ -108,8 +62,8 @@ void add_threshold_flags(CLI::App& command, ReplayFlags& flags) {
   };
   command
       .add_option_function<double>("--tolerance-shift-deg", set_shift,
-                                   "With --tolerance-m: and their pictures shift by no more than "
-                                   "this many degrees")
+                                   "With --tolerance-m: only if their pictures shift by no more "
+                                   "than this many degrees, too")
       ->check(cli_support::at_least_0())
       ->needs(tolerance);
   command
@@ -154,14 +108,27 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
   CLI::Option* const html =
       command
           .add_option("--html", flags.reports.html,
-                      "Write the comparison as a page that is one file: table, plots, pictures")
+                      "Write the comparison as a page that is one file: table, plots, requests in "
+                      "3D, floor plans")
           ->type_name("FILE");
+  PageOptions& page = flags.reports.page;
+  cli_support::add_choice(
+      command, "--views", page.reviewed, base::named_values<Reviewed>(),
+      "With --html: requests to show in 3D with both paths: none, differing, or all [differing]")
+      ->needs(html);
   command
-      .add_option("--pictures", flags.reports.pictures,
-                  "With --html: largest number of requests that differ to draw")
+      .add_option("--pictures", page.pictures,
+                  "With --html: largest number of requests that differ to draw as floor plans")
       ->check(cli_support::whole_number(0, 1000))
       ->needs(html)
       ->capture_default_str();
+  command
+      .add_option_function<std::size_t>(
+          "--most-mb", [&page](std::size_t megabytes) { page.most_bytes = megabytes * kMegabyte; },
+          "With --html: megabytes of that page, beyond which further requests are not shown in 3D, "
+          "and then not drawn [16]")
+      ->check(cli_support::whole_number(1, 1000))
+      ->needs(html);
   command.add_flag("--no-timing", flags.no_timing,
                    "Leave times out of reports and responses, so that two runs compare byte by "
                    "byte");
@@ -170,8 +137,9 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
   add_scene_source_flags(command, flags.sources);
   command
-      .add_option("--threads", flags.run.threads,
-                  "Requests planned at the same time; the output does not depend on it")
+      .add_option(
+          "--threads", flags.run.threads,
+          "Number of requests that are planned at the same time; the output does not depend on it")
       ->check(cli_support::whole_number(1, 256))
       ->capture_default_str();
   command
@@ -179,14 +147,16 @@ void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
                   "Lengthen shorter deadlines to this, so that a slow machine gives the same "
                   "answers")
       ->check(cli_support::at_least_0());
-  command.add_option("--responses", flags.responses_dir, "Folder for the response to each request")
+  command
+      .add_option("--responses", flags.responses_dir,
+                  "Write the response to each request into this folder")
       ->type_name("DIR");
 }
 
 /// The other ways to use a log, of which one call takes one.
 void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
   CLI::Option* const against =
-      command.add_option("--against", flags.against, "With --baseline: log of later answers")
+      command.add_option("--against", flags.against, "With --baseline: log with the later answers")
           ->type_name("LOG");
   CLI::Option* const baseline =
       command
@@ -209,16 +179,16 @@ void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
 }
 
 void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
-  CLI::Option* publish =
-      command.add_flag("--publish", flags.publish,
-                       "Send the recorded requests to a running daemon instead, as recorded");
+  CLI::Option* publish = command.add_flag(
+      "--publish", flags.publish,
+      "Send the recorded requests to a running daemon instead of planning them here");
   for (const char* other : {"--baseline", "--baseline-build", "--step"}) {
     publish->excludes(command.get_option(other));
   }
   CLI::Option* const speed =
       command
           .add_option("--speed", flags.publishing.speed,
-                      "With --publish: times the recorded speed; 0 for as fast as possible")
+                      "With --publish: multiple of the recorded speed; 0: as fast as possible")
           ->check(cli_support::at_least_0())
           ->needs(publish)
           ->capture_default_str();
@@ -229,8 +199,8 @@ void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
       ->excludes(speed);
   command
       .add_option("--times", flags.publishing.times,
-                  "With --publish: how often to send all; from the second time on with new ids, "
-                  "so that the daemon plans again")
+                  "With --publish: send all requests this often; from the second time on with new "
+                  "ids, so that the daemon plans again")
       ->check(cli_support::whole_number(1, 1'000'000))
       ->needs(publish)
       ->capture_default_str();
@@ -254,12 +224,12 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
       "replay", "Plan the requests of a recorded session again and compare with the answers");
   command->add_option("LOG", flags->log,
                       "Log of lcm-logger, folder of a daemon's recordings, or packed session");
-  command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
+  command->add_option("--prefix", flags->publishing.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
   command
       ->add_option("--key-file", flags->key_file,
-                   "Use only messages that were signed with a key of this file; with --publish: "
-                   "and sign them anew")
+                   "Use only messages that were signed with a key of this file; with --publish, "
+                   "sign them anew")
       ->type_name("FILE");
   add_offline_flags(*command, *flags);
   add_selection_flags(*command, flags->selection);

@@ -63,7 +63,8 @@ std::vector<std::string> notes_about(const Session& session, const std::string& 
 std::unique_ptr<ReplayScenes> open_scenes(const OpenedSession& opened, const ReplayFlags& flags,
                                           const wire::MessageKeys* keys);
 
-/// Opens the scenes as `open_scenes` does. Fails as well if the session needs one more.
+/// Opens the scenes as `open_scenes` does. Fails as well if the session needs one more, but for
+/// packs that say what they lack.
 std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
                                                  const ReplayFlags& flags,
                                                  const wire::MessageKeys* keys);

@@ -41,6 +41,7 @@ std::optional<OpenedSession> open_session(const std::string& log, const ReplayFl
     return std::nullopt;
   }
   Session session = read_session(files->logs(), flags.publishing.prefix, keys);
+  session.left_out = files->left_out();
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty()) {
     // The damage is all there is to say of a file without a good event.
@@ -80,6 +81,8 @@ std::unique_ptr<ReplayScenes> open_needed_scenes(const OpenedSession& opened,
                                                  const wire::MessageKeys* keys) {
   std::unique_ptr<ReplayScenes> scenes = open_scenes(opened, flags, keys);
   if (!scenes) return nullptr;
+  // A pack says what it lacks; the requests that need no more are compared.
+  if (!opened.session.left_out.empty()) return scenes;
   const std::vector<std::string> missing = missing_scenes(opened.session, *scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE, or --root DIR",

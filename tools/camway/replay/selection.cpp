@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/selection.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -91,6 +94,25 @@ bool Selection::wants(const RecordedRequest& request, std::int64_t begin_utime) 
   const std::string status = request.answer ? request.answer->status : "none";
   return holds(clients, request.ids.client_id) && holds(statuses, status) &&
          holds(scenes, request.scene);
+}
+
+std::vector<std::string> words_of(const Selection& selection, std::int64_t begin_utime) {
+  std::vector<std::string> words;
+  const auto add_time = [&](std::string_view flag, const std::optional<LogTime>& time) {
+    if (time) words.push_back(fmt::format("{}={}", flag, after_begin_s(*time, begin_utime)));
+  };
+  const auto add_list = [&](std::string_view flag, const std::vector<std::string>& values) {
+    if (!values.empty()) words.push_back(fmt::format("{}={}", flag, fmt::join(values, ",")));
+  };
+  add_time("--from", selection.from);
+  add_time("--to", selection.to);
+  std::vector<std::string> ids;
+  for (const auto& [first, last] : selection.ids) ids.push_back(fmt::format("{}..{}", first, last));
+  add_list("--id", ids);
+  add_list("--client", selection.clients);
+  add_list("--status", selection.statuses);
+  add_list("--scene-name", selection.scenes);
+  return words;
 }
 
 std::vector<std::string> status_words() {

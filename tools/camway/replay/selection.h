@@ -38,6 +38,10 @@ struct Selection {
   [[nodiscard]] bool wants(const RecordedRequest& request, std::int64_t begin_utime) const;
 };
 
+/// Returns the words of a command line that select the same from the same session, "--id=3,7..9",
+/// which began at `begin_utime` (`Session`).
+std::vector<std::string> words_of(const Selection& selection, std::int64_t begin_utime);
+
 /// The words that `Selection::statuses` may have.
 std::vector<std::string> status_words();
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -76,6 +77,10 @@ class SessionBuilder {
         session_.requests[found->second].answer = std::move(answer);
       }
     }
+    for (const RecordedRequest& request : session_.requests) {
+      if (!request.answer || request.answer->scene_digest.empty()) continue;
+      session_.first_digests.try_emplace(request.scene, request.answer->scene_digest);
+    }
     return std::move(session_);
   }
 
@@ -90,8 +95,21 @@ class SessionBuilder {
     } else if (auto* const update = std::get_if<record::SceneUpdate>(&*read)) {
       session_.updates.push_back({recording_, std::move(*update)});
     } else {
-      session_.omissions.push_back(std::get<record::Omission>(*std::move(read)));
+      add_omission(std::get<record::Omission>(*std::move(read)));
     }
+  }
+
+  /// Adds an omission to those with the same reason: a disk that is full now and then makes many.
+  void add_omission(record::Omission omission) {
+    for (record::Omission& sum : session_.omissions) {
+      if (sum.reason != omission.reason) continue;
+      sum.from_utime = std::min(sum.from_utime, omission.from_utime);
+      sum.to_utime = std::max(sum.to_utime, omission.to_utime);
+      sum.messages += omission.messages;
+      sum.changes += omission.changes;
+      return;
+    }
+    session_.omissions.push_back(std::move(omission));
   }
 
   template <typename Message, typename UseWhole>

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,12 +67,18 @@ struct Session {
 
   // The next members are of recordings of a daemon. A plain log has none of this.
   std::vector<record::FileBegin> parts;
-  std::vector<RecordedUpdate> updates;  ///< changes of scenes, in their order
-  std::vector<record::Omission> omissions;
-  std::uint64_t damaged_events = 0;  ///< events of the session that cannot be read
+  std::vector<RecordedUpdate> updates;      ///< changes of scenes, in their order
+  std::vector<record::Omission> omissions;  ///< those with one reason are summed up
+  std::uint64_t damaged_events = 0;         ///< events of the session that cannot be read
 
   /// Changes of scenes that clients asked for, and that the log tells of by messages alone.
   std::uint64_t scene_requests = 0;
+  /// The digest of each scene in the first answer that names one, of all requests: a selection
+  /// (`select`) does not change the scenes with which a log begins.
+  std::map<std::string, std::string> first_digests;
+
+  /// Sentences of `camway pack` about what it left out, if the session was packed.
+  std::vector<std::string> left_out;
 
   [[nodiscard]] bool is_damaged() const { return !log.damage.empty() || damaged_events > 0; }
 };

@@ -22,7 +22,8 @@ using Flags = std::shared_ptr<SceneCommandFlags>;
 CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, const char* help) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_option("--url", flags->url, "LCM network [LCM_DEFAULT_URL]");
-  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
+  command->add_option("--prefix", flags->prefix, "Prefix of the daemon's channels")
+      ->capture_default_str();
   add_key_file(*command, flags->key_file);
   add_timeout(*command, flags->timeout_s);
   return command;

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -23,7 +24,9 @@
 #include "daemon/record/blob_folder.h"
 #include "daemon/record/log_files.h"
 #include "daemon/record/session_events.h"
+#include "daemon/scene/log/blob_hasher.h"
 #include "lcmtypes/wire/channels.h"
+#include "tools/json/json_document.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -35,8 +38,9 @@ using nlohmann::json;
 constexpr char kListName[] = "session.json";
 constexpr int kFormat = 1;
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
-/// Longest list to accept: of some 500,000 members.
-constexpr std::uint64_t kMostListBytes = std::uint64_t{64} << 20;
+/// Longest list to accept: of some 100,000 members, each with three values.
+constexpr std::uint64_t kMostListBytes = std::uint64_t{16} << 20;
+constexpr std::size_t kMostListValues = 1'000'000;
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
 constexpr std::string_view kBlobsBegin = "blobs/";
 constexpr char kNoSession[] = "is damaged, or no session: ";
@@ -137,6 +141,7 @@ base::Result<json> list_of(const std::vector<PackedFile>& files) {
 std::string write_members(PackWriter& writer, const json& list,
                           const std::vector<PackedFile>& files) {
   const std::string text = list.dump(1) + '\n';
+  if (text.size() > kMostListBytes) return "the session has more files than a pack may hold";
   writer.add(kListName, text.size());
   writer.write(text);
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -156,9 +161,11 @@ std::string write_members(PackWriter& writer, const json& list,
 
 /// Reads the list, whatever the text is.
 base::Result<Members> members_from(const std::string& text) {
+  const base::Result<json> parsed = parse_document(text, kListName, kMostListValues);
+  if (!parsed) return base::Failure{parsed.error};
   try {
-    const json list = json::parse(text);
-    if (list.at("format").get<int>() != kFormat) {
+    const json& list = *parsed;
+    if (list.at("format") != json(kFormat)) {
       return base::Failure{"is a session of another version of camway"};
     }
     Members members;
@@ -167,6 +174,10 @@ base::Result<Members> members_from(const std::string& text) {
       if (!is_pack_name(name)) {
         return base::Failure{"'" + wire::printable(name) +
                              "': is no name of a member of a session"};
+      }
+      // A conversion of other numbers may be undefined.
+      if (!each.at("bytes").is_number_unsigned()) {
+        return base::Failure{name + ": its size in the list is none"};
       }
       const Member member{each.at("bytes").get<std::uint64_t>(),
                           each.at("xxh128").get<std::string>()};
@@ -180,8 +191,8 @@ base::Result<Members> members_from(const std::string& text) {
 
 class PackReader {
  public:
-  PackReader(const fs::path& file, const fs::path& folder)
-      : folder_(folder), archive_(archive_read_new()) {
+  PackReader(const fs::path& file, const fs::path& folder, std::uint64_t most_bytes)
+      : folder_(folder), most_bytes_(most_bytes), archive_(archive_read_new()) {
     archive_read_support_filter_zstd(archive_.get());
     archive_read_support_format_tar(archive_.get());
     is_open_ = archive_read_open_filename(archive_.get(), file.c_str(), kChunkBytes) == ARCHIVE_OK;
@@ -195,8 +206,7 @@ class PackReader {
     while (fault.empty()) {
       const int outcome = archive_read_next_header(archive_.get(), &entry);
       if (outcome == ARCHIVE_EOF) break;
-      fault =
-          outcome < ARCHIVE_WARN ? "is damaged: " + text_of(archive_.get()) : unpack_member(entry);
+      fault = is_good(outcome) ? unpack_member(entry) : "is damaged: " + text_of(archive_.get());
     }
     if (fault.empty() && seen_.size() != members_.size()) {
       const auto missing = std::ranges::find_if(
@@ -207,9 +217,12 @@ class PackReader {
   }
 
  private:
+  /// `ARCHIVE_RETRY` stands for a damaged header, behind which the library would look for another.
+  static bool is_good(int outcome) { return outcome == ARCHIVE_OK || outcome == ARCHIVE_WARN; }
+
   std::string read_list() {
     archive_entry* entry = nullptr;
-    if (archive_read_next_header(archive_.get(), &entry) < ARCHIVE_WARN) {
+    if (!is_good(archive_read_next_header(archive_.get(), &entry))) {
       return kNoSession + text_of(archive_.get());
     }
     const char* const name = archive_entry_pathname(entry);
@@ -228,19 +241,20 @@ class PackReader {
     return why_no_room();
   }
 
+  /// Returns why the members must not be unpacked; empty if they may.
   [[nodiscard]] std::string why_no_room() const {
+    std::uint64_t all = 0;
+    for (const auto& [name, member] : members_) {
+      if (member.bytes > most_bytes_ - all) {
+        return fmt::format("holds more than {} bytes, the limit of camway unpack --most-bytes",
+                           most_bytes_);
+      }
+      all += member.bytes;
+    }
     std::error_code error;
     const fs::space_info space = fs::space(folder_, error);
-    std::uint64_t left = space.available;
-    if (error) return {};
-    for (const auto& [name, member] : members_) {
-      if (member.bytes > left) {
-        return fmt::format("{}: {} has no room for its {} bytes", name, folder_.string(),
-                           member.bytes);
-      }
-      left -= member.bytes;
-    }
-    return {};
+    if (error || all <= space.available) return {};
+    return fmt::format("{} has no room for its {} bytes", folder_.string(), all);
   }
 
   std::string unpack_member(archive_entry* entry) {
@@ -263,10 +277,13 @@ class PackReader {
     fs::create_directories(file.parent_path(), ignored);
     std::ofstream out(file, std::ios::binary);
     base::Digest digest;
+    const bool is_blob = name.starts_with(kBlobsBegin);
+    scene::BlobHasher hasher;
     std::uint64_t bytes = 0;
     const std::string fault = read_data([&](std::string_view chunk) {
       bytes += chunk.size();
       digest.add(chunk.data(), chunk.size());
+      if (is_blob) hasher.add(std::as_bytes(std::span(chunk)));
       out.write(chunk.data(), static_cast<std::streamsize>(chunk.size()));
       return bytes <= member.bytes && out.good();
     });
@@ -274,17 +291,10 @@ class PackReader {
     if (!out) return file.string() + ": cannot be written";
     if (!fault.empty()) return name + ": " + fault;
     if (bytes != member.bytes || digest.text() != member.digest) return name + ": is damaged";
-    if (!name.starts_with(kBlobsBegin)) return {};
-    return check_blob(file);
-  }
-
-  static std::string check_blob(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    scene::Bytes bytes(fs::file_size(file));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    const std::string name = file.filename();
-    const bool is_right = in && record::hex_of(scene::blob_id_of(bytes)) == name;
-    return is_right ? "" : std::string(kBlobsBegin) + name + ": has another digest than its name";
+    if (is_blob && record::hex_of(hasher.finish()) != name.substr(kBlobsBegin.size())) {
+      return name + ": has another digest than its name";
+    }
+    return {};
   }
 
   /// Reads the data of the present member. Returns an error, empty on success.
@@ -302,6 +312,7 @@ class PackReader {
   }
 
   fs::path folder_;
+  std::uint64_t most_bytes_;
   std::unique_ptr<archive, FreeReader> archive_;
   bool is_open_ = false;
   Members members_;
@@ -311,6 +322,7 @@ class PackReader {
 }  // namespace
 
 bool is_pack_name(const std::string& name) {
+  if (name == kLeftOutName) return true;
   if (name.starts_with(kBlobsBegin)) return record::is_blob_name(name.substr(kBlobsBegin.size()));
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -346,7 +358,7 @@ std::string write_pack(const fs::path& pack, const std::vector<PackedFile>& file
   return fault;
 }
 
-std::string unpack(const fs::path& pack, const fs::path& folder) {
+std::string unpack(const fs::path& pack, const fs::path& folder, std::uint64_t most_bytes) {
   std::error_code error;
   if (!fs::is_regular_file(pack, error)) {
     return pack.string() + ": " + (fs::exists(pack, error) ? "is no file" : "does not exist");
@@ -357,7 +369,7 @@ std::string unpack(const fs::path& pack, const fs::path& folder) {
     return unfinished.string() + ": " +
            (error ? "cannot be made: " + error.message() : "is there already");
   }
-  std::string fault = PackReader(pack, unfinished).unpack_all();
+  std::string fault = PackReader(pack, unfinished, most_bytes).unpack_all();
   if (!fault.empty()) fault = pack.string() + ": " + fault;
   if (fault.empty()) {
     fs::rename(unfinished, folder, error);

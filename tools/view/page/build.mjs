@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `node build.mjs OUT_DIR` makes OUT_DIR/{index.html,page.js,page.css}, and parts.json: which packages are in
-// them, with version and licence.
+// `node build.mjs OUT_DIR` makes OUT_DIR/{index.html,page.js,page.css,report.js}, and parts.json: which packages are
+// in them, with version and licence.
 import { build } from 'esbuild';
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
@@ -19,7 +19,7 @@ await mkdir(out, { recursive: true });
 const { metafile } = await build({
   absWorkingDir: here,
   metafile: true,
-  entryPoints: { page: 'src/main.ts' },
+  entryPoints: { page: 'src/main.ts', report: 'src/report/main.ts' },
   outdir: out,
   bundle: true,
   minify: true,
@@ -49,7 +49,7 @@ await writeFile(join(out, 'parts.json'), JSON.stringify(await Promise.all(parts)
 await copyFile(join(here, 'index.html'), join(out, 'index.html'));
 
 let total = 0;
-for (const name of ['index.html', 'page.js', 'page.css']) {
+for (const name of ['index.html', 'page.js', 'page.css', 'report.js']) {
   const bytes = gzipSync(await readFile(join(out, name)), { level: 9 }).length;
   console.log(`${name}: ${(bytes / 1000).toFixed(1)} kB gzipped`);
   total += bytes;

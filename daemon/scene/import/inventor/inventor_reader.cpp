@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "daemon/gzip/inflate.h"
 #include "daemon/scene/import/common/transform_chain.h"
-#include "daemon/scene/import/inventor/inflate.h"
 #include "daemon/scene/import/inventor/shape_reader.h"
 #include "daemon/scene/import/readers/mesh_collector.h"
 
@@ -118,9 +118,9 @@ void add_notes(Record& record, const SceneGraph& graph, const ShapeCounts& shape
 
 base::Result<Record> read_inventor(std::string_view bytes, const SceneFolder& folder) {
   std::string plain;
-  const bool is_compressed = is_gzip(bytes);
+  const bool is_compressed = gzip::is_gzip(bytes);
   if (is_compressed) {
-    base::Result<std::string> text = inflated(bytes);
+    base::Result<std::string> text = gzip::inflated(bytes);
     if (!text) return base::Failure{std::move(text.error)};
     plain = *std::move(text);
     bytes = plain;

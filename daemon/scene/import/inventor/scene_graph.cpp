@@ -19,9 +19,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "daemon/gzip/inflate.h"
 #include "daemon/scene/import/common/included_files.h"
 #include "daemon/scene/import/inventor/coin_library.h"
-#include "daemon/scene/import/inventor/inflate.h"
 
 namespace camway::scene::inventor {
 namespace {
@@ -231,8 +231,8 @@ class GraphReader {
     if (stack_.size() >= kMostInlineDepth || ++graph_.inline_files > kMostInlineFiles) {
       return text + " is one too many";
     }
-    if (is_gzip(file->text)) {
-      base::Result<std::string> plain = inflated(file->text);
+    if (gzip::is_gzip(file->text)) {
+      base::Result<std::string> plain = gzip::inflated(file->text);
       if (!plain) return text + " " + plain.error;
       file->text = *std::move(plain);
     }

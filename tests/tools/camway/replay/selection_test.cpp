@@ -67,6 +67,24 @@ TEST(Selection, WantsWhatAllItsMembersWant) {
   EXPECT_THAT(selected({.clients = {"nobody"}}), ElementsAre());
 }
 
+TEST(Selection, IsWrittenAsTheWordsThatSelectTheSame) {
+  EXPECT_THAT(words_of({}, kBeginUtime), ElementsAre());
+  const Selection whole{.from = log_time_of("-1.5"),
+                        .to = log_time_of("2023-11-14T22:13:20.25Z"),
+                        .clients = {"even", "odd"},
+                        .ids = {{3, 3}, {-5, -2}},
+                        .statuses = {"ok", "none"},
+                        .scenes = {"maze"}};
+  EXPECT_THAT(words_of(whole, kBeginUtime),
+              ElementsAre("--from=-1.5", "--to=0.25", "--id=3..3,-5..-2", "--client=even,odd",
+                          "--status=ok,none", "--scene-name=maze"));
+  // A time of the clock that no short number is reads back as the same time.
+  const Selection clock{.from = log_time_of("2023-11-14T22:13:21.123456Z")};
+  const std::string word = words_of(clock, kBeginUtime).at(0).substr(std::string("--from=").size());
+  EXPECT_EQ(log_time_of(word)->value_s, clock.from->value_s - 1.7e9);
+  EXPECT_EQ(id_ranges_of("3..3,-5..-2"), whole.ids);
+}
+
 TEST(Selection, KnowsTheStatusesOfAnswers) {
   const std::vector<std::string> words = status_words();
   for (const char* word : {"none", "ok", "infeasible", "overloaded", "cancelled", "old_scene"}) {

@@ -112,9 +112,7 @@ test('a box is added, moved by the mouse and by keys, another tab shows it, and 
   }, added.position);
   assert.equal(moved.mesh_digest, added.mesh_digest);
   await other.tab.bringToFront();
-  for (let boxes = []; boxes.length < 2 || boxes[0].digest !== boxes[1]?.digest;) {
-    boxes = (await Promise.all([page, other].map(each => each.state()))).map(state => box_of({state}));
-  }
+  await other.until(({state}, digest) => state.scene.objects.find(({name}) => name === 'box_1')?.digest === digest, moved.digest);
   await other.ready();
   assert.deepEqual([page, other].map(each => fetched.filter(by => by === each).length), [1, 1]);
   await page.tab.bringToFront();
@@ -129,7 +127,7 @@ test('a box is added, moved by the mouse and by keys, another tab shows it, and 
     const box = state.scene.objects.find(({name}) => name === 'box_1');
     return Math.abs(box.position[1] - height) < 1e-4 && Math.abs(box.orientation[0] - turned) < 1e-6;
   }, {height: moved.position[1] + 0.2, turned});
-  await page.tab.unroute(/\/v1\/scenes\/office$/);
+  await page.tab.unrouteAll({behavior: 'wait'});
   await page.tab.keyboard.press('Delete');
   await page.until(({state}) => state.scene.objects.length === 1);
   await other.close();
@@ -152,14 +150,14 @@ test('storeys are opened by buttons, and a window of another size shows all of t
     return {width, height, clientWidth, clientHeight, wide: document.documentElement.scrollWidth};
   });
   const wide = await canvas();
-  await page.tab.setViewportSize({width: 860, height: 560});
-  await page.until((camway, was) => document.querySelector('#viewport > canvas').width < was, wide.width);
+  await page.resize({width: 860, height: 560});
   const narrow = await canvas();
+  assert.ok(narrow.width < wide.width);
   assert.deepEqual([narrow.width, narrow.height], [narrow.clientWidth, narrow.clientHeight]);
   assert.ok(narrow.wide <= 860);
   await page.place_of((await page.state()).request.keyframes[0].position);
-  await page.tab.setViewportSize(kSmall);
-  await page.until((camway, was) => document.querySelector('#viewport > canvas').width === was, wide.width);
+  await page.resize(kSmall);
+  assert.deepEqual(await canvas(), wide);
 });
 
 test('each export is chosen with the keyboard, and has its extension; what is refused is said', async () => {
@@ -185,7 +183,7 @@ test('each export is chosen with the keyboard, and has its extension; what is re
   await page.tab.route(/\/v1\/export/, route => route.continue({url: route.request().url().replace(/format=\w+/, 'format=none')}), {times: 1});
   await page.button('Export').click();
   await page.tab.locator('#message', {hasText: 'is none of'}).waitFor();
-  page.forgive(/400/);
+  await page.forgive(/400/);
 });
 
 test('keys alone lead from a path through a wall to one that is corrected and proved', async () => {
@@ -193,6 +191,27 @@ test('keys alone lead from a path through a wall to one that is corrected and pr
   const {keyboard} = page.tab;
   await keyboard.press('n');
   const before = (await page.state()).request.keyframes[0].position;
+  // A key that is held down makes drafts, as a drag does; let go, it is planned, and is one step of undo after the first.
+  // Meanwhile the view keeps its size, whatever the bars say.
+  await page.tab.evaluate(() => {
+    window.sizes = [];
+    new ResizeObserver(([{contentRect}]) => window.sizes.push(contentRect.height)).observe(document.querySelector('#viewport'));
+  });
+  const height_above_m = async () => (await page.state()).request.keyframes[0].position[1] - before[1];
+  await keyboard.down('Alt');
+  for (let i = 0; i < 4; ++i) await keyboard.down('PageUp');
+  assert.ok((await page.state()).isDraft);
+  await keyboard.up('PageUp');
+  await keyboard.up('Alt');
+  await page.until(({state}) => !state.isPending && !state.isDraft);
+  const heights_m = [await height_above_m()];
+  for (let i = 0; i < 2; ++i) {
+    await keyboard.press('Control+z');
+    heights_m.push(await height_above_m());
+  }
+  await page.drawn();
+  assert.equal(new Set(await page.tab.evaluate(() => window.sizes)).size, 1);
+  [0.2, 0.05, 0].forEach((height_m, i) => assert.ok(Math.abs(heights_m[i] - height_m) < 1e-9, `${heights_m}`));
   for (const key of ['Alt+ArrowLeft', 'Alt+ArrowUp', 'Alt+PageUp', 'Alt+Shift+ArrowLeft']) await keyboard.press(key);
   await page.shows('ok');
   const {request, answer} = await page.state();

@@ -79,7 +79,7 @@ test('a scene that the daemon has not is named, and no connection is said to be 
   const page = await open_page(wrong.url);
   await page.tab.getByText(/there are: 'office'/).first().waitFor();
   await page.tab.locator('#status', {hasText: 'not connected yet'}).waitFor();
-  page.forgive(/404/);
+  await page.forgive(/404/);
   await page.close();
   assert.equal(await wrong.end(), 0, wrong.output);
 });

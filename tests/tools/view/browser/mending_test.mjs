@@ -50,9 +50,11 @@ test('while there is no connection the bar says so, and edits are kept and plann
   await page.tab.evaluate(() => {
     const Real = window.WebSocket;
     window.allow = () => (window.WebSocket = Real);
+    window.failures = 0;
     window.WebSocket = class extends Real {
       constructor() {
         super(`ws://${location.host}/v1/nowhere`);
+        this.addEventListener('error', () => ++window.failures);
       }
     };
   });
@@ -61,12 +63,13 @@ test('while there is no connection the bar says so, and edits are kept and plann
   await page.tab.locator('#message', {hasText: 'The connection to camway is lost'}).waitFor();
   await page.tab.keyboard.press('n');
   await page.tab.keyboard.press('Alt+PageUp');
-  const edited = await page.until(({state}) => state.request);
+  const edited = (await page.state()).request;
+  await page.until(() => window.failures > 0);
   await page.tab.evaluate(() => window.allow());
   await page.until(({state}) => state.connection === 'open' && !state.isPending && state.answer?.status === 'ok');
   assert.deepEqual((await page.state()).request, edited);
-  assert.equal(await page.tab.locator('#status', {hasText: 'connection lost'}).count(), 0);
-  page.forgive(/nowhere/);
+  await page.has_no(page.tab.locator('#status', {hasText: 'connection lost'}));
+  await page.forgive(/nowhere/);
   await page.tab.keyboard.press('Control+z');
   await page.until(({state}) => state.request.keyframes.every(({position}) => Math.abs(position[1] - 5.1) < 1e-9));
   await page.until(({state}) => state.answer?.status === 'ok' && !state.isPending);
@@ -90,9 +93,7 @@ test('a near free pose is accepted by Enter, a far one by its own key, and undo 
   const fault = await page.until(({state}) => !state.isPending && !state.isDraft && state.answer?.keyframe_faults?.[0]);
   const dropped = (await page.state()).request.keyframes[0];
   const away_m = Math.hypot(...fault.free_pose.position.map((x, i) => x - dropped.position[i]));
-  const label = page.tab.locator('.labels [data-kind="free"]');
-  await label.waitFor();
-  assert.match(await label.innerText(), /^free, [\d.]+ m.* away: Enter$/);
+  await page.tab.locator('.labels [data-kind="free"]', {hasText: /^free, [\d.]+ m.* away: Enter$/}).waitFor();
   assert.ok(away_m < 1, `${away_m} m`);
   await keyboard.press('Enter');
   await page.until(({state}, to) => state.request.keyframes[0].position.every((x, i) => x === to[i]), fault.free_pose.position);
@@ -137,8 +138,8 @@ test('an option that is refused is marked, and the path is still drawn', async (
   await field.fill('0.01');
   await field.press('Enter');
   await page.until(({state}) => state.answer?.status === 'ok' && !state.isPending);
-  assert.equal(await page.tab.getByText(/^Refused: /).count(), 0);
-  page.forgive(/400/);
+  await page.has_no(page.tab.getByText(/^Refused: /));
+  await page.forgive(/400/);
   await page.close();
   assert.equal(await refused.end(), 0, refused.output);
 });

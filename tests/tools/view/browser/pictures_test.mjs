@@ -10,6 +10,7 @@ import {small_png} from './png.mjs';
 import {open_door, request_file, scene_file} from './programs.mjs';
 
 const kMostBytes = 250000;
+const kSmall = {width: 1024, height: 600};  // the least that everything must fit into
 const kPictures = [
   {name: 'view-corrected', request: 'office-wall-rooms', at: 0.45},
   {name: 'view-dark', request: 'office-graze-slalom', at: 0.4, theme: 'dark'},
@@ -19,7 +20,8 @@ const kPictures = [
 
 after(() => browser.close());
 
-/// Elements that reach out of the window, or out of the box that clips them; and tools of the view that overlap.
+/// Elements that reach out of the window, or out of the box that clips them; tools of the view that overlap or are
+/// covered; and pictures that do not fill their frame.
 function faults_of_layout() {
   const faults = [];
   const name = element => `${element.tagName} ${element.className} "${(element.textContent ?? '').trim().slice(0, 30)}"`;
@@ -39,6 +41,14 @@ function faults_of_layout() {
   for (const button of shown('button')) {
     if (button.scrollWidth > button.clientWidth + 1) faults.push(`cut off: ${name(button)}`);
   }
+  for (const tool of shown(':is(#bar, #viewport) :is(button, input)')) {
+    const {left, top, width, height} = box(tool);
+    const met = document.elementFromPoint(left + width / 2, top + height / 2);
+    if (!tool.contains(met)) faults.push(`covered: ${tool.getAttribute('aria-label')} by ${met && name(met)}`);
+  }
+  for (const picture of shown('.camera-views .picture')) {
+    if (Math.abs(picture.clientWidth - picture.parentElement.clientWidth) > 1) faults.push('a picture does not fill its frame');
+  }
   return faults;
 }
 
@@ -54,7 +64,11 @@ for (const {name, request, at, theme, keys} of kPictures) {
       await page.until(({state}) => state.cursor_s > state.answer.segments[0].t0);
       await page.tab.mouse.move(kWindow.width / 3, 2);  // no tooltip
     }
+    await page.drawn();
     assert.deepEqual(await page.tab.evaluate(faults_of_layout), []);
+    await page.resize(kSmall);
+    assert.deepEqual(await page.tab.evaluate(faults_of_layout), [], `${kSmall.width} x ${kSmall.height}`);
+    await page.resize(kWindow);
     const bytes = small_png(await page.picture());
     console.log(`# ${name}: ${bytes.length} bytes`);
     assert.ok(bytes.length < kMostBytes);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -87,6 +88,18 @@ bool has_failed(const std::vector<ComparedRequest>& compared, const Failing& fai
   return std::ranges::any_of(compared, [&](const ComparedRequest& request) {
     return std::ranges::find(failing, request.verdict) != failing.end();
   });
+}
+
+std::vector<std::size_t> worst_first(const std::vector<ComparedRequest>& compared) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    const bool has_two = compared[i].verdict != Verdict::kNotCompared;
+    if (has_two && !compared[i].difference.has_same_bits()) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t index) {
+    return static_cast<int>(compared[index].verdict);
+  });
+  return order;
 }
 
 AnswerPair answers_of(ComparedRequest& compared) {

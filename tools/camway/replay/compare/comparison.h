@@ -28,6 +28,9 @@ std::size_t count(const std::vector<ComparedRequest>& compared, Verdict verdict)
 /// Whether a request has one of the verdicts that fail.
 bool has_failed(const std::vector<ComparedRequest>& compared, const Failing& failing);
 
+/// Returns the indices of the requests whose answers differ, the worst verdicts first.
+std::vector<std::size_t> worst_first(const std::vector<ComparedRequest>& compared);
+
 /// Compares the recorded answers of two logs, in the order of `then`, and after these the requests
 /// that only `now` has. Requests belong together by client and id; of those that remain, by their
 /// content, in order. Takes the answers of `now`. Both sessions must outlive the result.

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -42,10 +39,6 @@ std::vector<motion::Keyframe> drawable(std::vector<motion::Keyframe> keyframes) 
   return keyframes;
 }
 
-bool is_drawn(const ComparedRequest& compared) {
-  return compared.verdict != Verdict::kNotCompared && !compared.difference.has_same_bits();
-}
-
 }  // namespace
 
 std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
@@ -72,23 +65,18 @@ std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
   return draw::floor_plan_svg(plan);
 }
 
-std::vector<RequestPicture> pictures_of(const std::vector<ComparedRequest>& compared,
-                                        const SceneOf& scene_of, const ReportHead& head,
-                                        std::size_t most) {
-  std::vector<std::size_t> order(compared.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::erase_if(order, [&](std::size_t index) { return !is_drawn(compared[index]); });
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t index) {
-    return static_cast<int>(compared[index].verdict);
-  });
-  std::vector<RequestPicture> pictures;
+Pictures pictures_of(const std::vector<ComparedRequest>& compared, const SceneOf& scene_of,
+                     const ReportHead& head, const PictureLimits& limits) {
+  Pictures pictures;
   std::size_t bytes = 0;
-  for (const std::size_t index : order) {
-    if (pictures.size() == most) break;
+  for (const std::size_t index : worst_first(compared)) {
+    if (pictures.list.size() == limits.most) break;
     std::string svg = picture_of(compared[index], scene_of, head);
+    if (svg.empty()) continue;
     bytes += svg.size();
-    if (bytes > kMostPictureBytes) break;
-    if (!svg.empty()) pictures.push_back({index, std::move(svg)});
+    pictures.is_cut = bytes > limits.most_bytes;
+    if (pictures.is_cut) break;
+    pictures.list.push_back({index, std::move(svg)});
   }
   return pictures;
 }

@@ -20,13 +20,19 @@ using SceneOf =
 std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
                        const ReportHead& head);
 
-/// Largest sum of the sizes of a page's pictures, in bytes.
-inline constexpr std::size_t kMostPictureBytes = std::size_t{8} << 20;
+/// Bounds of the pictures of a page.
+struct PictureLimits {
+  std::size_t most = 0;        ///< largest number
+  std::size_t most_bytes = 0;  ///< largest size of all together
+};
 
-/// Returns pictures of the requests whose answers differ, the worst verdicts first, at most `most`
-/// of them and no more than `kMostPictureBytes`.
-std::vector<RequestPicture> pictures_of(const std::vector<ComparedRequest>& compared,
-                                        const SceneOf& scene_of, const ReportHead& head,
-                                        std::size_t most);
+struct Pictures {
+  std::vector<RequestPicture> list;
+  bool is_cut = false;  ///< whether the next one would have been too large
+};
+
+/// Returns pictures of the requests whose answers differ, the worst verdicts first.
+Pictures pictures_of(const std::vector<ComparedRequest>& compared, const SceneOf& scene_of,
+                     const ReportHead& head, const PictureLimits& limits);
 
 }  // namespace camway::tools

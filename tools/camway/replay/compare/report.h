@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/camway/replay/compare/comparison.h"
@@ -43,9 +45,20 @@ std::string text_row(const Row& row, Times times);
 /// Returns the report as JSON; docs/replay.md has the schema.
 std::string json_report(const ReportHead& head, const std::vector<ComparedRequest>& compared);
 
+/// The parts of a page beside its table and plots.
+struct PageParts {
+  std::vector<RequestPicture> pictures = {};
+  std::set<std::size_t> reviews = {};  ///< indices of the requests that can be shown in 3D
+  std::string review_elements = {};    ///< HTML that holds these reviews (`view::ReviewShelf`)
+  /// Script of the page and its policy (`view::PageFiles`); empty: the page has no script.
+  std::string_view script = {}, policy = {};
+  std::vector<std::string> notes = {};  ///< sentences about the pictures
+};
+
 /// Returns the report as a page of HTML that is one file and asks nobody. Texts of the log are
-/// escaped, pictures are shown as images, which run no scripts.
+/// escaped, pictures are shown as images, which run no scripts, and reviews in frames, which the
+/// policy of the page binds, too.
 std::string html_report(const ReportHead& head, const std::vector<ComparedRequest>& compared,
-                        const std::vector<RequestPicture>& pictures);
+                        const PageParts& parts);
 
 }  // namespace camway::tools

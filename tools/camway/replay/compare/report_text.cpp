@@ -62,8 +62,13 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
   add(session.distrusted, "messages left out: their signature is missing or not good");
   add(session.unasked, "answers to requests that are not in the log");
   add(session.damaged_events, "events about the recorded session cannot be read");
+  for (const std::string& each : session.left_out) {
+    notes.push_back(fmt::format("{}left out of the pack: {}", whose, each));
+  }
   for (const record::Omission& omission : session.omissions) {
-    const double seconds = static_cast<double>(omission.to_utime - omission.from_utime) * 1e-6;
+    // As doubles the difference cannot overflow.
+    const double seconds =
+        (static_cast<double>(omission.to_utime) - static_cast<double>(omission.from_utime)) * 1e-6;
     notes.push_back(fmt::format(
         "{}the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}", whose,
         omission.messages, omission.changes, seconds, wire::printable(omission.reason)));

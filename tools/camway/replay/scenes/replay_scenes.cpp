@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "lcmtypes/wire/channels.h"
+
 namespace camway::tools {
 
 bool scene_was_unknown(const RecordedRequest& request) {
@@ -30,7 +32,8 @@ FoundScene SceneChain::snapshot_of(const RecordedRequest& request) {
   for (const auto& scenes : all_) {
     if (scenes->knows(request.scene)) return scenes->snapshot_of(request);
   }
-  return {};
+  if (scene_was_unknown(request)) return {};
+  return {nullptr, "scene '" + wire::printable(request.scene) + "' is not in the session", true};
 }
 
 bool SceneChain::knows(const std::string& name) const {

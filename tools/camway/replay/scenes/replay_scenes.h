@@ -50,7 +50,8 @@ class NamedScenes final : public ReplayScenes {
   const Scenes scenes_;
 };
 
-/// Asks several sources, the first that knows a scene of the name.
+/// Asks several sources, the first that knows a scene of the name. A scene that none knows, and
+/// that the daemon knew, counts as damaged.
 class SceneChain final : public ReplayScenes {
  public:
   void add(std::unique_ptr<ReplayScenes> scenes) { all_.push_back(std::move(scenes)); }

@@ -41,14 +41,19 @@ base::Result<Scenes> load_named(const std::vector<std::string>& arguments) {
 /// Returns the scenes with which the names begin in the answers, as far as they are found.
 Scenes first_scenes(const Session& session, const ScenesByDigest::Found& found) {
   Scenes first;
-  std::set<std::string> seen;
-  for (const RecordedRequest& request : session.requests) {
-    if (!request.answer || request.answer->scene_digest.empty()) continue;
-    if (!seen.insert(request.scene).second) continue;
-    const auto snapshot = found.find(request.answer->scene_digest);
-    if (snapshot != found.end()) first.emplace(request.scene, snapshot->second);
+  for (const auto& [name, digest] : session.first_digests) {
+    const auto snapshot = found.find(digest);
+    if (snapshot != found.end()) first.emplace(name, snapshot->second);
   }
   return first;
+}
+
+/// Returns the digests of the scenes that requests need, and of those that they are changed from.
+std::set<std::string> sought_digests(const Session& session) {
+  std::set<std::string> digests = digests_of(session);
+  if (session.scene_requests == 0) return digests;
+  for (const auto& [name, digest] : session.first_digests) digests.insert(digest);
+  return digests;
 }
 
 base::Result<std::vector<fs::path>> folders_of(const std::vector<std::string>& roots) {
@@ -66,15 +71,16 @@ base::Result<std::vector<fs::path>> folders_of(const std::vector<std::string>& r
 void add_scene_source_flags(CLI::App& command, SceneSourceFlags& flags) {
   command
       .add_option("--scene", flags.scenes,
-                  "A scene by the name that the requests use; may stand several times; as "
-                  "camwayd's. Recordings of camwayd --record have their scenes")
+                  "Scene file by the name that the requests use, as camwayd takes it; may stand "
+                  "several times. Recordings of camwayd --record have their scenes")
       ->type_name(process::kSceneArgumentForm)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--root", flags.roots,
-                  "Folder in which scene files are looked for, by the digests in the answers; may "
-                  "stand several times")
+      .add_option(
+          "--root", flags.roots,
+          "Folder with scene files, which are found by the digests in the answers; may stand "
+          "several times")
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -93,7 +99,7 @@ base::Result<std::unique_ptr<ReplayScenes>> open_scene_sources(const SceneSource
   const std::vector<fs::path> blobs = blob_folders_of(files.logs());
   const bool is_plain = session.updates.empty();
   ScenesByDigest::Found found;
-  if (!roots->empty()) found = find_by_digest(digests_of(session), *roots);
+  if (!roots->empty()) found = find_by_digest(sought_digests(session), *roots);
   if (is_plain && session.scene_requests > 0) {
     Scenes first = *named;
     first.merge(first_scenes(session, found));

@@ -50,6 +50,13 @@ class SessionScenes::Timeline {
   explicit Timeline(const std::vector<fs::path>& blob_folders) : blobs_(blob_folders) { rewind(); }
 
   void add(const record::SceneUpdate& change) { changes_.push_back(&change); }
+  /// Sorts the changes by revision: one that another process of a fleet has made may be recorded
+  /// after a later one of the daemon itself. To be called after all were added.
+  void sort() {
+    std::ranges::stable_sort(changes_, {}, [](const record::SceneUpdate* change) {
+      return change->update.entry.revision;
+    });
+  }
   /// Notes that a request needs this revision.
   void need(std::uint64_t revision) { needed_.insert(revision); }
 
@@ -126,6 +133,7 @@ SessionScenes::SessionScenes(const Session& session, std::vector<fs::path> blob_
     if (!timeline) timeline = std::make_unique<Timeline>(blob_folders_);
     timeline->add(update.change);
   }
+  for (const auto& [key, timeline] : timelines_) timeline->sort();
   for (const RecordedRequest& request : session.requests) {
     if (!request.answer) continue;
     const auto timeline = timelines_.find({request.answer->recording, request.scene});

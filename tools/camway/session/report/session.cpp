@@ -41,7 +41,8 @@ ExitCode run_session(const SessionFlags& flags) {
   // A pack is unpacked until the end of the command.
   const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
   if (!files) return refuse_session(files.error);
-  const Session session = read_session(files->logs(), flags.prefix, keys.keys.get());
+  Session session = read_session(files->logs(), flags.prefix, keys.keys.get());
+  session.left_out = files->left_out();
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.log.events == 0) {
     return session.log.damage.empty() ? refuse_session(flags.log + ": is empty")
@@ -67,7 +68,8 @@ void add_session_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("LOG", flags->log,
                    "Log of lcm-logger, folder of a daemon's recordings, or packed session")
       ->required();
-  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
+  command->add_option("--prefix", flags->prefix, "Prefix of the daemon's channels")
+      ->capture_default_str();
   command
       ->add_option("--key-file", flags->key_file,
                    "Use only messages that were signed with a key of this file")

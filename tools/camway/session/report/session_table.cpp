@@ -80,6 +80,7 @@ std::string session_summary(const Session& session) {
     text += fmt::format("lacks      {} messages and {} changes of scenes: {}\n", omission.messages,
                         omission.changes, wire::printable(omission.reason));
   }
+  for (const std::string& each : session.left_out) text += "left out   " + each + '\n';
   add_count(text, session.malformed, "messages that cannot be read");
   add_count(text, session.other_version, "of them of another version of the wire types");
   add_count(text, session.distrusted, "messages without a valid signature");

@@ -10,12 +10,11 @@ camway_\name\()_end:
 .endm
 
   .section .rodata
-  embed page_html, "index.html"
   embed page_html_gzip, "index.html.gz"
-  embed page_script, "page.js"
   embed page_script_gzip, "page.js.gz"
-  embed page_style, "page.css"
   embed page_style_gzip, "page.css.gz"
   embed page_policy, "policy.txt"
+  embed report_script, "report.js"
+  embed report_policy, "report_policy.txt"
 
   .section .note.GNU-stack, "", %progbits

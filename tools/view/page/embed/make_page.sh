@@ -28,7 +28,7 @@ deliver() {
   mkdir -p "$out"
   local file
   for file in index.html page.js page.css index.html.gz page.js.gz page.css.gz policy.txt \
-    parts.json; do
+    report.js report_policy.txt parts.json; do
     cmp -s "$1/$file" "$out/$file" || cp "$1/$file" "$out/$file"
   done
 }
@@ -38,7 +38,7 @@ make_without() {
   made=$(mktemp -d)
   cp "$here/without.html" "$made/index.html"
   gzip -9 -n -c "$made/index.html" >"$made/index.html.gz"
-  touch "$made"/{page.js,page.css,page.js.gz,page.css.gz,policy.txt}
+  touch "$made"/{page.js,page.css,page.js.gz,page.css.gz,policy.txt,report.js,report_policy.txt}
   echo '[]' >"$made/parts.json"
   deliver "$made"
   rm -r "$made"

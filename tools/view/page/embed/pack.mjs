@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packs the files of the page, and writes the policy of a file that holds all of them: `node pack.mjs OUT_DIR`.
+// Packs the files of the page, and writes the policies of files that hold them: of a review (policy.txt), and of a report
+// with reviews in frames (report_policy.txt). `node pack.mjs OUT_DIR`.
 import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,23 +10,24 @@ const [, , out] = process.argv;
 const read = (name) => readFileSync(join(out, name));
 
 // A file that holds them all begins and ends scripts and styles by these words.
-for (const name of ['page.js', 'page.css']) {
+for (const name of ['page.js', 'page.css', 'report.js']) {
   if (/<\/(script|style)|<!--/i.test(read(name).toString())) throw new Error(`${name} ends the element that holds it`);
 }
 for (const name of ['index.html', 'page.js', 'page.css']) {
   writeFileSync(join(out, `${name}.gz`), gzipSync(read(name), { level: 9 }));
 }
 
-// No network, and no script or style but these.
+// No network, and no script but these.
 const hash = (name) => `'sha256-${createHash('sha256').update(read(name)).digest('base64')}'`;
-writeFileSync(
-  join(out, 'policy.txt'),
+const policy = (scripts, styles) =>
   [
     "default-src 'none'",
-    `script-src ${hash('page.js')} 'wasm-unsafe-eval'`,
-    `style-src ${hash('page.css')}`,
+    `script-src ${scripts.map(hash).join(' ')} 'wasm-unsafe-eval'`,
+    `style-src ${styles}`,
     'img-src data: blob:',
     "base-uri 'none'",
     "form-action 'none'",
-  ].join('; '),
-);
+  ].join('; ');
+writeFileSync(join(out, 'policy.txt'), policy(['page.js'], hash('page.css')));
+// The style of a report is no part of the page. Its frames obey both policies.
+writeFileSync(join(out, 'report_policy.txt'), policy(['report.js', 'page.js'], "'unsafe-inline'"));

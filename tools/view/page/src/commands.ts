@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All that keys and buttons do, in one table: the keyboard, the tool bar and the help are made from it.
 
-import type { Actions } from './model/actions.js';
+import type { Actions, PlanKind } from './model/actions.js';
 import { distanceText, offeredPose } from './model/free_pose.js';
 import type { Store } from './model/store.js';
 import type { Viewport } from './viewport/viewport.js';
@@ -13,7 +13,8 @@ export interface Command {
   shown?: string;
   name: string;
   group: 'Keyframes' | 'Time' | 'View' | 'Scene' | 'Files and planning';
-  run: () => void;
+  /** `isHeld`: again, as its key is held down. */
+  run: (isHeld?: boolean) => void;
   /** Name of the tool bar's picture, for commands that have a button. */
   icon?: string;
   /** Whether the button looks pressed. */
@@ -61,8 +62,9 @@ function selectNext(store: Store, actions: Actions, step: number): void {
 
 function keyframeCommands(context: CommandContext): Command[] {
   const { store, actions, viewport } = context;
-  const nudge = (right: number, up: number, back: number): void => viewport.editing.nudge([right, up, back], kNudge_m);
-  const turn = (yaw: number, pitch: number): void => viewport.editing.turn(yaw * kTurn_deg, pitch * kTurn_deg);
+  const kindOf = (isHeld?: boolean): PlanKind => (isHeld ? 'draft' : 'full');
+  const nudge = (right: number, up: number, back: number): Command['run'] => (isHeld) => viewport.editing.nudge([right, up, back], kNudge_m, kindOf(isHeld));
+  const turn = (yaw: number, pitch: number): Command['run'] => (isHeld) => viewport.editing.turn(yaw * kTurn_deg, pitch * kTurn_deg, kindOf(isHeld));
   const remove = (): void => {
     const { selection } = store.now;
     if (selection && 'keyframe' in selection) actions.deleteKeyframe(selection.keyframe);
@@ -82,16 +84,16 @@ function keyframeCommands(context: CommandContext): Command[] {
     { keys: ['r'], shown: 'R', name: 'Handles that turn', group, icon: 'turn', isOn: () => viewport.handleMode === 'rotate', run: () => (viewport.handleMode = 'rotate') },
     { keys: ['n'], shown: 'N, Shift N', name: 'Select the next or previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, 1) },
     { keys: ['Shift+n'], name: 'Select the previous keyframe', group, isViewing: true, run: () => selectNext(store, actions, -1) },
-    { keys: ['Alt+ArrowLeft'], shown: 'Alt ← → ↑ ↓', name: 'Move what is selected level by 5 cm', group, run: () => nudge(-1, 0, 0) },
-    { keys: ['Alt+ArrowRight'], name: 'Move it to the right', group, run: () => nudge(1, 0, 0) },
-    { keys: ['Alt+ArrowUp'], name: 'Move it away', group, run: () => nudge(0, 0, -1) },
-    { keys: ['Alt+ArrowDown'], name: 'Move it nearer', group, run: () => nudge(0, 0, 1) },
-    { keys: ['Alt+PageUp'], shown: 'Alt PgUp PgDn', name: 'Move it up or down', group, run: () => nudge(0, 1, 0) },
-    { keys: ['Alt+PageDown'], name: 'Move it down', group, run: () => nudge(0, -1, 0) },
-    { keys: ['Alt+Shift+ArrowLeft'], shown: 'Alt Shift ← → ↑ ↓', name: 'Turn it by 5°', group, run: () => turn(1, 0) },
-    { keys: ['Alt+Shift+ArrowRight'], name: 'Turn it to the right', group, run: () => turn(-1, 0) },
-    { keys: ['Alt+Shift+ArrowUp'], name: 'Turn it up', group, run: () => turn(0, 1) },
-    { keys: ['Alt+Shift+ArrowDown'], name: 'Turn it down', group, run: () => turn(0, -1) },
+    { keys: ['Alt+ArrowLeft'], shown: 'Alt ← → ↑ ↓', name: 'Move what is selected level by 5 cm', group, run: nudge(-1, 0, 0) },
+    { keys: ['Alt+ArrowRight'], name: 'Move it to the right', group, run: nudge(1, 0, 0) },
+    { keys: ['Alt+ArrowUp'], name: 'Move it away', group, run: nudge(0, 0, -1) },
+    { keys: ['Alt+ArrowDown'], name: 'Move it nearer', group, run: nudge(0, 0, 1) },
+    { keys: ['Alt+PageUp'], shown: 'Alt PgUp PgDn', name: 'Move it up or down', group, run: nudge(0, 1, 0) },
+    { keys: ['Alt+PageDown'], name: 'Move it down', group, run: nudge(0, -1, 0) },
+    { keys: ['Alt+Shift+ArrowLeft'], shown: 'Alt Shift ← → ↑ ↓', name: 'Turn it by 5°', group, run: turn(1, 0) },
+    { keys: ['Alt+Shift+ArrowRight'], name: 'Turn it to the right', group, run: turn(-1, 0) },
+    { keys: ['Alt+Shift+ArrowUp'], name: 'Turn it up', group, run: turn(0, 1) },
+    { keys: ['Alt+Shift+ArrowDown'], name: 'Turn it down', group, run: turn(0, -1) },
     { keys: ['Enter'], shown: 'Enter', name: 'Accept the near free pose of a keyframe that collides; else plan', group, run: () => acceptOrPlan(context, false) },
     { keys: ['Shift+Enter'], shown: 'Shift Enter', name: 'Accept its free pose, however far it is', group, run: () => acceptOrPlan(context, true) },
   ];
@@ -138,6 +140,7 @@ function viewCommands({ actions, viewport, switchTheme, toggleHelp }: CommandCon
       isOn: () => viewport.cameraMode !== 'off',
       run: () => (viewport.cameraMode = nextCameraMode[viewport.cameraMode]),
     },
+    { keys: ['m'], shown: 'M', name: 'The other answer, where two are compared', group, isViewing, run: () => actions.showOther() },
     { keys: ['x'], shown: 'X', name: 'Section on or off', group, isViewing, icon: 'section', isOn: () => viewport.section.cutHeight < Infinity, run: () => viewport.toggleSection() },
     { keys: ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9'], shown: '0 … 9', name: 'Open a storey', group, isViewing, run: () => undefined },
     { keys: ['u'], shown: 'U', name: 'Up is Y or Z', group, isViewing, run: () => viewport.setUp(viewport.upAxis === 'y' ? 'z' : 'y') },

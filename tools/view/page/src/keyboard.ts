@@ -51,9 +51,11 @@ export function listenToKeys(commands: readonly Command[], store: Store, viewpor
   const release = (): void => {
     held.clear();
     move();
+    viewport.editing.letGo();
   };
   window.addEventListener('keydown', (event) => {
     viewport.speedUp = event.shiftKey;
+    if (!event.repeat) viewport.editing.letGo();
     if (event.defaultPrevented || isTakenBy(document.activeElement, event)) return;
     if (event.code in kWalkKeys && !event.ctrlKey && !event.metaKey && !event.altKey) {
       held.add(event.code);
@@ -64,11 +66,12 @@ export function listenToKeys(commands: readonly Command[], store: Store, viewpor
     if (!command || (store.now.connection === 'review' && !command.isViewing)) return;
     event.preventDefault();
     if (/^[0-9]$/.test(event.key)) viewport.section.pickStorey(Number(event.key));
-    else command.run();
+    else command.run(event.repeat);
   });
   window.addEventListener('keyup', (event) => {
     viewport.speedUp = event.shiftKey;
     if (held.delete(event.code)) move();
+    viewport.editing.letGo();
   });
   window.addEventListener('blur', release);
 }

@@ -18,23 +18,39 @@ function clearanceBar(): HTMLElement {
   return bar;
 }
 
-function entry(kind: keyof typeof kNames): HTMLElement {
+/** A path without a proof has an entry where it must be told from another one alone. */
+type Kind = keyof typeof kNames | 'unproved';
+
+type Shown = Pick<State, 'answer' | 'before'> & Partial<Pick<State, 'compared'>>;
+
+/** The name of what is drawn; paths of answers that are compared have the names of these. */
+export function nameOf(kind: Kind, compared: State['compared']): string {
+  if (kind === 'unproved') return `${compared?.name ?? kNames.after}, not proved`;
+  if (kind === 'after' && compared) return compared.name;
+  return kind === 'before' && compared ? compared.otherName : kNames[kind];
+}
+
+function entry(kind: Kind, name: string): HTMLElement {
   const item = document.createElement('li');
   item.dataset['kind'] = kind;
-  item.append(document.createElement('i'), kNames[kind]);
+  item.append(document.createElement('i'), name);
   return item;
 }
 
 /** What is to be seen for an answer, so that the legend names no more. */
-export function kindsIn({ answer, before }: Pick<State, 'answer' | 'before'>): (keyof typeof kNames)[] {
+export function kindsIn({ answer, before, compared }: Shown): Kind[] {
   if (!answer) return before.length > 0 ? ['before'] : [];
-  const kinds: (keyof typeof kNames)[] = [];
-  if (answer.segments.length > 0 && answer.certificate?.certified && !answer.clearance_profile?.length) kinds.push('after');
+  const kinds: Kind[] = [];
   const hasPath = answer.segments.length > 0;
+  const hasProfile = (answer.clearance_profile?.length ?? 0) > 0;
+  if (hasPath && answer.certificate?.certified && !hasProfile) kinds.push('after');
+  if (hasPath && !answer.certificate?.certified && !hasProfile && compared) kinds.push('unproved');
   const isCorrected = hasPath && (answer.corrections ?? []).some(({ kind }) => kind !== 'none');
-  if (before.length > 0 && (isCorrected || !hasPath)) kinds.push('before');
+  const hasBeside = compared ? compared.other.segments.length > 0 : before.length > 0 && (isCorrected || !hasPath);
+  if (hasBeside) kinds.push('before');
   if (isCorrected) kinds.push('corrected');
-  if (answer.collisions.length + answer.remaining_collisions.length > 0) kinds.push('collision');
+  const besideCollisions = compared ? compared.other.remaining_collisions : answer.collisions;
+  if (besideCollisions.length + answer.remaining_collisions.length > 0) kinds.push('collision');
   if (hasPath && answer.keyframes.some(({ origin }) => origin === 'inserted')) kinds.push('inserted');
   if (answer.infeasibility) kinds.push('infeasible');
   return kinds;
@@ -44,7 +60,6 @@ export function makeLegend(host: HTMLElement, store: Store): void {
   host.className = 'legend';
   host.setAttribute('aria-label', 'Legend');
   const title = document.createElement('span');
-  title.textContent = 'certified clearance';
   const ends = document.createElement('div');
   ends.className = 'ends';
   for (const text of ['0', `${kComfortableClearance_m} m`]) {
@@ -58,12 +73,15 @@ export function makeLegend(host: HTMLElement, store: Store): void {
   host.append(list, clearance);
   let shown = '';
   const update = (): void => {
+    const { answer, compared } = store.now;
     const kinds = kindsIn(store.now);
-    clearance.hidden = !store.now.answer?.clearance_profile?.length;
+    clearance.hidden = !answer?.clearance_profile?.length;
     host.hidden = clearance.hidden && kinds.length === 0;
-    if (kinds.join() === shown) return;
-    shown = kinds.join();
-    list.replaceChildren(...kinds.map(entry));
+    title.textContent = compared ? `certified clearance, ${compared.name}` : 'certified clearance';
+    const names = kinds.map((kind) => nameOf(kind, compared));
+    if (names.join() === shown) return;
+    shown = names.join();
+    list.replaceChildren(...kinds.map((kind, i) => entry(kind, names[i] as string)));
   };
   store.listen((now, before) => {
     if (now.answer !== before.answer || now.before !== before.before) update();

@@ -18,7 +18,7 @@ const page = new Page(store, (pageParts) => (review ? openReview(review, store) 
 
 /**
  * For tests, and to look at: nothing of the page uses it. `screenOf` says where a point of the world is, in CSS
- * pixels of the window; `report` is what was drawn last; `isDrawn` says whether that is all; `handleAt` says which
+ * pixels of the window; `report` is what was drawn last; `missing` names what is not drawn yet; `handleAt` says which
  * handle the mouse has at a place of the window.
  */
 Object.defineProperty(window, 'camway', {
@@ -29,8 +29,8 @@ Object.defineProperty(window, 'camway', {
     get report() {
       return page.report;
     },
-    get isDrawn() {
-      return page.viewport.isDrawn;
+    get missing() {
+      return page.viewport.missing;
     },
     handleAt: (place: [number, number]) => page.viewport.handleAt(place),
     screenOf: (point: [number, number, number]) => page.viewport.screenOf(point),

@@ -15,12 +15,43 @@ export function makeIconlessButton(text: string, title: string, run: () => void)
   return button;
 }
 
-function sentence({ connection, message, isPending, answer, unplanned }: State): { text: string; kind: string } {
+/** Buttons for the two answers that are compared; the one that is shown is pressed. Hidden where there is one answer alone. */
+function makeAnswerSwitch(store: Store, actions: Actions): HTMLElement {
+  const group = document.createElement('div');
+  group.className = 'answers';
+  group.setAttribute('role', 'group');
+  group.setAttribute('aria-label', 'Answer that is shown');
+  const update = (): void => {
+    const { compared } = store.now;
+    group.hidden = !compared;
+    if (!compared) return;
+    if (group.childElementCount === 0) {
+      for (const name of [compared.otherName, compared.name]) {
+        const show = (): void => {
+          if (store.now.compared?.name !== name) actions.showOther();
+        };
+        const button = makeIconlessButton(name, `Show the answer: ${name} (M)`, show);
+        button.dataset['name'] = name;
+        group.append(button);
+      }
+    }
+    for (const button of group.querySelectorAll('button')) {
+      button.setAttribute('aria-pressed', String(button.dataset['name'] === compared.name));
+    }
+  };
+  store.listen((now, before) => {
+    if (now.compared !== before.compared) update();
+  });
+  update();
+  return group;
+}
+
+function sentence({ connection, message, isPending, answer, unplanned, compared }: State): { text: string; kind: string } {
   if (connection === 'lost' || connection === 'connecting') return { text: message || 'Connecting to camway …', kind: 'lost' };
   if (message) return { text: message, kind: isPending ? 'busy' : unplanned ? 'invalid' : 'note' };
   if (unplanned) return { text: unplanned, kind: 'invalid' };
   if (!answer) return { text: isPending ? 'Planning …' : 'Walk to a place and press K for each keyframe, or open a request.', kind: 'note' };
-  return { text: answer.message, kind: answer.status };
+  return { text: compared ? `${compared.name}: ${answer.message}` : answer.message, kind: answer.status };
 }
 
 export function makeTopBar(
@@ -34,7 +65,7 @@ export function makeTopBar(
   const open = makeIconlessButton('Open', 'Open a request (Ctrl O)', () => actions.open());
   const save = makeIconlessButton('Save', 'Save the request (Ctrl S)', () => actions.save());
   const review = makeIconlessButton('Review file', 'Save one HTML file that shows this plan without a server', () => actions.saveReview());
-  tools.append(open, save, review, ...more);
+  tools.append(makeAnswerSwitch(store, actions), open, save, review, ...more);
   const update = (): void => {
     const { text, kind } = sentence(store.now);
     message.textContent = text;

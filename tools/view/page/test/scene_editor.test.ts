@@ -6,7 +6,7 @@ import type { Pose } from '../src/model/actions.js';
 
 const poseAt = (x: number): Pose => ({ position: [x, 0, 0], orientation: [1, 0, 0, 0] });
 
-/** What an editor tells, and an editor that tells it. `shows` is called where the scene is fetched anew. */
+/** An editor, and all that it tells. `shows` is called where the scene is fetched anew. */
 function makeEditor(shows: () => Promise<void> = () => Promise.resolve()): { editor: SceneEditor; said: string[]; moves: () => [string, Pose][] } {
   const said: string[] = [];
   let moves: ReadonlyMap<string, Pose> = new Map();

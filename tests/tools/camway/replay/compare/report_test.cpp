@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -105,7 +106,10 @@ TEST_F(ReportTest, JsonTakesTextThatIsNotUtf8) {
 }
 
 TEST_F(ReportTest, HtmlEscapesWhatTheLogSays) {
-  const std::string html = html_report(head_, compared_, {{0, kHostile}});
+  PageParts parts;
+  parts.pictures = {{0, kHostile}};
+  parts.notes = {kHostile};
+  const std::string html = html_report(head_, compared_, parts);
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(&#39;x&quot;&amp;?[2J"));
   EXPECT_THAT(html, HasSubstr("data:image/svg+xml;base64,"));
@@ -113,25 +117,62 @@ TEST_F(ReportTest, HtmlEscapesWhatTheLogSays) {
 
 TEST_F(ReportTest, HtmlAsksNobody) {
   const std::string html = html_report(head_, compared_, {});
-  EXPECT_THAT(html, HasSubstr("default-src 'none'"));
-  for (const char* link : {"http://", "https://", "src=\"/", "href="}) {
+  EXPECT_THAT(html, HasSubstr("content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+                              "data:\""));
+  for (const char* link : {"http://", "https://", "src=\"/", "href=", "<script"}) {
     EXPECT_THAT(html, Not(HasSubstr(link)));
   }
   EXPECT_THAT(html, HasSubstr("Length (m)"));
+}
+
+TEST_F(ReportTest, HtmlHasAButtonForAReviewAndALinkToAPicture) {
+  compared_.push_back(compared_[0]);
+  PageParts parts;
+  parts.script = "sort()";
+  parts.policy = "default-src 'none'; script-src 'sha256-x'";
+  const auto counts = [&] {
+    const std::string html = html_report(head_, compared_, parts);
+    const auto count = [&](const std::string& text) {
+      std::size_t found = 0;
+      for (std::size_t at = html.find(text); at != std::string::npos; at = html.find(text, at + 1))
+        ++found;
+      return found;
+    };
+    EXPECT_EQ(count("<script>sort()</script>"), 1U);
+    EXPECT_EQ(count("content=\"default-src 'none'; script-src 'sha256-x'\""), 1U);
+    return std::array{count("data-review=\"0\""), count("data-review=\"1\""),
+                      count("href=\"#r1\""),      count("id=\"r1\""),
+                      count("id=\"no-webgl\""),   count("<i>shelf</i>")};
+  };
+  EXPECT_THAT(counts(), ::testing::ElementsAre(0, 0, 0, 0, 0, 0));
+  parts.reviews = {1};
+  parts.review_elements = "<i>shelf</i>";
+  EXPECT_THAT(counts(), ::testing::ElementsAre(0, 1, 0, 0, 1, 1));
+  parts.pictures = {{1, "<svg/>"}};
+  EXPECT_THAT(counts(), ::testing::ElementsAre(0, 2, 1, 1, 1, 1)) << "one at the picture, too";
 }
 
 TEST_F(ReportTest, PicturesShowTheWorstVerdictsFirst) {
   compared_.push_back(compared_[0]);
   compared_[0].verdict = Verdict::kDifferent;
   const SceneOf no_scene = [](const RecordedRequest&) { return nullptr; };
-  const auto pictures = pictures_of(compared_, no_scene, head_, 1);
-  ASSERT_EQ(pictures.size(), 1U);
-  EXPECT_EQ(pictures[0].index, 1U);
-  EXPECT_THAT(pictures[0].svg, HasSubstr("<svg"));
-  EXPECT_TRUE(pictures_of(compared_, no_scene, head_, 0).empty());
+  const auto pictures = [&](std::size_t most, std::size_t most_bytes = 1'000'000) {
+    return pictures_of(compared_, no_scene, head_, {most, most_bytes});
+  };
+  const Pictures one = pictures(1);
+  ASSERT_EQ(one.list.size(), 1U);
+  EXPECT_EQ(one.list[0].index, 1U);
+  EXPECT_FALSE(one.is_cut);
+  EXPECT_THAT(one.list[0].svg, HasSubstr("<svg"));
+  EXPECT_TRUE(pictures(0).list.empty());
+  const std::size_t bytes = one.list[0].svg.size();
+  const Pictures cut = pictures(2, bytes);
+  EXPECT_EQ(cut.list.size(), 1U);
+  EXPECT_TRUE(cut.is_cut);
+  EXPECT_TRUE(pictures(1, bytes - 1).list.empty());
   compared_[0].difference = {};
   compared_[0].verdict = Verdict::kSame;
-  EXPECT_EQ(pictures_of(compared_, no_scene, head_, 5).size(), 1U) << "the same needs no picture";
+  EXPECT_EQ(pictures(5).list.size(), 1U) << "the same needs no picture";
 }
 
 TEST(ReplayPlots, TakeAnyNumbers) {

@@ -14,6 +14,8 @@ using ::testing::StartsWith;
 
 /// The most bytes of the page as it is sent.
 constexpr std::size_t kMostBytes = 350'000;
+/// The most bytes of the script of a report.
+constexpr std::size_t kMostReportBytes = 10'000;
 
 class EmbeddedPage : public ::testing::Test {
  protected:
@@ -52,6 +54,18 @@ TEST_F(EmbeddedPage, APageThatHoldsAllMayAskNobody) {
   EXPECT_THAT(policy, StartsWith("default-src 'none'; script-src 'sha256-"));
   EXPECT_EQ(policy.find("connect-src"), std::string::npos);
   EXPECT_EQ(policy.find('\n'), std::string::npos);
+}
+
+TEST_F(EmbeddedPage, AReportMayRunItsScriptAndThatOfTheReviewsInIt) {
+  EXPECT_FALSE(page_.report_script.empty());
+  EXPECT_LT(page_.report_script.size(), kMostReportBytes);
+  const std::string policy(page_.report_policy);
+  EXPECT_THAT(policy, StartsWith("default-src 'none'; script-src 'sha256-"));
+  const std::string review(page_.inline_policy);
+  const std::size_t hash = review.find("'sha256-");
+  EXPECT_THAT(policy, HasSubstr(review.substr(hash, review.find("' ", hash) - hash)));
+  EXPECT_EQ(policy.find("connect-src"), std::string::npos);
+  EXPECT_EQ(policy.find("script-src 'unsafe-inline'"), std::string::npos);
 }
 
 }  // namespace

@@ -67,11 +67,20 @@ export interface Interpolated {
   segments: Segment[];
 }
 
+/** Another answer to the request of a review, which is compared with the answer of the review. */
+export interface Compared {
+  /** Names of the two for people: `name` is that of the answer which is shown. */
+  name: string;
+  otherName: string;
+  other: Answer;
+}
+
 /** What a self-contained page holds instead of a door. Meshes are GLB in base64, by digest. */
 export interface Review {
   request: PlanRequest;
   answer: Answer;
   before: Interpolated;
+  compared?: Compared;
   scene: SceneDescription;
   meshes: Record<string, string>;
   triangles: Record<string, [Vec3, Vec3, Vec3]>;

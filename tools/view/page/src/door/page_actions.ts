@@ -19,6 +19,7 @@ import {
   withTimes,
 } from '../model/edits.js';
 import type { Insertion, Refusal } from '../model/edits.js';
+import { withOtherAnswer } from '../model/beside.js';
 import { beginOf, clampToPath, endOf } from '../model/path.js';
 import { answerText, readRequest, requestText } from '../model/request_file.js';
 import { nextStop, pathOf } from '../model/stops.js';
@@ -238,6 +239,11 @@ export class PageActions implements Actions {
     this.document.markSaved();
     this.store.set({ request, selection: undefined, cursor_s: 0, answer, unplanned: '', before: [], message: '' });
     this.around.opened();
+  }
+
+  showOther(): void {
+    const exchanged = withOtherAnswer(this.store.now);
+    if (exchanged) this.store.set({ ...exchanged, message: '' });
   }
 
   save(): void {

@@ -45,6 +45,7 @@ export function openReview(review: Review, store: Store): Backing {
         request: review.request,
         answer: completed(review.answer),
         before: review.before?.segments ?? [],
+        compared: review.compared && { ...review.compared, other: completed(review.compared.other) },
       });
     },
   };

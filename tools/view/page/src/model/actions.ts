@@ -63,6 +63,9 @@ export interface Actions {
   /** Takes the keyframes and the frame of the answer as those of the request, to edit the path on. */
   editAnswer(): void;
 
+  /** Shows the other one of two answers that are compared, at the same time of the request. Does nothing if there is one alone. */
+  showOther(): void;
+
   /** Shows a sentence until the next one. */
   say(message: string): void;
 

@@ -7,9 +7,13 @@ import { timesOnPath } from './times.js';
 /** Nearer instants count as the one where the cursor is, as a share of the duration. */
 const kSameInstant = 1e-6;
 
-/** The path that the cursor runs along: that of the answer, or as interpolated where the answer has none. */
-export function pathOf(state: Pick<State, 'answer' | 'before'>): State['before'] {
-  return state.answer?.segments?.length ? state.answer.segments : state.before;
+/**
+ * The path that the cursor runs along: that of the answer. Where the answer has none, it is that of the answer which
+ * it is compared with, or the path as interpolated.
+ */
+export function pathOf({ answer, before, compared }: Pick<State, 'answer' | 'before'> & Partial<State>): State['before'] {
+  if (answer?.segments?.length) return answer.segments;
+  return compared?.other.segments.length ? compared.other.segments : before;
 }
 
 /** Instants of collisions: the witnesses of those that remain, or else of those that were corrected. */

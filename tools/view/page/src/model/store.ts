@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { Answer, Segment } from '../contract/answer.js';
-import type { SceneDescription } from '../contract/door.js';
+import type { Compared, SceneDescription } from '../contract/door.js';
 import type { PlanRequest } from '../contract/request.js';
 import type { Pose } from './actions.js';
 
@@ -13,6 +13,8 @@ export interface State {
   readonly unplanned: string;
   /** The path as interpolated through the keyframes of the request. */
   readonly before: readonly Segment[];
+  /** The other answer to `request`, where two are compared. */
+  readonly compared: Compared | undefined;
   readonly isPending: boolean;
   /** Whether the answer is of a drag that goes on. */
   readonly isDraft: boolean;
@@ -64,6 +66,7 @@ export const kEmptyState: State = {
   answer: undefined,
   unplanned: '',
   before: [],
+  compared: undefined,
   isPending: false,
   isDraft: false,
   scene: undefined,

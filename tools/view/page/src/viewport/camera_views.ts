@@ -4,6 +4,7 @@
 
 import { PerspectiveCamera } from 'three';
 import type { Quaternion, Vector3 } from 'three';
+import type { Compared } from '../contract/door.js';
 import type { Camera } from '../contract/request.js';
 import { setText } from '../panels/dom.js';
 import { pictureHalf } from './bodies.js';
@@ -59,11 +60,14 @@ export class CameraViews {
     this.host.dataset['mode'] = mode;
   }
 
-  /** Names the path that the first view is on: as interpolated, where there is no answer with a path. */
-  setPath(path: PathShown): void {
+  /** Names the paths that the views are on: the first is on the path beside, where the answer has none. */
+  setPath(path: PathShown, compared: Compared | undefined): void {
     const { figure, caption } = this.views.after;
     figure.dataset['path'] = path;
-    setText(caption, path === 'after' ? kNames.after : kUncorrected);
+    const isAfter = path === 'after';
+    if (compared) setText(caption, `${kNames.after}, ${isAfter ? compared.name : compared.otherName}`);
+    else setText(caption, isAfter ? kNames.after : kUncorrected);
+    setText(this.views.before.caption, compared ? compared.otherName : kNames.before);
   }
 
   setEyes(camera: Camera, after: Eye | undefined, before: Eye | undefined, far_m: number): void {

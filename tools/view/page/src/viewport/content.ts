@@ -5,10 +5,10 @@ import { Group, Vector3 } from 'three';
 import type { IUniform, Vector4 } from 'three';
 import type { State } from '../model/store.js';
 import type { Pose } from '../model/actions.js';
+import { besideOf } from '../model/beside.js';
 import { acceptingKey, distanceText, offeredPose } from '../model/free_pose.js';
 import { poseAt } from '../model/path.js';
 import { pathOf } from '../model/stops.js';
-import { TimeMap } from '../model/times.js';
 import { kDefaultCamera } from './bodies.js';
 import type { CameraViews, Eye } from './camera_views.js';
 import { CursorView } from './cursor_view.js';
@@ -54,9 +54,15 @@ export class Content {
     return this.keyframesView.places;
   }
 
-  showPath({ request, answer, before, selection }: State, frame: Frame, theme: Theme, pixelRatio: number): void {
+  /** Whether nothing of the findings is on its way. */
+  get isComplete(): boolean {
+    return this.findings.isComplete;
+  }
+
+  showPath(now: State, frame: Frame, theme: Theme, pixelRatio: number): void {
+    const { request, answer, selection } = now;
     const selected = selection && 'keyframe' in selection ? selection.keyframe : undefined;
-    this.pathView.show(request, answer, before, frame, { unproved: theme.ink });
+    this.pathView.show(answer, besideOf(now), frame, { unproved: theme.ink });
     this.keyframesView.show(
       { request, answer, selected, frame, pathSize_m: this.extent.pathSize_m },
       { given: theme.ink, selected: theme.accent, rim: theme.rim, pixelRatio },
@@ -69,23 +75,24 @@ export class Content {
   }
 
   showCursor(now: State, frame: Frame, theme: Theme, cameraViews: CameraViews): void {
-    const { answer, before, request, cursor_s } = now;
+    const { answer, request, cursor_s, compared } = now;
     const pose = poseAt(pathOf(now), cursor_s);
-    const given_s = new TimeMap(request, answer).toGiven(cursor_s);
-    const poseBefore = answer?.segments.length ? poseAt(before, given_s) : undefined;
+    const beside = besideOf(now);
+    const beside_s = beside.timeOf(cursor_s);
+    const poseBefore = answer?.segments.length ? poseAt(beside.path, beside_s) : undefined;
     const nearScale = answer?.near_scale ?? 1;
     const camera = { ...(request?.camera ?? kDefaultCamera) };
     this.cursorView.show(request, pose, poseBefore, frame, this.extent.pathSize_m, theme.accent, nearScale);
     const eye = (at: Pose | undefined, isColliding: boolean): Eye | undefined =>
       at && { position: frame.toLocal(at.position), orientation: toQuaternion(at.orientation), isColliding };
-    const collides = (list: readonly { t_begin: number; t_end: number }[] | undefined, t: number): boolean =>
-      (list ?? []).some(({ t_begin, t_end }) => t >= t_begin && t <= t_end);
+    const collides = (answer?.remaining_collisions ?? []).some(({ t_begin, t_end }) => cursor_s >= t_begin && cursor_s <= t_end);
+    const collidesBeside = beside.collisions.some(({ begin, end }) => beside_s >= begin && beside_s <= end);
     const isCorrected = (answer?.corrections ?? []).some(({ kind }) => kind !== 'none');
-    cameraViews.setPath(answer?.segments.length ? 'after' : 'before');
+    cameraViews.setPath(answer?.segments.length ? 'after' : 'before', compared);
     cameraViews.setEyes(
       { ...camera, near: camera.near * nearScale },
-      eye(pose, collides(answer?.remaining_collisions, cursor_s)),
-      isCorrected ? eye(poseBefore, collides(answer?.collisions, cursor_s)) : undefined,
+      eye(pose, collides),
+      isCorrected || compared ? eye(poseBefore, collidesBeside) : undefined,
       4 * this.extent.sceneSphere.radius,
     );
   }

@@ -3,7 +3,7 @@
 
 import { Quaternion, Vector3 } from 'three';
 import type { Vec3 } from '../contract/request.js';
-import type { Actions, Pose } from '../model/actions.js';
+import type { Actions, PlanKind, Pose } from '../model/actions.js';
 import type { Store } from '../model/store.js';
 import type { Extent } from './extent.js';
 import { toQuaternion, upVector } from './frame.js';
@@ -40,6 +40,8 @@ export class Editing {
   readonly handles: Handles;
   private readonly pointer: Pointer;
   private dragged: Pose | undefined;
+  /** The keyframe that a key moves which is held down. */
+  private held: HandleTarget | undefined;
 
   constructor(private readonly context: EditingContext) {
     const { stage, navigation } = context;
@@ -86,7 +88,7 @@ export class Editing {
     return { key: `object ${facts.name}`, position: frame.toLocal(position), orientation: toQuaternion(orientation) };
   }
 
-  private dragHandle(position: Vector3, orientation: Quaternion, kind: 'draft' | 'full'): void {
+  private dragHandle(position: Vector3, orientation: Quaternion, kind: PlanKind): void {
     const { store, actions } = this.context;
     const { selection } = store.now;
     const pose = this.context.frame().toPose(position, orientation);
@@ -138,27 +140,39 @@ export class Editing {
     actions.setKeyframe(index, this.dragged, 'draft');
   }
 
-  /** Moves what is selected by a step to the right, up and back, as the view has these directions. */
-  nudge([right, up, back]: Vec3, step_m: number): void {
+  /** Moves what is selected by a step to the right, up and back, as the view has these directions. `letGo` ends drafts. */
+  nudge([right, up, back]: Vec3, step_m: number, kind: PlanKind): void {
     const upward = upVector(this.context.up());
     const ahead = this.context.navigation.camera.getWorldDirection(new Vector3());
     ahead.addScaledVector(upward, -ahead.dot(upward)).normalize();
     const step = ahead.clone().cross(upward).multiplyScalar(right * step_m);
     step.addScaledVector(upward, up * step_m).addScaledVector(ahead, -back * step_m);
-    this.changeSelected(({ position, orientation }) => ({ position: position.add(step), orientation }));
+    this.changeSelected(kind, ({ position, orientation }) => ({ position: position.add(step), orientation }));
   }
 
-  /** Turns what is selected about the upward axis, and up about its own right. */
-  turn(yaw_deg: number, pitch_deg: number): void {
+  /** Turns what is selected about the upward axis, and up about its own right. `letGo` ends drafts. */
+  turn(yaw_deg: number, pitch_deg: number, kind: PlanKind): void {
     const yaw = new Quaternion().setFromAxisAngle(upVector(this.context.up()), (yaw_deg * Math.PI) / 180);
     const pitch = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), (pitch_deg * Math.PI) / 180);
-    this.changeSelected(({ position, orientation }) => ({ position, orientation: yaw.multiply(orientation).multiply(pitch) }));
+    this.changeSelected(kind, ({ position, orientation }) => ({ position, orientation: yaw.multiply(orientation).multiply(pitch) }));
   }
 
-  private changeSelected(change: (pose: LocalPose) => LocalPose): void {
+  /** No key is held down any more: what it moved gets its last answer. */
+  letGo(): void {
+    const { held } = this;
+    this.held = undefined;
+    if (!held) return;
+    if (this.target()?.key === held.key) this.dragHandle(held.position, held.orientation, 'full');
+    else this.context.actions.plan('full');
+  }
+
+  private changeSelected(kind: PlanKind, change: (pose: LocalPose) => LocalPose): void {
     const target = this.target();
     if (!target) return;
     const { position, orientation } = change(target);
-    this.dragHandle(position, orientation, 'full');
+    const { selection } = this.context.store.now;
+    const isDraft = kind === 'draft' && selection !== undefined && 'keyframe' in selection; // objects have no drafts
+    this.held = isDraft ? { key: target.key, position, orientation } : undefined;
+    this.dragHandle(position, orientation, kind);
   }
 }

@@ -52,17 +52,19 @@ export class Extent {
   private get path(): Box3 {
     const { now } = this.store;
     const { measured } = this;
-    const isSame = now.request === measured?.request && now.before === measured?.before && now.answer === measured?.answer;
+    const isSame =
+      now.request === measured?.request && now.before === measured?.before &&
+      now.answer === measured?.answer && now.compared === measured?.compared;
     if (!isSame || !measured || now.scene?.scene.name !== measured.scene?.scene.name) this.measure(now);
     this.measured = now;
     return this.pathBox;
   }
 
-  private measure({ request, before, answer }: State): void {
+  private measure({ request, before, answer, compared }: State): void {
     const frame = this.frameNow();
     this.pathBox = new Box3();
     for (const { position } of request?.keyframes ?? []) this.pathBox.expandByPoint(frame.toLocal(position));
-    for (const path of [before, answer?.segments ?? []]) {
+    for (const path of [before, answer?.segments ?? [], compared?.other.segments ?? []]) {
       for (const { position } of path) for (const point of position) this.pathBox.expandByPoint(frame.toLocal(point));
     }
   }

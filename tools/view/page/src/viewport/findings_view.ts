@@ -138,12 +138,18 @@ export class FindingsView {
   private readonly proof: Lit;
   private readonly lines: Tubes;
   private asked = 0;
+  private fetches = 0;
 
   constructor(shared: TubeUniforms, section: IUniform<Vector4>, private readonly onChange: () => void) {
     this.witnesses = new Lit(kCollision, 0.85, true, section);
     this.proof = new Lit(kProof, 0.5, false, section);
     this.lines = new Tubes(shared, 15);
     this.group.add(this.witnesses, this.proof, this.lines, this.markers);
+  }
+
+  /** Whether all triangles are there that were asked for. */
+  get isComplete(): boolean {
+    return this.fetches === 0;
   }
 
   setLook(rim: [number, number, number], pixelRatio: number): void {
@@ -172,6 +178,7 @@ export class FindingsView {
     this.witnesses.visible = false;
     this.proof.visible = false;
     if (!source || touched.length + closed.length === 0) return;
+    ++this.fetches;
     try {
       const triangles = await source([...new Set([...touched, ...closed])]);
       if (asked !== this.asked) return;
@@ -184,6 +191,8 @@ export class FindingsView {
       this.onChange();
     } catch {
       // The marks of the witnesses are there, and the next answer asks again.
+    } finally {
+      --this.fetches;
     }
   }
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The path as a tube coloured by certified clearance, corrected stretches in a sleeve, the path before as a dashed
-// ghost where it differs, and collisions in vermillion on whichever path has them.
+// The path as a tube coloured by certified clearance, corrected stretches in a sleeve, the path beside it (as
+// interpolated, or of another answer) as a dashed ghost where it differs, and collisions in vermillion on whichever path
+// has them.
 
 import { Group, Vector3 } from 'three';
 import type { Answer, Segment } from '../contract/answer.js';
-import type { PlanRequest } from '../contract/request.js';
+import type { Beside } from '../model/beside.js';
 import { clearanceColour, kPalette } from '../model/palette.js';
 import { bezierAt, poseAt } from '../model/path.js';
-import { collisionSpansBefore, indicesWithin } from '../model/spans.js';
+import { indicesWithin } from '../model/spans.js';
 import type { Span } from '../model/spans.js';
-import { TimeMap } from '../model/times.js';
 import type { Frame } from './frame.js';
 import { rgbOf, TubeBuilder, Tubes } from './tubes.js';
 import type { Rgb, TubeStyle, TubeUniforms } from './tubes.js';
@@ -97,13 +97,7 @@ export class PathView {
     this.group.add(this.sleeve, this.ghost, this.tube);
   }
 
-  show(
-    request: PlanRequest | undefined,
-    answer: Answer | undefined,
-    before: readonly Segment[],
-    frame: Frame,
-    colours: PathColours,
-  ): void {
+  show(answer: Answer | undefined, beside: Beside, frame: Frame, colours: PathColours): void {
     const tube = new TubeBuilder();
     const ghost = new TubeBuilder();
     const sleeve = new TubeBuilder();
@@ -124,7 +118,7 @@ export class PathView {
       this.addSpans(tube, samples, spans, rgbOf(kPalette.collision), kCollisionStyle);
       this.addSpans(sleeve, samples, correctedSpans(answer), rgbOf(kPalette.corrected), kSleeveStyle);
     }
-    if (before.length > 0) this.addGhost(ghost, tube, request, answer, before, frame);
+    if (beside.path.length > 0) this.addGhost(ghost, tube, answer, beside, frame);
     this.sleeve.show(sleeve);
     this.ghost.show(ghost);
     this.tube.show(tube);
@@ -138,20 +132,12 @@ export class PathView {
     }
   }
 
-  private addGhost(
-    ghost: TubeBuilder,
-    tube: TubeBuilder,
-    request: PlanRequest | undefined,
-    answer: Answer | undefined,
-    before: readonly Segment[],
-    frame: Frame,
-  ): void {
-    const spans = collisionSpansBefore(request, answer, before);
-    const samples = new Samples(before, frame, spans.flatMap((s) => [s.begin, s.end]));
+  private addGhost(ghost: TubeBuilder, tube: TubeBuilder, answer: Answer | undefined, beside: Beside, frame: Frame): void {
+    const spans = beside.collisions;
+    const samples = new Samples(beside.path, frame, spans.flatMap((s) => [s.begin, s.end]));
     const after = answer?.segments ?? [];
-    const clock = new TimeMap(request, answer);
     const differs = samples.times.map((t, i) => {
-      const pose = after.length > 0 ? poseAt(after, clock.toPath(t)) : undefined;
+      const pose = after.length > 0 ? poseAt(after, beside.onAnswer(t)) : undefined;
       return !pose || frame.toLocal(pose.position).distanceTo(samples.points[i] as Vector3) > kSamePlace_m;
     });
     const orange = rgbOf(kPalette.before);

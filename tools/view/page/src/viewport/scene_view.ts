@@ -97,6 +97,11 @@ export class SceneView {
     this.onChange();
   }
 
+  /** Whether the meshes that are there have all their edges. */
+  get hasEdges(): boolean {
+    return this.edgeWork.length === 0;
+  }
+
   get shapesShown(): { shape: Shape; mesh: Mesh }[] {
     return [...this.items.values()].map(({ shape, mesh }) => ({ shape, mesh }));
   }

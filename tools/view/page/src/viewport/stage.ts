@@ -66,9 +66,9 @@ export class Stage {
     this.resize();
   }
 
-  /** Whether the last frame is drawn, and no other one is due. */
-  get isDrawn(): boolean {
-    return !this.isDue && this.fence.isPassed;
+  /** Names what keeps the last frame from being there: another one is due, or the GPU has not finished it. */
+  get missing(): string[] {
+    return [...(this.isDue ? ['frame'] : []), ...(this.fence.isPassed ? [] : ['GPU'])];
   }
 
   get pixelRatio(): number {

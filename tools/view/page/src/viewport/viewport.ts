@@ -142,8 +142,10 @@ export class Viewport {
     return this.frame.toPose(place, new Quaternion()).position;
   }
 
-  get isDrawn(): boolean {
-    return this.stage.isDrawn;
+  /** Names what is still to be drawn, except of meshes that are on their way. */
+  get missing(): string[] {
+    const edges = this.sceneView.hasEdges ? [] : ['edges'];
+    return [...this.stage.missing, ...edges, ...(this.content.isComplete ? [] : ['triangles'])];
   }
 
   get upAxis(): UpAxis {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Writes a small valid file of each format that Camway reads, for hostile_files.py.
 
-  tests/fuzz/sample_files.py FOLDER
+  tests/fuzz/files/sample_files.py FOLDER
 
 A format joins by a function that is marked with @sample, here or in sample_surfaces.py and
 sample_cameras.py, or by a file in a folder that hostile_files.py is given with --samples. Standard

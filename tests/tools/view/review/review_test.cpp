@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/view/review.h"
+#include "tools/view/review/review.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ constexpr char kReviewHtml[] =
     R"(<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="/page.css">)"
     R"(<script defer src="/page.js"></script><body>hall</body>)";
 
-constexpr PageFiles kReviewPage{
+const PageFiles kReviewPage{
     {kReviewHtml, ""}, {"alert(1)", ""}, {"b { color: red }", ""}, "default-src 'none'"};
 
 /// The data in a review.

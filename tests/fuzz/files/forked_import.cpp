@@ -4,7 +4,7 @@
 
 #include "daemon/scene/import/child/assimp_reader.h"
 #include "daemon/scene/import/child/scene_file.h"
-#include "tests/fuzz/forked_reader.h"
+#include "tests/fuzz/files/forked_reader.h"
 
 int main() {
   return camway::testing::serve_forked(

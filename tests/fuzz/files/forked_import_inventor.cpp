@@ -4,7 +4,7 @@
 
 #include "daemon/scene/import/inventor/coin_library.h"
 #include "daemon/scene/import/inventor/import_inventor_file.h"
-#include "tests/fuzz/forked_reader.h"
+#include "tests/fuzz/files/forked_reader.h"
 
 int main() {
   namespace inventor = camway::scene::inventor;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/import/inventor/inflate.h"
+#include "daemon/gzip/inflate.h"
 
 #include <zlib.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace camway::scene::inventor {
+namespace camway::gzip {
 namespace {
 
 constexpr int kGzipOnly = 16 + MAX_WBITS;  ///< zlib's way to ask for the header of gzip
@@ -69,4 +69,4 @@ base::Result<std::string> inflated(std::string_view bytes, std::size_t most_byte
   return Inflation().all(bytes, most_bytes);
 }
 
-}  // namespace camway::scene::inventor
+}  // namespace camway::gzip

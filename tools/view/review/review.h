@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -9,14 +10,9 @@
 #include "tools/view/backend.h"
 #include "tools/view/mesh_desk.h"
 #include "tools/view/page_files.h"
+#include "tools/view/review/review_data.h"
 
 namespace camway::view {
-
-/// A plan that is to be shown without a door.
-struct ReviewOrder {
-  PlanOrder plan;
-  std::string answer;  ///< to that request, as JSON
-};
 
 /// Reads `{"request": ..., "answer": ...}`. The answer must be one (`planning::PlanResult`).
 base::Result<ReviewOrder> read_review(const nlohmann::json& document);
@@ -33,5 +29,16 @@ struct ReviewFile {
 /// display. Waits for the backend, so it is not for threads of it.
 ReviewFile make_review(const ReviewOrder& order, const PageFiles& page, Backend& backend,
                        MeshDesk& meshes);
+
+/// The page of a review before its data, which is an object of JSON (`json_for_html`), and after.
+struct ReviewFrame {
+  std::string begin, end;
+};
+
+/// Returns the frame of the page's files; nothing if the page has no places for them.
+std::optional<ReviewFrame> review_frame(const PageFiles& page);
+
+/// The reason why there are no reviews in a program without its page, a sentence.
+inline constexpr char kNoPage[] = "there is no review: this program was built without its page";
 
 }  // namespace camway::view

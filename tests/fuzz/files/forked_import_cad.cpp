@@ -4,7 +4,7 @@
 
 #include "daemon/scene/import/cad/cad_library.h"
 #include "daemon/scene/import/cad/import_cad_file.h"
-#include "tests/fuzz/forked_reader.h"
+#include "tests/fuzz/files/forked_reader.h"
 
 int main() {
   namespace cad = camway::scene::cad;

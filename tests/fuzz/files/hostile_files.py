@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Reads damaged files of every format with the programs as they are installed.
 
-  tests/fuzz/hostile_files.py --programs FOLDER [--mutants 40] [--seed 1] [--workers 2]
+  tests/fuzz/files/hostile_files.py --programs FOLDER [--mutants 40] [--seed 1] [--workers 2]
                               [--samples FOLDER] [--only TEXT] [--without TEXT ...] [--keep FOLDER]
                               [--forked]
 

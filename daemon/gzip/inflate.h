@@ -7,9 +7,9 @@
 
 #include "daemon/base/result.h"
 
-namespace camway::scene::inventor {
+namespace camway::gzip {
 
-/// Largest scene that a compressed file may hold, in bytes: a file of 1 MB can hold 1 GB.
+/// The most bytes that a compressed file may hold: one of 1 MB can hold 1 GB.
 inline constexpr std::size_t kMostInflatedBytes = std::size_t{1} << 30;
 
 /// Whether the bytes begin as gzip does (RFC 1952).
@@ -19,4 +19,4 @@ bool is_gzip(std::string_view bytes);
 base::Result<std::string> inflated(std::string_view bytes,
                                    std::size_t most_bytes = kMostInflatedBytes);
 
-}  // namespace camway::scene::inventor
+}  // namespace camway::gzip

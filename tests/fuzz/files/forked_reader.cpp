@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/forked_reader.h"
+#include "tests/fuzz/files/forked_reader.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
