@@ -10,11 +10,13 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement, in spacings; none changes what is proved.
-constexpr double kOnePeak = 0.8;     // longest time that one knot covers
-constexpr double kNearest = 0.5;     // least distance of a knot inside from a keyframe
-constexpr double kBeyond = 1.3;      // a keyframe that is nearer is crossed
-constexpr double kStretched = 2.6;   // a keyframe that is nearer is the end of the row
-constexpr double kMostPeaks = 12.0;  // knots in the time itself
+constexpr double kOnePeak = 0.8;      // longest time that one knot covers
+constexpr double kNearest = 0.5;      // least distance of a knot inside from a keyframe
+constexpr double kBeyond = 1.3;       // a keyframe that is nearer is crossed
+constexpr double kStretched = 2.6;    // a keyframe that is nearer is the end of the row
+constexpr double kMostPeaks = 12.0;   // knots in the time itself
+constexpr double kInner = 1.3;        // the step beside the outermost peak
+constexpr double kOuter = 1.0 / 3.0;  // step at an open end of a row, as a share of the one before
 
 /// Two knots before `at_s`, from the far one: `room_s` is the time to the keyframe there. Works
 /// backwards in time as well, with `direction` -1 for knots before and 1 for knots after.
@@ -23,9 +25,11 @@ struct Side {
   double spacing_s;
 
   void add_two(double at_s, double room_s, std::vector<double>& knots_s) const {
-    const double step_s = room_s < kStretched * spacing_s ? 0.5 * room_s : spacing_s;
+    const bool ends_at_keyframe = room_s < kStretched * spacing_s;
+    const double step_s = ends_at_keyframe ? 0.5 * room_s : kInner * spacing_s;
+    const double last_step_s = ends_at_keyframe ? step_s : kOuter * step_s;
     knots_s.push_back(at_s + direction * step_s);
-    knots_s.push_back(at_s + direction * 2.0 * step_s);
+    knots_s.push_back(at_s + direction * (step_s + last_step_s));
   }
 
   /// The knots on this side of `at_s`, the nearest first. `keyframe_s`: the keyframe on this side;

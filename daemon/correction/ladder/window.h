@@ -8,9 +8,10 @@ namespace camway::correction {
 
 /// Returns the knots of a short row of bumps about the time from `begin_s` to `end_s`. Knots are
 /// about `spacing_s` apart. At least one is in that time, and two are on either side of it, where
-/// the offset fades out. If a keyframe is near, the row either ends at the keyframe, or has a knot
-/// there and continues beyond, so that the path may change its slope at the keyframe. Every
-/// keyframe within the row is at a knot.
+/// the offset fades out; the outermost step is short, so that the row accelerates less and ends
+/// sooner. If a keyframe is near, the row either ends at the keyframe, or has a knot there and
+/// continues beyond, so that the path may change its slope at the keyframe. Every keyframe within
+/// the row is at a knot.
 ///
 /// Requires that the time lies within the interval `problem.leg` between keyframes.
 /// [Limit: 0 < spacing_s]

@@ -31,6 +31,8 @@ constexpr double kDistrust = 0.3;
 constexpr double kHorizon = 0.7;       // largest gap that is measured; `kSafest` adds kComfort
 constexpr double kSettled = 0.05;      // a step that moves the body less is the last
 constexpr double kGained = 0.01;       // share of the objective: a step that gains less is the last
+constexpr double kGentler = 1.5;       // weight of acceleration in steps, relative to the cost
+constexpr double kGentlerRoom = 1.25;  // the same in steps that make room
 constexpr double kPriceOfRoom = 1.25;  // largest growth of the cost for wider gaps
 constexpr int kMostCuts = 3;           // attempts at a step, each with more contacts
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
@@ -47,6 +49,13 @@ double lever_of(Objective objective, const FreeSpace& space) {
   const double radius_m = space.ball_radius_m();
   if (objective != Objective::kClosest) return radius_m;
   return std::max(radius_m, space.closeness().turn_lever_m);
+}
+
+/// The scale of the form that steps minimise. It weighs acceleration more than the cost does: near
+/// its minimum the cost hardly changes, but the acceleration does.
+Closeness scale_of_steps(Closeness closeness, bool makes_room) {
+  closeness.acceleration_m_per_s2 /= std::sqrt(makes_room ? kGentlerRoom : kGentler);
+  return closeness;
 }
 
 /// The improvement as far as the space permits it.
@@ -69,7 +78,8 @@ class Relaxation {
         closeness_(space.closeness()),
         free_(problem, offsets.knots, ends),
         variables_(free_.variables_of(offsets, lever_m_)),
-        form_(problem, free_, objective_, lever_m_, closeness_, variables_),
+        form_(problem, free_, objective_, lever_m_, scale_of_steps(closeness_, makes_room_),
+              variables_),
         minimum_(form_, limited(improvement, space), radius_m_,
                  space.closeness().viewing_distance_m),
         probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)) {

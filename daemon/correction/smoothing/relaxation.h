@@ -24,6 +24,8 @@ struct Relaxed {
 /// objective subject to linearised contacts, but no farther than the body is free at sampled times.
 /// Deviation: the path is free from the start and stays so, so contacts are constraints of the
 /// steps instead of penalties; only `kSafest` also penalises missing gaps (`ContactBounds`).
+/// Steps towards the closest path weigh acceleration more than the cost does, which decides what is
+/// accepted.
 ///
 /// The result is proved. If the path collides between the samples, a sample is added there and the
 /// change is reverted as far as needed. Returns `free` if no proof succeeds or the objective became

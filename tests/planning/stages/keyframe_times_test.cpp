@@ -193,6 +193,8 @@ TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
   for (const double gap_s : {2e-4, 1e-3, 0.1, 100.0, 1e4}) {
     testing::Random random(73);
     Tally tally;
+    double even_sum = 0.0;
+    double sum = 0.0;
     for (int run = 0; run < 5; ++run) {
       SCOPED_TRACE(::testing::Message() << "gap " << gap_s << ", " << run);
       PlanRequest request = tour(random);
@@ -202,9 +204,11 @@ TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
       const PlanResult result = planned(*scene, request);
       const double scale = request.keyframes[1].time_s - request.keyframes[0].time_s;
       look_at(request, result, scale, tally);
-      EXPECT_LT(scale * scale * result.measures->largest_acceleration_m_per_s2,
-                1.5 * even.measures->largest_acceleration_m_per_s2);
+      even_sum += even.measures->largest_acceleration_m_per_s2;
+      sum += scale * scale * result.measures->largest_acceleration_m_per_s2;
     }
+    // As above: a single search may have another result.
+    EXPECT_LT(sum, 1.25 * even_sum) << gap_s;
     EXPECT_GE(tally.corrected, 3);
   }
 }
