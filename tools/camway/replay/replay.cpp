@@ -38,6 +38,11 @@ ExitCode run_replay(const ReplayFlags& flags) {
   if (!flags.log.empty() && compares_logs) {
     return invalid_replay(flags.log + ": --baseline and --against name the logs");
   }
+  const bool has_scenes = !flags.sources.scenes.empty() || !flags.sources.roots.empty();
+  if (compares_logs && has_scenes && flags.reports.html.empty()) {
+    return invalid_replay(
+        "--scene and --root: with --baseline nothing is planned; only pictures of --html use them");
+  }
   wire::MessageKeys::ReadResult read;
   if (!flags.key_file.empty()) read = wire::MessageKeys::from_file(flags.key_file);
   if (!read.error.empty()) return invalid_replay("--key-file " + read.error);
@@ -129,9 +134,10 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
           "and then not drawn [16]")
       ->check(cli_support::whole_number(1, 1000))
       ->needs(html);
-  command.add_flag("--no-timing", flags.no_timing,
-                   "Leave times out of reports and responses, so that two runs compare byte by "
-                   "byte");
+  command
+      .add_flag("--no-timing", flags.no_timing,
+                "Leave times out of reports and responses, so that two runs compare byte by byte")
+      ->excludes(command.get_option("--slower-than"));
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
@@ -165,6 +171,10 @@ void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
           ->type_name("LOG")
           ->needs(against);
   against->needs(baseline);
+  // Nothing is planned.
+  for (const char* planning : {"--threads", "--least-deadline-s", "--responses"}) {
+    baseline->excludes(command.get_option(planning));
+  }
   CLI::Option* const build =
       command
           .add_option("--baseline-build", flags.baseline_build,
@@ -247,8 +257,9 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
       exit_code_help("an answer has a verdict of --fail-on (with --publish: a request was not "
                      "answered, or a change not made)") +
       " With --publish also 4: no daemon was heard."
-      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has such a "
-      "verdict."
+      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has a "
+      "verdict of "
+      "--fail-on."
       "\nExample: camway replay session.lcmlog --scene office=scenes/office.obj --threads 4");
   command->callback([flags, &exit_code] { exit_code = run_replay(*flags); });
 }
