@@ -29,6 +29,8 @@ using Clock = Publisher::Clock;
 
 /// Most requests and changes that are named as unanswered.
 constexpr std::size_t kMostNamed = 5;
+/// Time within which a daemon is heard: more than two of its heartbeats.
+constexpr std::chrono::milliseconds kHeartbeat{2500};
 
 Clock::duration seconds(double value) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
@@ -116,6 +118,7 @@ bool send_all(const PublishedSession& session, const PublishOptions& options,
   }
   publisher.listen_until(Clock::now() + seconds(options.wait_s),
                          [&] { return publisher.are_all_answered(); });
+  publisher.listen_until(Clock::now() + kHeartbeat, [&] { return publisher.is_heard(); });
   return true;
 }
 
@@ -155,8 +158,7 @@ std::string named(const std::vector<RequestKey>& requests) {
 ExitCode print_failures(const PublishOptions& options, const PublishTally& tally) {
   if (tally.unanswered.empty() && tally.unmade.empty()) return ExitCode::kSuccess;
   if (!tally.is_heard) {
-    print_error(fmt::format("no daemon was heard on {}_* within {:g} s after the last message",
-                            options.prefix, options.wait_s));
+    print_error(fmt::format("no daemon was heard on {}_*", options.prefix));
     return ExitCode::kNoDaemon;
   }
   for (std::size_t i = 0; i < std::min(tally.unmade.size(), kMostNamed); ++i) {

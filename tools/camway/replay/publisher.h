@@ -73,6 +73,7 @@ class Publisher {
   /// was sent.
   [[nodiscard]] bool is_last_answered() const;
   [[nodiscard]] bool are_all_answered() const { return answers_.size() == asked_.size(); }
+  [[nodiscard]] bool is_heard() const { return is_heard_; }
   [[nodiscard]] PublishTally tally() const;
 
  private:

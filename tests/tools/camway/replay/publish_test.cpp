@@ -287,7 +287,7 @@ TEST_F(Publish, EndsWithFourWhenNobodyAnswers) {
   const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0", "--wait-s", "0.2"});
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_THAT(run.out, HasSubstr("0 of 6 planning requests answered"));
-  EXPECT_THAT(run.err, HasSubstr("no daemon was heard on CAMWAY_* within 0.2 s"));
+  EXPECT_THAT(run.err, HasSubstr("no daemon was heard on CAMWAY_*"));
   EXPECT_EQ(listener.received(8).size(), 8U);
 }
 
