@@ -90,6 +90,7 @@ bool BlobFolder::touch(const scene::BlobId& id) const {
 base::Result<scene::Bytes> BlobFolder::get(const scene::BlobId& id) const {
   const fs::path file = file_of(id);
   std::error_code error;
+  if (!fs::exists(file, error)) return base::Failure{file.string() + ": is missing"};
   const std::uintmax_t size = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream) return base::Failure{file.string() + ": cannot be read"};

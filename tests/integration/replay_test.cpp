@@ -93,5 +93,35 @@ TEST_F(ReplayTest, ReplayIsBitIdenticalForAnyNumberOfThreads) {
   EXPECT_EQ(compared, 5u);
 }
 
+TEST_F(ReplayTest, APublishedSessionChangesTheScenesOfAnotherDaemon) {
+  start_daemon_with_scenes({"office=" + scene_file("office")}, {"--record", file("recorded")});
+  std::string digest;
+  {
+    Client client(patient());
+    SceneMesh mesh = long_mesh(300'000);  // an upload of several pages
+    Pose pose;
+    ASSERT_TRUE(client.put_object("office", "crate", mesh, pose).ok());
+    pose.position_m = {30.0, 0.0, 0.0};
+    const SceneAnswer moved = client.move_object("office", "crate", pose);
+    ASSERT_TRUE(moved.ok()) << moved.message;
+    digest = moved.scene.digest;
+  }
+  daemon().signal(SIGTERM);
+  ASSERT_EQ(daemon().wait(), 0) << daemon().output();
+
+  start_daemon_with_scenes({"office=" + scene_file("office")});
+  for (const std::string turn : {"first", "second"}) {
+    Process publish(
+        {CAMWAY_BINARY, "replay", file("recorded"), "--publish", "--speed", "0", "--wait-s", "60"},
+        file("publish-" + turn + ".log"));
+    EXPECT_EQ(publish.wait(), 0) << publish.output();
+    EXPECT_THAT(publish.output(), HasSubstr("2 of 2 changes of scenes made"));
+  }
+  Client client(patient());
+  const SceneAnswer scene = client.describe_scene("office");
+  EXPECT_EQ(scene.scene.digest, digest);
+  EXPECT_EQ(scene.scene.revision, 5U) << "of the file, and twice a mesh and its move";
+}
+
 }  // namespace
 }  // namespace camway::integration

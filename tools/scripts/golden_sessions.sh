@@ -8,7 +8,8 @@
 #
 #   --update  records the sessions anew from a daemon in a private network namespace, shows what changed
 #             against the old ones, and replaces those that changed
-#   --bin     where camway and camwayd are (build/release/bin, else build/dev/bin, else where PATH says)
+#   --bin     where camway and camwayd are (the newer of build/release/bin and build/dev/bin, else where PATH
+#             says)
 #   SESSION   only these, by their names without .lcmlog and .camway-session
 #
 # Exit code: 0 all answers are the same within the tolerances, or --update recorded the sessions; 3 an
@@ -45,12 +46,20 @@ while [[ $# -gt 0 ]]; do
 done
 
 if [[ -z $bin ]]; then
+  # The newer one: a stale build would answer for code that it does not have.
   for folder in "$root/build/release/bin" "$root/build/dev/bin"; do
-    [[ -z $bin && -x $folder/camwayd ]] && bin=$folder
+    [[ -x $folder/camway && -x $folder/camwayd ]] || continue
+    [[ -n $bin && ! $folder/camway -nt $bin/camway ]] || bin=$folder
   done
 fi
 camway=${bin:+$bin/}camway
 camwayd=${bin:+$bin/}camwayd
+
+say_binary() {
+  local program
+  program=$(command -v "$camway") || fail "$camway: there is no such program"
+  say "$program: $("$program" --version)"
+}
 
 # The scenes by their names in the sessions.
 scene_flags() {
@@ -267,6 +276,7 @@ check_all() {
 for session in "${wanted[@]}"; do
   [[ -n $(requests_of "$session") ]] || { say "$session: is no session; they are: $(all_sessions | paste -sd ' ')" >&2 && exit 2; }
 done
+say_binary
 $update || check_all
 mkdir -p "$sessions"
 [[ -n ${CAMWAY_NETNS:-} ]] ||

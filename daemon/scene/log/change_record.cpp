@@ -299,7 +299,7 @@ base::Result<ChangeRecord> change_record_from(const Bytes& bytes) {
 }
 
 base::Failure damaged_scene(const std::string& name, const std::string& reason) {
-  return {"scene '" + name + "' is damaged in the log: " + reason};
+  return {"scene '" + name + "' is not whole in the log: " + reason};
 }
 
 base::Result<RecordedScene> recorded_scene_of(const LoggedScene& logged) {

@@ -18,25 +18,29 @@ int compare(double now, double before, double least, bool more_is_better) {
   return gain < -margin ? -1 : 0;
 }
 
-int compare(const path_measures_t& now, const path_measures_t& before, std::int8_t objective) {
-  const auto less = [&](double path_measures_t::*measure, double least) {
-    return compare(now.*measure, before.*measure, least, false);
+QualityGain gain_of(const path_measures_t& now, const path_measures_t& before,
+                    std::int8_t objective) {
+  const auto less = [&](std::string_view what, std::string_view unit,
+                        double path_measures_t::*measure, double least) {
+    const int sign = compare(now.*measure, before.*measure, least, false);
+    return QualityGain{sign, what, unit, before.*measure, now.*measure, true};
   };
   switch (objective) {
     case plan_request_t::SHORTEST:
-      return less(&path_measures_t::length_m, kBetterLength_m);
+      return less("length", " m", &path_measures_t::length_m, kBetterLength_m);
     case plan_request_t::SMOOTHEST:
-      return less(&path_measures_t::bending_energy_m2_per_s3, 0.0);
+      return less("bending energy", " m^2/s^3", &path_measures_t::bending_energy_m2_per_s3, 0.0);
     case plan_request_t::SAFEST: {
-      const int safer = compare(now.clearance_lower_bound_m, before.clearance_lower_bound_m,
-                                kBetterLength_m, true);
-      if (safer != 0) return safer;
+      const double before_m = before.clearance_lower_bound_m;
+      const double now_m = now.clearance_lower_bound_m;
+      const int safer = compare(now_m, before_m, kBetterLength_m, true);
+      if (safer != 0) return {safer, "clearance", " m", before_m, now_m, true};
       break;
     }
     default:
       break;
   }
-  return less(&path_measures_t::largest_deviation_m, kBetterLength_m);
+  return less("deviation", " m", &path_measures_t::largest_deviation_m, kBetterLength_m);
 }
 
 }  // namespace
@@ -51,15 +55,22 @@ AnswerQuality AnswerQuality::of(const plan_response_t& answer) {
   return quality;
 }
 
-bool is_better(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective) {
+QualityGain gain_of(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective) {
   if (now.repaired_keyframes != before.repaired_keyframes) {
-    return now.repaired_keyframes < before.repaired_keyframes;
+    const bool is_fewer = now.repaired_keyframes < before.repaired_keyframes;
+    return {is_fewer ? 1 : -1, "repaired keyframes", "", double(before.repaired_keyframes),
+            double(now.repaired_keyframes)};
   }
   const int larger = compare(now.near_scale, before.near_scale, 0.0, true);
-  if (larger != 0) return larger > 0;
+  if (larger != 0)
+    return {larger, "share of the near distance", "", before.near_scale, now.near_scale};
   const int faster = compare(now.time_scale, before.time_scale, 0.0, false);
-  if (faster != 0) return faster > 0;
-  return compare(now.measures, before.measures, objective) > 0;
+  if (faster != 0) return {faster, "slowing", " times", before.time_scale, now.time_scale};
+  return gain_of(now.measures, before.measures, objective);
+}
+
+bool is_better(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective) {
+  return gain_of(now, before, objective).sign > 0;
 }
 
 }  // namespace camway::service

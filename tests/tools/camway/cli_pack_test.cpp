@@ -53,7 +53,7 @@ TEST_F(CliPack, KeepsTheSelectedRequestsAndWhatTheyNeed) {
   EXPECT_THAT(run.out, HasSubstr(": 3 files, "));  // the log, the wall, and this list
   const CliRun replay = run_camway({"replay", pack_});
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
-  EXPECT_THAT(replay.out, AllOf(HasSubstr("1 requests: 1 same"),
+  EXPECT_THAT(replay.out, AllOf(HasSubstr("1 request: 1 same"),
                                 HasSubstr("note: left out of the pack: 2 of 3 requests"),
                                 HasSubstr("not selected for the pack")));
   EXPECT_THAT(run_camway({"session", pack_}).out, HasSubstr("left out   2 of 3 requests"));
@@ -123,7 +123,7 @@ TEST_F(CliPack, ASelectionOfAPlainLogHasItsTimesAndScenes) {
   const std::string head = row.substr(0, row.find('\n') + 1);
   EXPECT_THAT(table, HasSubstr(row.substr(head.size())));
   EXPECT_GT(row.size(), head.size());
-  EXPECT_THAT(run_camway({"replay", pack_}).out, HasSubstr("1 requests: 1 same"));
+  EXPECT_THAT(run_camway({"replay", pack_}).out, HasSubstr("1 request: 1 same"));
 }
 
 TEST_F(CliPack, UnpacksNoMoreThanItMay) {

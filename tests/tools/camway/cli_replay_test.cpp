@@ -50,6 +50,41 @@ TEST(CliReplayLog, ShowsABodyAndItsWitnesses) {
   EXPECT_THAT(text, HasSubstr("\"feature\": \"surface\""));
 }
 
+/// A recording in our maze, unpacked, whose contents of scenes are gone.
+class CliReplayWithoutContents : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string pack = std::string(CAMWAY_SCENES_FOLDER) + "/sessions/live.camway-session";
+    EXPECT_EQ(run_camway({"unpack", pack, recorded_}).exit_code, 0);
+    EXPECT_GT(std::filesystem::remove_all(recorded_ + "/blobs"), 0U);
+    std::filesystem::create_directory(root_);
+  }
+
+  TemporaryFolder folder_;
+  const std::string recorded_ = folder_.file("recorded");
+  const std::string root_ = folder_.file("root");
+};
+
+TEST_F(CliReplayWithoutContents, SaysThatTheyAreMissingAndTakesThemFromRoots) {
+  const CliRun none = run_camway({"replay", recorded_, "--tolerance-m", "1e-4"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.out, HasSubstr(": is missing"));
+  EXPECT_THAT(none.out, Not(HasSubstr("damaged")));
+  std::filesystem::copy(std::string(CAMWAY_SCENES_FOLDER) + "/maze.obj", root_);
+  const CliRun found = run_camway({"replay", recorded_, "--root", root_, "--tolerance-m", "1e-4"});
+  EXPECT_EQ(found.exit_code, 2) << "those in the changed scene are not compared";
+  EXPECT_THAT(found.out, HasSubstr("4 requests: 2 same")) << found.err;
+}
+
+TEST_F(CliReplayWithoutContents, SaysThatNoFileOfAPlainLogIsBelowTheRoot) {
+  const std::string log = std::string(CAMWAY_SCENES_FOLDER) + "/sessions/maze.lcmlog";
+  const CliRun run = run_camway({"replay", log, "--root", root_});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err,
+              HasSubstr("asks for the scene 'maze': no file below " + root_ + " has its digest "));
+  EXPECT_THAT(run.err, HasSubstr("add --scene maze=FILE with the options of the daemon's scene"));
+}
+
 /// Logs of four requests past an obstacle: the first has the answer that this build gives, the
 /// second the path of the first, the third a worse status, the fourth none.
 class CliReplayCompare : public ::testing::Test {
@@ -131,6 +166,34 @@ TEST_F(CliReplayCompare, WritesReports) {
   EXPECT_EQ(read_all(json), read_all(folder_.file("again.json")));
   EXPECT_EQ(page, read_all(folder_.file("again.html")));
   EXPECT_EQ(replay({"--json", folder_.file("nowhere/report.json")}).exit_code, 2);
+}
+
+TEST_F(CliReplayCompare, WritesNoReportOverItsInputOrToStandardOutput) {
+  for (const std::string flag : {"--json", "--html"}) {
+    const CliRun over = replay({flag, file_});
+    EXPECT_EQ(over.exit_code, 2);
+    EXPECT_THAT(over.err, HasSubstr(file_ + ": is read, so it is not written"));
+    EXPECT_EQ(replay({flag, "-"}).exit_code, 2);
+  }
+  EXPECT_EQ(read_all(file_), log_.bytes());
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST_F(CliReplayCompare, RefusesOptionsWithoutEffect) {
+  const std::vector<std::string> logs{"replay", "--baseline", truth_, "--against", file_};
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = logs;
+    words.insert(words.end(), more.begin(), more.end());
+    return run_camway(words);
+  };
+  EXPECT_THAT(compare({"--threads", "2"}).err, HasSubstr("--threads"));
+  const CliRun scene = compare({"--scene", "wall=" + scene_});
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_THAT(scene.err, HasSubstr("only pictures of --html use them"));
+  EXPECT_EQ(replay({"--no-timing", "--slower-than", "2"}).exit_code, 2);
+  const CliRun backwards = replay({"--from", "5", "--to", "1"});
+  EXPECT_EQ(backwards.exit_code, 2);
+  EXPECT_THAT(backwards.err, HasSubstr("--from is after --to, so no request is selected"));
 }
 
 TEST_F(CliReplayCompare, ComparesTwoLogsWithoutPlanning) {

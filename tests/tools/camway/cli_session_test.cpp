@@ -92,6 +92,17 @@ TEST_F(CliSession, WritesATableWithALineForEachRequest) {
   EXPECT_LT(std::stod(column("received_s")[1]), std::stod(column("answered_s")[1]));
 }
 
+TEST_F(CliSession, NamesTheClientsWithTheMostRequests) {
+  LogBuilder log;
+  for (int i = 0; i < 20; ++i) {
+    log.add_request(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c" + std::to_string(i), 1, 0});
+  }
+  log.add_request(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c9", 2, 0});
+  const CliRun run = run_camway({"session", folder_.write("s.lcmlog", log.bytes())});
+  EXPECT_THAT(run.out, HasSubstr("clients    2 c9, 1 c0, "));
+  EXPECT_THAT(run.out, HasSubstr(", and 8 more\n"));
+}
+
 TEST_F(CliSession, SumsUp) {
   const std::string file = folder_.write("s.lcmlog", session().bytes());
   const CliRun run = run_camway({"session", file});
@@ -115,6 +126,8 @@ TEST_F(CliSession, ReadsADamagedLogUpToTheDamage) {
 
 TEST_F(CliSession, WritesMcap) {
   const std::string file = folder_.write("s.lcmlog", session().bytes());
+  EXPECT_EQ(run_camway({"session", file, "--mcap", "-"}).exit_code, 2);
+  EXPECT_EQ(run_camway({"session", file, "--mcap", file}).exit_code, 2) << "it is read";
   const CliRun run = run_camway({"session", file, "--mcap", folder_.file("s.mcap")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string bytes = read_all(folder_.file("s.mcap"));

@@ -81,6 +81,16 @@ TEST(OutputFile, SaysWhichFolderIsNotThere) {
               AllOf(HasSubstr("/nowhere/answer.json"), HasSubstr("No such file")));
 }
 
+TEST(OutputFile, StandardOutputAndInputsAreNone) {
+  const camway::testing::TemporaryFolder folder;
+  const std::string input = folder.write("input", "text");
+  EXPECT_NE(why_unwritable("-"), "");
+  EXPECT_NE(why_no_output("-", {}), "");
+  EXPECT_NE(why_no_output(input, {"", input}), "");
+  EXPECT_NE(why_no_output(folder.path() / "./input", {input}), "");
+  EXPECT_EQ(why_no_output(folder.path() / "output", {"", input}), "");
+}
+
 TEST(OutputFile, ALinkStaysOne) {
   const camway::testing::TemporaryFolder folder;
   const fs::path link = folder.path() / "link";

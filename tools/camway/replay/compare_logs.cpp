@@ -9,7 +9,7 @@ ExitCode compare_logs(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::optional<OpenedSession> then = open_session(flags.baseline, flags, keys);
   std::optional<OpenedSession> now = open_session(flags.against, flags, keys);
   if (!then || !now) return ExitCode::kInvalidInput;
-  if (const std::string fault = why_unwritable(flags.reports); !fault.empty()) {
+  if (const std::string fault = why_unwritable(flags.reports, flags.inputs()); !fault.empty()) {
     return invalid_replay(fault);
   }
   // Only pictures show scenes.

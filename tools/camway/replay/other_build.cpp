@@ -135,7 +135,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
   const std::optional<OpenedSession> opened = open_session(flags.log, flags, keys);
   if (!opened) return ExitCode::kInvalidInput;
   const Session& session = opened->session;
-  if (const std::string fault = why_unwritable(flags.reports); !fault.empty()) {
+  if (const std::string fault = why_unwritable(flags.reports, flags.inputs()); !fault.empty()) {
     return invalid_replay(fault);
   }
   const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags, keys);
@@ -158,6 +158,7 @@ ExitCode compare_builds(const ReplayFlags& flags, const wire::MessageKeys* keys)
     if (!answer) return invalid_replay(answer.error);
     item.now = std::move(*answer.value);
     static_cast<Judgement&>(item) = judge(requests[i], answers_of(item), flags.run.thresholds);
+    name_remedy(item);
   }
   ReportHead head{
       .title = flags.log, .then = "the other build", .now = "this build", .times = flags.times()};

@@ -19,8 +19,9 @@ struct ReportFiles {
   PageOptions page;
 };
 
-/// Returns why a report could not be written; empty if it could. Asked before long work.
-std::string why_unwritable(const ReportFiles& files);
+/// Returns why a report could not be written; empty if it could. Asked before long work. It must
+/// not replace one of the `inputs`.
+std::string why_unwritable(const ReportFiles& files, const std::vector<std::string>& inputs);
 
 /// Prints the table, writes the files, and prints what the page lacks. Returns an error that names
 /// the file; empty on success.

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "tools/camway/common/commands.h"
+#include "tools/camway/replay/published_session.h"
 
 namespace camway::tools {
 
@@ -22,17 +20,19 @@ struct PublishOptions {
   /// Whether to send each request when the one before is answered, or after `wait_s`; then `speed`
   /// does not count.
   bool lockstep = false;
-  /// Number of times to send all. From the second time on requests have new ids, because a daemon
-  /// has the answers to the old ones. [Limit: 1 <= value]
+  /// Number of times to send all, each time with new ids. [Limit: 1 <= value]
   int times = 1;
-  /// Clients and ids of the planning requests to send, and no occupancy requests; all if unset.
-  std::optional<std::set<std::pair<std::string, std::int64_t>>> wanted = {};
+  /// The planning requests to send, and nothing else; all messages if unset.
+  std::optional<RequestKeys> wanted = {};
 };
 
-/// Sends the planning and occupancy requests of `log` to a running daemon, the first time with the
-/// same bytes, with the recorded pauses, and counts the planning requests that are answered.
-/// Returns kNegative unless all are. Recorded signatures are stale, so requests are taken out of
-/// their envelopes. With `keys`, only requests with a valid signature are sent, signed anew.
+/// Sends the requests for planning and for occupancy of `log`, and its changes of scenes, to a
+/// running daemon, with the recorded pauses, and counts the answers by status. All ids are new to
+/// the daemon, which would repeat its answers to the recorded ones, and `least_revision` is 0;
+/// else the requests are as recorded. Returns kNoDaemon if none was heard, and kNegative if a
+/// planning request is not answered or a change is not made. Recorded signatures are stale, so
+/// requests are taken out of their envelopes. With `keys`, only requests with a valid signature are
+/// sent, signed anew.
 ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
                      std::shared_ptr<const wire::MessageKeys> keys);
 

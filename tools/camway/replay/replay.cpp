@@ -38,6 +38,11 @@ ExitCode run_replay(const ReplayFlags& flags) {
   if (!flags.log.empty() && compares_logs) {
     return invalid_replay(flags.log + ": --baseline and --against name the logs");
   }
+  const bool has_scenes = !flags.sources.scenes.empty() || !flags.sources.roots.empty();
+  if (compares_logs && has_scenes && flags.reports.html.empty()) {
+    return invalid_replay(
+        "--scene and --root: with --baseline nothing is planned; only pictures of --html use them");
+  }
   wire::MessageKeys::ReadResult read;
   if (!flags.key_file.empty()) read = wire::MessageKeys::from_file(flags.key_file);
   if (!read.error.empty()) return invalid_replay("--key-file " + read.error);
@@ -129,9 +134,10 @@ void add_report_flags(CLI::App& command, ReplayFlags& flags) {
           "and then not drawn [16]")
       ->check(cli_support::whole_number(1, 1000))
       ->needs(html);
-  command.add_flag("--no-timing", flags.no_timing,
-                   "Leave times out of reports and responses, so that two runs compare byte by "
-                   "byte");
+  command
+      .add_flag("--no-timing", flags.no_timing,
+                "Leave times out of reports and responses, so that two runs compare byte by byte")
+      ->excludes(command.get_option("--slower-than"));
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
@@ -165,6 +171,10 @@ void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
           ->type_name("LOG")
           ->needs(against);
   against->needs(baseline);
+  // Nothing is planned.
+  for (const char* planning : {"--threads", "--least-deadline-s", "--responses"}) {
+    baseline->excludes(command.get_option(planning));
+  }
   CLI::Option* const build =
       command
           .add_option("--baseline-build", flags.baseline_build,
@@ -181,8 +191,13 @@ void add_mode_flags(CLI::App& command, ReplayFlags& flags) {
 void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
   CLI::Option* publish = command.add_flag(
       "--publish", flags.publish,
-      "Send the recorded requests to a running daemon instead of planning them here");
-  for (const char* other : {"--baseline", "--baseline-build", "--step"}) {
+      "Send the recorded requests and changes of scenes to a running daemon instead of planning "
+      "them here");
+  // The options of planning here and of its reports.
+  for (const char* other :
+       {"--baseline", "--baseline-build", "--step", "--scene", "--root", "--threads",
+        "--least-deadline-s", "--responses", "--tolerance-m", "--most-clearance-loss-m",
+        "--longer-than", "--slower-than", "--fail-on", "--json", "--html", "--no-timing"}) {
     publish->excludes(command.get_option(other));
   }
   CLI::Option* const speed =
@@ -194,20 +209,20 @@ void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
           ->capture_default_str();
   command
       .add_flag("--lockstep", flags.publishing.lockstep,
-                "With --publish: send each request when the one before is answered")
+                "With --publish: send each message when the request before is answered")
       ->needs(publish)
       ->excludes(speed);
   command
       .add_option("--times", flags.publishing.times,
-                  "With --publish: send all requests this often; from the second time on with new "
-                  "ids, so that the daemon plans again")
+                  "With --publish: send all this often, each time with new ids, so that the daemon "
+                  "plans again")
       ->check(cli_support::whole_number(1, 1'000'000))
       ->needs(publish)
       ->capture_default_str();
   command
       .add_option("--wait-s", flags.publishing.wait_s,
-                  "With --publish: seconds to wait for answers after the last request; with "
-                  "--lockstep after each")
+                  "With --publish: seconds to wait for answers after the last message, and after "
+                  "each change of a scene; with --lockstep after each request")
       ->check(cli_support::between(0.0, 1e6))
       ->needs(publish)
       ->capture_default_str();
@@ -240,9 +255,11 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   add_publish_flags(*command, *flags);
   command->footer(
       exit_code_help("an answer has a verdict of --fail-on (with --publish: a request was not "
-                     "answered)") +
-      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has such a "
-      "verdict."
+                     "answered, or a change not made)") +
+      " With --publish also 4: no daemon was heard."
+      "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has a "
+      "verdict of "
+      "--fail-on."
       "\nExample: camway replay session.lcmlog --scene office=scenes/office.obj --threads 4");
   command->callback([flags, &exit_code] { exit_code = run_replay(*flags); });
 }

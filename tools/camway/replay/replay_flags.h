@@ -37,6 +37,10 @@ struct ReplayFlags {
   PublishOptions publishing;
   std::string key_file;
 
+  /// The files that are read, but for those of scenes.
+  [[nodiscard]] std::vector<std::string> inputs() const {
+    return {log, baseline, against, key_file};
+  }
   [[nodiscard]] Times times() const { return no_timing ? Times::kHidden : Times::kShown; }
 };
 

@@ -47,7 +47,7 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (!opened) return ExitCode::kInvalidInput;
   const Session& session = opened->session;
   std::string fault = make_responses_dir(flags.responses_dir);
-  if (fault.empty()) fault = why_unwritable(flags.reports);
+  if (fault.empty()) fault = why_unwritable(flags.reports, flags.inputs());
   if (!fault.empty()) return invalid_replay(fault);
   const std::unique_ptr<ReplayScenes> scenes = open_needed_scenes(*opened, flags, keys);
   if (!scenes) return ExitCode::kInvalidInput;

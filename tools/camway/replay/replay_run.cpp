@@ -76,6 +76,10 @@ std::vector<std::size_t> planning_order(const Session& session) {
 
 }  // namespace
 
+void name_remedy(Judgement& judgement) {
+  if (judgement.note == kCutShort) judgement.note += "; --least-deadline-s lengthens deadlines";
+}
+
 ReplayedRequest replay_one(const RecordedRequest& recorded, ReplayScenes& scenes,
                            const ReplayOptions& options) {
   ReplayedRequest replayed;
@@ -93,6 +97,7 @@ ReplayedRequest replay_one(const RecordedRequest& recorded, ReplayScenes& scenes
   answer.status = messages::status_name(answer.result->status);
   if (found.snapshot != nullptr) answer.scene_digest = found.snapshot->digest;
   static_cast<Judgement&>(compared) = judge(recorded, answers_of(compared), options.thresholds);
+  name_remedy(compared);
   return replayed;
 }
 

@@ -30,6 +30,10 @@ struct ReplayOptions {
 ReplayedRequest replay_one(const RecordedRequest& recorded, ReplayScenes& scenes,
                            const ReplayOptions& options);
 
+/// Adds to the reason of a verdict on an answer that was cut short which option of this command
+/// prevents that.
+void name_remedy(Judgement& judgement);
+
 /// Plans every request again, on `options.threads` threads. Element i belongs to request i. The
 /// result except for timing is the same for any number of threads, unless a deadline is reached.
 std::vector<ReplayedRequest> replay(const Session& session, ReplayScenes& scenes,

@@ -96,6 +96,11 @@ bool Selection::wants(const RecordedRequest& request, std::int64_t begin_utime) 
          holds(scenes, request.scene);
 }
 
+bool is_backwards(const Selection& selection, std::int64_t begin_utime) {
+  return selection.from && selection.to &&
+         after_begin_s(*selection.from, begin_utime) > after_begin_s(*selection.to, begin_utime);
+}
+
 std::vector<std::string> words_of(const Selection& selection, std::int64_t begin_utime) {
   std::vector<std::string> words;
   const auto add_time = [&](std::string_view flag, const std::optional<LogTime>& time) {

@@ -42,6 +42,9 @@ struct Selection {
 /// which began at `begin_utime` (`Session`).
 std::vector<std::string> words_of(const Selection& selection, std::int64_t begin_utime);
 
+/// Whether `from` is after `to`, so that no request of a session with this beginning is wanted.
+bool is_backwards(const Selection& selection, std::int64_t begin_utime);
+
 /// The words that `Selection::statuses` may have.
 std::vector<std::string> status_words();
 

@@ -144,7 +144,8 @@ TEST(NatsLost, WhatNobodyHasIsNamedUntilTheNextChangeMakesItNeedless) {
   EXPECT_FALSE(one.log()->is_in_touch());
   {
     FleetProcess refused(emptied.server.url());
-    EXPECT_THAT(refused.error(), HasSubstr("scene 'room' is damaged in the log: object 'crate': "));
+    EXPECT_THAT(refused.error(),
+                HasSubstr("scene 'room' is not whole in the log: object 'crate': "));
     EXPECT_THAT(refused.error(), HasSubstr("Put it again or unload the scene"));
   }
   ASSERT_EQ(put_crate(), "");

@@ -336,8 +336,8 @@ TEST_F(ReplayTest, TellsALogOfAnotherVersionFromADamagedOne) {
   EXPECT_EQ(recorded.malformed, 2U);
   EXPECT_EQ(recorded.other_version, 1U);
   const std::string table = report(recorded, run(recorded), Times::kHidden);
-  EXPECT_THAT(table, HasSubstr("note: 1 messages left out: malformed\n"));
-  EXPECT_THAT(table, HasSubstr("note: 1 messages left out: of another version of the wire types"));
+  EXPECT_THAT(table, HasSubstr("note: 1 message left out: malformed\n"));
+  EXPECT_THAT(table, HasSubstr("note: 1 message left out: of another version of the wire types"));
 }
 
 }  // namespace

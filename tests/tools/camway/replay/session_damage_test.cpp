@@ -157,8 +157,10 @@ TEST_F(SessionDamage, ADamagedOrMissingContentIsNamed) {
       // The last revision needs all of the contents; the one at fault is named, not what follows.
       const FoundScene found = scenes.snapshot_of(session.requests.back());
       EXPECT_TRUE(found.is_damaged);
-      EXPECT_THAT(found.why_not, AllOf(HasSubstr("cannot be rebuilt"),
-                                       HasSubstr(blob.path().filename().string())));
+      EXPECT_THAT(found.why_not,
+                  AllOf(HasSubstr("cannot be rebuilt"), HasSubstr(blob.path().filename().string()),
+                        HasSubstr(is_there ? ": is damaged" : ": is missing"),
+                        Not(HasSubstr(is_there ? "is missing" : "is damaged"))));
       const auto compared = replay_one(session.requests.back(), scenes, {}).compared;
       EXPECT_TRUE(compared.scene_is_damaged);
       const auto first = replay_one(session.requests.front(), whole, {}).compared;

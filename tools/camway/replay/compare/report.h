@@ -33,6 +33,10 @@ struct RequestPicture {
 /// not empty, begins each note.
 std::vector<std::string> notes_of(const Session& session, const std::string& whose = {});
 
+/// Returns the notes of a report: those of `head`, and one on scenes that have changed.
+std::vector<std::string> all_notes(const ReportHead& head,
+                                   const std::vector<ComparedRequest>& compared);
+
 /// Returns the worst verdict in capitals, the number of requests and those of each verdict.
 std::string summary_line(const std::vector<ComparedRequest>& compared);
 

@@ -204,7 +204,7 @@ std::string html_report(const ReportHead& head, const std::vector<ComparedReques
   for (const RequestPicture& picture : parts.pictures) shown.pictures.insert(picture.index);
   std::string out = head_of(head.title, parts) + "<body>\n<h1>" + in_html(head.title) +
                     "</h1>\n<p>" + in_html(summary_line(compared)) + "</p>\n" + chips_of(compared);
-  for (const std::vector<std::string>& notes : {head.notes, parts.notes}) {
+  for (const std::vector<std::string>& notes : {all_notes(head, compared), parts.notes}) {
     for (const std::string& note : notes) out += "<p>Note: " + in_html(note) + "</p>\n";
   }
   out += words_on_views(head, parts) + "<div>" + plots_of(head, rows) + "</div>\n" +

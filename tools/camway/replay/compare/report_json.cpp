@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdint>
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,10 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity: a distance that is none is null, as a missing value.
 Json number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json();
+}
+
+Json whole_number(const std::optional<double>& value) {
+  return value ? Json(static_cast<std::int64_t>(*value)) : Json();
 }
 
 void add_both(Json& into, const std::string& name, const std::string& unit,
@@ -46,7 +51,8 @@ Json json_of(const ComparedRequest& compared, Times times) {
             {"first_difference", json_of(compared.difference)}};
   item["path_m"] = number(row.path_m);
   item["shift_deg"] = number(row.shift_deg);
-  add_both(item, "inserted", "", row.inserted);
+  item["inserted_then"] = whole_number(row.inserted.then);
+  item["inserted_now"] = whole_number(row.inserted.now);
   add_both(item, "clearance", "_m", row.clearance_m);
   add_both(item, "length", "_m", row.length_m);
   add_both(item, "deviation", "_m", row.deviation_m);
@@ -78,7 +84,7 @@ std::string json_report(const ReportHead& head, const std::vector<ComparedReques
                     {"now", head.now},
                     {"thresholds", json_of(head.thresholds)},
                     {"counts", std::move(counts)},
-                    {"notes", head.notes},
+                    {"notes", all_notes(head, compared)},
                     {"requests", std::move(requests)}};
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

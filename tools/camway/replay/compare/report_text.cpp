@@ -6,11 +6,14 @@
 #include <cctype>
 #include <iterator>
 
+#include "daemon/planning/stages/sentences.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/replay/compare/report.h"
 
 namespace camway::tools {
 namespace {
+
+using planning::counted;
 
 /// The verdicts that a summary names, from the best to the worst.
 constexpr std::array kBestToWorst{Verdict::kSame, Verdict::kBetter, Verdict::kDifferent,
@@ -39,9 +42,10 @@ std::string number_or_dash(const std::optional<double>& value, const char* form)
   return value ? fmt::format(fmt::runtime(form), *value) : "-";
 }
 
+/// Adds "3 messages left out: malformed"; nothing for a count of 0.
 void add_note(std::vector<std::string>& notes, const std::string& whose, std::uint64_t count,
-              std::string_view what) {
-  if (count > 0) notes.push_back(fmt::format("{}{} {}", whose, count, what));
+              std::string_view noun, std::string_view rest) {
+  if (count > 0) notes.push_back(fmt::format("{}{} {}", whose, counted(count, noun), rest));
 }
 
 }  // namespace
@@ -50,18 +54,18 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
   std::vector<std::string> notes;
   std::uint64_t repeated = 0;
   for (const RecordedRequest& request : session.requests) repeated += request.sent - 1;
-  const auto add = [&](std::uint64_t count, std::string_view what) {
-    add_note(notes, whose, count, what);
+  const auto add = [&](std::uint64_t count, std::string_view noun, std::string_view rest) {
+    add_note(notes, whose, count, noun, rest);
   };
-  add(repeated, "repetitions of requests, which count once each");
-  add(session.conflicts, "requests left out: their id was used before for another one");
-  add(session.incomplete, "messages left out: a page is missing");
-  add(session.malformed - session.other_version, "messages left out: malformed");
-  add(session.other_version,
-      "messages left out: of another version of the wire types than this camway's");
-  add(session.distrusted, "messages left out: their signature is missing or not good");
-  add(session.unasked, "answers to requests that are not in the log");
-  add(session.damaged_events, "events about the recorded session cannot be read");
+  add(repeated, "repetition", "of requests, which count once each");
+  add(session.conflicts, "request", "left out: the id was used before for another one");
+  add(session.incomplete, "message", "left out: a page is missing");
+  add(session.malformed - session.other_version, "message", "left out: malformed");
+  add(session.other_version, "message",
+      "left out: of another version of the wire types than this camway's");
+  add(session.distrusted, "message", "left out: the signature is missing or not good");
+  add(session.unasked, "answer", "to requests that are not in the log");
+  add(session.damaged_events, "event", "about the recorded session left out: not to be read");
   for (const std::string& each : session.left_out) {
     notes.push_back(fmt::format("{}left out of the pack: {}", whose, each));
   }
@@ -69,15 +73,28 @@ std::vector<std::string> notes_of(const Session& session, const std::string& who
     // As doubles the difference cannot overflow.
     const double seconds =
         (static_cast<double>(omission.to_utime) - static_cast<double>(omission.from_utime)) * 1e-6;
-    notes.push_back(fmt::format(
-        "{}the recording lacks {} messages and {} changes of scenes, within {:.1f} s: {}", whose,
-        omission.messages, omission.changes, seconds, wire::printable(omission.reason)));
+    notes.push_back(fmt::format("{}the recording lacks {} and {} of scenes, within {:.1f} s: {}",
+                                whose, counted(omission.messages, "message"),
+                                counted(omission.changes, "change"), seconds,
+                                wire::printable(omission.reason)));
   }
   if (!session.log.damage.empty()) {
-    notes.push_back(fmt::format("{}the log is damaged: {} good events were used, {} of {} bytes",
-                                whose, session.log.events, session.log.bytes_used,
+    notes.push_back(fmt::format("{}the log is damaged: {} {} used, {} of {} bytes", whose,
+                                counted(session.log.events, "good event"),
+                                session.log.events == 1 ? "was" : "were", session.log.bytes_used,
                                 session.log.bytes));
   }
+  return notes;
+}
+
+std::vector<std::string> all_notes(const ReportHead& head,
+                                   const std::vector<ComparedRequest>& compared) {
+  std::vector<std::string> notes = head.notes;
+  const auto changed =
+      static_cast<std::size_t>(std::ranges::count(compared, true, &ComparedRequest::scene_changed));
+  const std::string_view verb = changed == 1 ? "was" : "were";
+  add_note(notes, {}, changed, "answer",
+           fmt::format("{} computed on other triangles than the scene has now", verb));
   return notes;
 }
 
@@ -89,7 +106,8 @@ std::string summary_line(const std::vector<ComparedRequest>& compared) {
     if (found > 0) worst = in_capitals(base::name_of(verdict));
     counts += fmt::format("{} {}, ", found, base::name_of(verdict));
   }
-  return fmt::format("verdict: {}: {} requests: {}{} not compared", worst, compared.size(), counts,
+  return fmt::format("verdict: {}: {}: {}{} not compared", worst,
+                     counted(compared.size(), "request"), counts,
                      count(compared, Verdict::kNotCompared));
 }
 
@@ -118,11 +136,8 @@ std::string text_report(const ReportHead& head, const std::vector<ComparedReques
   if (head.times == Times::kShown) out += fmt::format(" {:>11} {:>9}", "recorded_ms", "now_ms");
   out += "  verdict\n";
   for (const ComparedRequest& each : compared) out += text_row(row_of(each), head.times);
-  for (const std::string& note : head.notes) out += "note: " + wire::printable(note) + '\n';
-  const auto changed = std::ranges::count(compared, true, &ComparedRequest::scene_changed);
-  if (changed > 0) {
-    out += fmt::format("note: {} answers were computed on other triangles than the scene has now\n",
-                       changed);
+  for (const std::string& note : all_notes(head, compared)) {
+    out += "note: " + wire::printable(note) + '\n';
   }
   return out + summary_line(compared) + '\n';
 }

@@ -77,9 +77,15 @@ double colliding_s(const Message& answer) {
   return sum_s;
 }
 
-/// Returns whether `now` has clearly less time in collision.
-bool collides_less(const Message& now, const Message& then) {
-  return colliding_s(now) < (1.0 - service::kBetterShare) * colliding_s(then);
+/// Returns what decides between two answers without a proof: the time in collision.
+service::QualityGain collision_gain(const Message& now, const Message& then) {
+  const double now_s = colliding_s(now);
+  const double then_s = colliding_s(then);
+  const auto is_less = [](double one_s, double other_s) {
+    return one_s < (1.0 - service::kBetterShare) * other_s;
+  };
+  const int sign = is_less(now_s, then_s) ? 1 : is_less(then_s, now_s) ? -1 : 0;
+  return {sign, "time in collision", " s", then_s, now_s};
 }
 
 /// A verdict with its reason.
@@ -92,7 +98,7 @@ struct Ruling {
 std::optional<Ruling> ruling_by_proof(const AnswerPair& answers) {
   const Message& then = *answers.then->result;
   const Message& now = *answers.now->result;
-  if (is_cut_short(now)) return Ruling{Verdict::kRegressed, "cut short by its deadline"};
+  if (is_cut_short(now)) return Ruling{Verdict::kRegressed, std::string(kCutShort)};
   if (then.status == now.status) {
     if (then.certified == now.certified) return std::nullopt;
     return now.certified != 0 ? Ruling{Verdict::kBetter, "proved free"}
@@ -142,15 +148,19 @@ bool is_within(const Difference& difference, const Message& then, const Message&
 }
 
 /// Judges answers of one status by the measures of their paths.
-Ruling ruling_by_quality(const Message& then, const Message& now, std::int8_t objective) {
-  const auto better = [&](const Message& one, const Message& other) {
-    if (one.certified == 0) return collides_less(one, other);
-    const bool are_measured = one.has_measures != 0 && other.has_measures != 0;
-    return are_measured && service::is_better(service::AnswerQuality::of(one),
-                                              service::AnswerQuality::of(other), objective);
-  };
-  if (better(now, then)) return {Verdict::kBetter, {}};
-  return {better(then, now) ? Verdict::kWorse : Verdict::kDifferent, {}};
+Ruling ruling_by_quality(const Message& then, const Message& now, correction::Objective objective) {
+  service::QualityGain gain;
+  if (then.certified == 0) {
+    gain = collision_gain(now, then);
+  } else if (then.has_measures != 0 && now.has_measures != 0) {
+    gain = service::gain_of(service::AnswerQuality::of(now), service::AnswerQuality::of(then),
+                            static_cast<std::int8_t>(objective));
+  }
+  if (gain.sign == 0) return {Verdict::kDifferent, {}};
+  std::string reason =
+      fmt::format("{} {:.4g} -> {:.4g}{}", gain.what, gain.before, gain.now, gain.unit);
+  if (gain.is_of_objective) reason += fmt::format(" ({})", base::name_of(objective));
+  return {gain.sign > 0 ? Verdict::kBetter : Verdict::kWorse, std::move(reason)};
 }
 
 Ruling ruling_of(const RecordedRequest& recorded, const AnswerPair& answers,
@@ -167,9 +177,8 @@ Ruling ruling_of(const RecordedRequest& recorded, const AnswerPair& answers,
   if (is_within(difference, then, now, thresholds)) {
     return {Verdict::kSame, "within the tolerances"};
   }
-  const auto objective = recorded.request
-                             ? static_cast<std::int8_t>(recorded.request->options.objective)
-                             : plan_request_t::CLOSEST;
+  const auto objective =
+      recorded.request ? recorded.request->options.objective : correction::Objective::kClosest;
   return ruling_by_quality(then, now, objective);
 }
 

@@ -66,6 +66,9 @@ struct AnswerPair {
 Judgement judge(const RecordedRequest& recorded, const AnswerPair& answers,
                 const Thresholds& thresholds);
 
+/// The reason of a verdict on an answer that was cut short.
+inline constexpr std::string_view kCutShort = "cut short by its deadline";
+
 /// Shortest time of planning that can be a regression: below, the machine's noise decides.
 /// [Units: milliseconds]
 inline constexpr double kLeastSlow_ms = 20.0;

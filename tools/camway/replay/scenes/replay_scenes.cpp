@@ -2,6 +2,7 @@
 #include "tools/camway/replay/scenes/replay_scenes.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "lcmtypes/wire/channels.h"
@@ -29,9 +30,15 @@ FoundScene NamedScenes::snapshot_of(const RecordedRequest& request) {
 }
 
 FoundScene SceneChain::snapshot_of(const RecordedRequest& request) {
+  std::optional<FoundScene> fault;
   for (const auto& scenes : all_) {
-    if (scenes->knows(request.scene)) return scenes->snapshot_of(request);
+    if (!scenes->knows(request.scene)) continue;
+    FoundScene found = scenes->snapshot_of(request);
+    if (found.why_not.empty()) return found;
+    // A later source may have what is missing or damaged in this one.
+    if (!fault) fault = std::move(found);
   }
+  if (fault) return *std::move(fault);
   if (scene_was_unknown(request)) return {};
   return {nullptr, "scene '" + wire::printable(request.scene) + "' is not in the session", true};
 }

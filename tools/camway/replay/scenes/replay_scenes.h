@@ -50,7 +50,8 @@ class NamedScenes final : public ReplayScenes {
   const Scenes scenes_;
 };
 
-/// Asks several sources, the first that knows a scene of the name. A scene that none knows, and
+/// Asks the sources that know a scene of the name one after the other, until one has it; else the
+/// reason of the first counts. A scene that none knows, and
 /// that the daemon knew, counts as damaged.
 class SceneChain final : public ReplayScenes {
  public:

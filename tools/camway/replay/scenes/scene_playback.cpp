@@ -36,11 +36,6 @@ scene::SceneStoreLimits playback_limits() {
   return limits;
 }
 
-bool changes_scene(const scene_request_t& request) {
-  return !service::is_query(request) && request.operation != scene_request_t::EXPORT &&
-         request.operation != scene_request_t::TRIANGLES;
-}
-
 class Playback {
  public:
   Playback(const std::string& prefix, const wire::MessageKeys* keys, const Scenes& first,
@@ -138,6 +133,11 @@ class Playback {
 };
 
 }  // namespace
+
+bool changes_scene(const scene_request_t& request) {
+  return !service::is_query(request) && request.operation != scene_request_t::EXPORT &&
+         request.operation != scene_request_t::TRIANGLES;
+}
 
 PlayedBack play_back_changes(const Session& session, const std::vector<fs::path>& logs,
                              const std::string& prefix, const wire::MessageKeys* keys,

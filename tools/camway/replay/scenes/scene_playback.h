@@ -5,11 +5,16 @@
 #include <string>
 #include <vector>
 
+#include <camway/scene_request_t.hpp>
+
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "tools/camway/replay/scenes/replay_scenes.h"
 #include "tools/camway/replay/scenes/root_scenes.h"
 
 namespace camway::tools {
+
+/// Returns whether a request asks for a change of a scene, not for a list, a map, or triangles.
+bool changes_scene(const scene_request_t& request);
 
 /// The result of `play_back_changes`.
 struct PlayedBack {

@@ -38,6 +38,12 @@ ExitCode run_session(const SessionFlags& flags) {
   wire::MessageKeys::ReadResult keys;
   if (!flags.key_file.empty()) keys = wire::MessageKeys::from_file(flags.key_file);
   if (!keys.error.empty()) return refuse_session("--key-file " + keys.error);
+  const bool is_printed = flags.csv == "-";
+  for (const std::string& file : {is_printed ? "" : flags.csv, flags.mcap}) {
+    if (file.empty()) continue;
+    const std::string fault = why_no_output(file, {flags.log, flags.key_file});
+    if (!fault.empty()) return refuse_session(fault);
+  }
   // A pack is unpacked until the end of the command.
   const base::Result<SessionFiles> files = SessionFiles::open(flags.log);
   if (!files) return refuse_session(files.error);
@@ -49,7 +55,6 @@ ExitCode run_session(const SessionFlags& flags) {
                                       : ExitCode::kInvalidInput;
   }
   // Standard output is either the table or the summary.
-  const bool is_printed = flags.csv == "-";
   std::string error;
   if (!flags.csv.empty() && !is_printed) error = write_file(flags.csv, session_csv(session));
   if (!flags.mcap.empty() && error.empty()) error = write_file(flags.mcap, session_mcap(session));

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/session/report/answer_columns.h"
@@ -25,13 +28,22 @@ std::string field(const nlohmann::ordered_json& value) {
 
 using Counts = std::map<std::string, std::size_t>;
 
+/// Most names in a line.
+constexpr std::size_t kMostNames = 12;
+
+/// Returns the counts by their names. Of those that are too many for a line, the largest come
+/// first, and the number of the others.
 std::string counts_line(std::string_view title, const Counts& counts) {
-  std::string line = fmt::format("{:<10}", title);
-  for (const auto& [name, count] : counts) {
-    line += fmt::format(" {} {}", count, wire::printable(name));
-    line += ',';
+  std::vector<std::pair<std::string, std::size_t>> order(counts.begin(), counts.end());
+  if (order.size() > kMostNames) {
+    std::ranges::stable_sort(order, std::greater(), [](const auto& each) { return each.second; });
   }
-  if (!counts.empty()) line.pop_back();
+  std::string line = fmt::format("{:<10}", title);
+  for (std::size_t i = 0; i < std::min(order.size(), kMostNames); ++i) {
+    const auto& [name, count] = order[i];
+    line += fmt::format("{} {} {}", i == 0 ? "" : ",", count, wire::printable(name));
+  }
+  if (order.size() > kMostNames) line += fmt::format(", and {} more", order.size() - kMostNames);
   return line + "\n";
 }
 

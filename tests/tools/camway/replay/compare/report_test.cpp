@@ -71,7 +71,7 @@ TEST_F(ReportTest, TextNamesVerdictReasonAndDivergence) {
   EXPECT_THAT(text, HasSubstr("REGRESSED: status ok -> partial; first differs in the path: "
                               "segments 1 -> 0"));
   EXPECT_THAT(text, HasSubstr("0.5 -> -")) << "the clearance";
-  EXPECT_THAT(text, HasSubstr("verdict: REGRESSED: 1 requests: 0 same, 0 better, 0 different, "
+  EXPECT_THAT(text, HasSubstr("verdict: REGRESSED: 1 request: 0 same, 0 better, 0 different, "
                               "0 worse, 1 regressed, 0 not compared"));
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
 }
@@ -98,6 +98,16 @@ TEST_F(ReportTest, JsonHasTheDocumentedMembers) {
   EXPECT_EQ(item["total_then_ms"], 8.0);
   head_.times = Times::kHidden;
   EXPECT_THAT(json_report(head_, compared_), Not(HasSubstr("_ms")));
+}
+
+TEST_F(ReportTest, TextAndJsonHaveTheNoteOnChangedScenesAndWholeNumbers) {
+  compared_[0].scene_changed = true;
+  const std::string note = "1 answer was computed on other triangles than the scene has now";
+  EXPECT_THAT(text_report(head_, compared_), HasSubstr("note: " + note));
+  EXPECT_THAT(html_report(head_, compared_, {}), HasSubstr(note));
+  const auto json = nlohmann::json::parse(json_report(head_, compared_));
+  EXPECT_EQ(json["notes"].back(), note);
+  EXPECT_TRUE(json["requests"][0]["inserted_then"].is_number_integer());
 }
 
 TEST_F(ReportTest, JsonTakesTextThatIsNotUtf8) {

@@ -162,6 +162,34 @@ TEST(ReplayVerdict, NamesTheLimit) {
             "clearance 0.5 -> 0.25 m, length 4 -> 8 m");
 }
 
+TEST(ReplayVerdict, NamesTheMeasureThatDecides) {
+  using correction::Objective;
+  const auto reason = [](const Edit& edit, Objective objective) {
+    const Result then = proved_result();
+    Result now = then;
+    edit(now);
+    return judged(then, now, {}, request_for(objective)).note;
+  };
+  const Edit measures = [](Result& now) {
+    now.measures->length_m = 3.0;
+    now.measures->largest_deviation_m = 0.5;
+    now.measures->bending_energy_m2_per_s3 = 7.0;
+    now.certificate.clearance_lower_bound_m = 0.75;
+  };
+  EXPECT_EQ(reason(measures, Objective::kShortest), "length 4 -> 3 m (shortest)");
+  EXPECT_EQ(reason(measures, Objective::kClosest), "deviation 0 -> 0.5 m (closest)");
+  EXPECT_EQ(reason(measures, Objective::kSmoothest), "bending energy 0 -> 7 m^2/s^3 (smoothest)");
+  EXPECT_EQ(reason([](Result& now) { now.near_scale = 0.5; }, Objective::kShortest),
+            "share of the near distance 1 -> 0.5");
+  Result then = proved_result();
+  then.status = planning::Status::kPartial;
+  then.certificate = {};
+  then.remaining_collisions = {{0.25, 0.5}, {1.0, 1.25}};
+  Result now = then;
+  now.remaining_collisions = {{0.25, 0.5}};
+  EXPECT_EQ(judged(then, now).note, "time in collision 0.5 -> 0.25 s");
+}
+
 TEST(ReplayVerdict, PathsWithinTheTolerancesAreTheSame) {
   const Result then = proved_result();
   Result now = then;
