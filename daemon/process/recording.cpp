@@ -49,7 +49,8 @@ std::string record_metrics(const record::RecordCounts& counts) {
          metric("not_recorded_total", "counter",
                 "Messages and changes of scenes that were left out of the recording.",
                 counts.dropped) +
-         metric("recording_failing", "gauge", "1 if the recording cannot be written at present.",
+         metric("recording_failing", "gauge",
+                "1 if the recording has left out messages or changes within the last half minute.",
                 counts.is_failing ? 1 : 0);
 }
 

@@ -81,6 +81,7 @@ void RecordWriter::keep(const ChangedScene& change) {
 void RecordWriter::skip(const Omission& omission, const SceneMap& scenes) {
   flush();
   trouble_.failed(omission.reason);
+  is_failing_ = trouble_.lasts();
   trouble_.lost(omission.messages, omission.changes);
   note_omission(omission);
   // The changes that were left out are in the scenes only.
@@ -116,7 +117,6 @@ bool RecordWriter::is_ready() {
   if (!begin_events() || !write_events()) return false;
   has_begun_ = true;
   omission_.reset();
-  is_failing_ = false;
   return true;
 }
 
@@ -157,6 +157,7 @@ bool RecordWriter::write_events() {
     recorded_count_ += messages + changes;
     recorded_bytes_ += bytes;
     trouble_.succeeded();
+    is_failing_ = trouble_.lasts();
     return true;
   }
   fail(done);
@@ -184,8 +185,8 @@ void RecordWriter::lose(std::uint64_t messages, std::uint64_t changes, std::int6
 void RecordWriter::fail(const AppendResult& why) {
   retry_at_ = Steady::now() + kRetry;
   fault_ = why.error;
-  is_failing_ = true;
   trouble_.failed(why.error);
+  is_failing_ = trouble_.lasts();
   note_omission({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
 }
 

@@ -35,6 +35,9 @@ class TroubleLog {
   void lost(std::uint64_t messages, std::uint64_t changes);
   /// Notes that all that waited was written.
   void succeeded(Clock::time_point now = Clock::now());
+  /// Returns whether events were lost and the trouble is not over: as the log tells it, not of one
+  /// write. A disk at its limit has room for small events between two that find none.
+  [[nodiscard]] bool lasts() const { return is_trouble_; }
   /// Tells of a trouble that is not over at the end of the recording.
   void finish();
 
