@@ -81,7 +81,6 @@ void RecordWriter::keep(const ChangedScene& change) {
 void RecordWriter::skip(const Omission& omission, const SceneMap& scenes) {
   flush();
   trouble_.failed(omission.reason);
-  is_failing_ = trouble_.lasts();
   trouble_.lost(omission.messages, omission.changes);
   note_omission(omission);
   // The changes that were left out are in the scenes only.
@@ -98,7 +97,7 @@ void RecordWriter::finish() {
 }
 
 RecordCounts RecordWriter::counts() const {
-  return {recorded_count_, recorded_bytes_, lost_, file_count_, is_failing_};
+  return {recorded_count_, recorded_bytes_, lost_, file_count_, trouble_.reason()};
 }
 
 bool RecordWriter::is_ready() {
@@ -157,7 +156,6 @@ bool RecordWriter::write_events() {
     recorded_count_ += messages + changes;
     recorded_bytes_ += bytes;
     trouble_.succeeded();
-    is_failing_ = trouble_.lasts();
     return true;
   }
   fail(done);
@@ -186,7 +184,6 @@ void RecordWriter::fail(const AppendResult& why) {
   retry_at_ = Steady::now() + kRetry;
   fault_ = why.error;
   trouble_.failed(why.error);
-  is_failing_ = trouble_.lasts();
   note_omission({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
 }
 
