@@ -75,7 +75,8 @@ std::int64_t Context::new_request_id() {
 
 Retry Context::retry(Clock::time_point deadline) {
   const Retry::Rules rules{options_.try_timeout_s, options_.backoff, options_.max_try_timeout_s,
-                           options_.jitter,        options_.retries, options_.successor_wait_s};
+                           options_.jitter,        options_.retries, options_.successor_wait_s,
+                           options_.deadline_s};
   return Retry(rules, deadline, next_seed_++);
 }
 

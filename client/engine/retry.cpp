@@ -21,7 +21,7 @@ Clock::duration duration(double seconds) {
 Retry::Action Retry::next(Clock::time_point now) {
   if (send_now_) return send(now);
   if (now >= deadline_) return Action::kDeadline;
-  if (now >= give_up_at_) return Action::kSilence;
+  if (now >= give_up_at()) return Action::kSilence;
   if (has_part_ && asked_missing_ < kMostAsked) {
     if (now < missing_at_) return Action::kWait;
     ++asked_missing_;
@@ -38,6 +38,10 @@ Retry::Action Retry::next(Clock::time_point now) {
 
 Retry::Action Retry::send(Clock::time_point now) {
   send_now_ = life_ = false;
+  // An endless time fits no duration of a clock.
+  if (tries_ == 0 && std::chrono::duration<double>(deadline_ - now).count() > rules_.silence_s) {
+    silent_until_ = now + duration(rules_.silence_s);
+  }
   ++tries_;
   sent_at_ = now;
   std::uniform_real_distribution<double> blur(1.0 - rules_.jitter, 1.0 + rules_.jitter);
@@ -47,7 +51,7 @@ Retry::Action Retry::send(Clock::time_point now) {
 
 Clock::time_point Retry::wake() const {
   const bool asks = has_part_ && asked_missing_ < kMostAsked;
-  return std::min({asks ? missing_at_ : again_at_, deadline_, give_up_at_});
+  return std::min({asks ? missing_at_ : again_at_, deadline_, give_up_at()});
 }
 
 void Retry::note_part(Clock::time_point now) {

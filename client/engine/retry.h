@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <limits>
@@ -19,8 +20,9 @@ using Clock = std::chrono::steady_clock;
 /// - If a part of the answer has come and no more follows, the missing pages are asked for, twice.
 ///   Then the request is repeated.
 /// - It is repeated at once if a heartbeat shows that the daemon started after it was sent.
-/// - It is given up after `retries` repetitions without a sign of life, at the deadline, or if the
-///   daemon announced its end and no other daemon is heard within `successor_wait_s`.
+/// - It is given up after `retries` repetitions without a sign of life, after `silence_s` in which
+///   there was none at all, at the deadline, or if the daemon announced its end and no other daemon
+///   is heard within `successor_wait_s`.
 class Retry {
  public:
   struct Rules {
@@ -31,6 +33,8 @@ class Retry {
     int retries;               ///< repetitions without a sign of life [Limit: 0 <= value]
     /// Time to wait for another daemon after one has announced its end. [Limit: 0 <= value]
     double successor_wait_s = std::numeric_limits<double>::infinity();
+    /// Longest time from the first sending without any sign of life. [Limit: 0 < value]
+    double silence_s = std::numeric_limits<double>::infinity();
   };
 
   Retry(const Rules& rules, Clock::time_point deadline, std::uint64_t seed)
@@ -71,6 +75,9 @@ class Retry {
 
  private:
   Action send(Clock::time_point now);
+  [[nodiscard]] Clock::time_point give_up_at() const {
+    return ever_heard_ ? give_up_at_ : std::min(give_up_at_, silent_until_);
+  }
 
   Rules rules_;
   Clock::time_point deadline_;
@@ -87,6 +94,8 @@ class Retry {
   Clock::time_point again_at_{};
   Clock::time_point missing_at_{};
   Clock::time_point give_up_at_ = Clock::time_point::max();  ///< set when a daemon stops
+  /// End of the request if nobody was ever heard; set when it is first sent.
+  Clock::time_point silent_until_ = Clock::time_point::max();
 };
 
 }  // namespace camway

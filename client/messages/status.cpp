@@ -21,6 +21,8 @@ void convert(const status_t& wire, DaemonStatus& mine) {
   convert_common(wire, mine);
   mine.status = Status::kOk;
   mine.failed_reload = wire::printable(wire.failed_reload);
+  mine.recording_folder = wire::printable(wire.recording_folder);
+  mine.recording_trouble = wire::printable(wire.recording_trouble);
   mine.role = wire::printable(wire.role);
   for (FleetPlanner& planner : mine.planners) {
     for (std::string* text : {&planner.id, &planner.host, &planner.version}) {

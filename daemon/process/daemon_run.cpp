@@ -285,6 +285,7 @@ class ServingDaemon {
     }
     status.signed_only = signing_ && options_.auth.required ? 1 : 0;
     reloads_.add_to(status);
+    if (recorder_ != nullptr) add_recording(options_, recorder_->counts(), status);
     if (front_) front_->add_to(status);
     if (metrics_) latest_.set(status);
   }

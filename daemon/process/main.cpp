@@ -16,6 +16,7 @@
 #include "daemon/process/process_signals.h"
 #include "daemon/process/recording.h"
 #include "daemon/process/settings/daemon_command_line.h"
+#include "daemon/process/settings/daemon_faults.h"
 #include "daemon/process/warning_journal.h"
 #include "daemon/record/recording_journal.h"
 #include "daemon/scene/snapshot/scene_store.h"
@@ -39,11 +40,13 @@ int state_fault(const process::DaemonOptions& options, const std::string& reason
   return kExitFault;
 }
 
+/// A folder that can be neither made nor written is a fault of the configuration, which another
+/// start does not mend; that another daemon records into it may be over by then.
 int record_fault(const process::DaemonOptions& options, const std::string& reason,
                  service::Log& log) {
   log.error("nothing can be recorded",
             {{"setting", options.where("record.folder")}, {"reason", reason}});
-  return kExitFault;
+  return process::fault_of_record_folder(options).empty() ? kExitFault : kExitBadInput;
 }
 
 /// The journals that are told of the changes of the scenes.

@@ -7,7 +7,9 @@
 
 #include "daemon/process/scene_origins.h"
 #include "daemon/process/settings/daemon_settings.h"
+#include "daemon/process/status_text.h"
 #include "daemon/version/build_info.h"
+#include "lcmtypes/wire/layout.h"
 
 namespace camway::process {
 namespace {
@@ -42,6 +44,14 @@ base::Result<std::unique_ptr<record::Recorder>> open_recorder(
   return record::Recorder::open(record, facts_of(options), log);
 }
 
+void add_recording(const DaemonOptions& options, const record::RecordCounts& counts,
+                   status_t& status) {
+  status.recording_folder = beginning_of(options.record.folder, wire::kMaxRecordingFolderBytes);
+  status.recorded_bytes = static_cast<std::int64_t>(counts.bytes);
+  status.not_recorded = static_cast<std::int64_t>(counts.dropped);
+  status.recording_trouble = beginning_of(counts.trouble, wire::kMaxRecordingTroubleBytes);
+}
+
 std::string record_metrics(const record::RecordCounts& counts) {
   return metric("recorded_total", "counter", "Messages and changes of scenes that were recorded.",
                 counts.recorded) +
@@ -49,8 +59,9 @@ std::string record_metrics(const record::RecordCounts& counts) {
          metric("not_recorded_total", "counter",
                 "Messages and changes of scenes that were left out of the recording.",
                 counts.dropped) +
-         metric("recording_failing", "gauge", "1 if the recording cannot be written at present.",
-                counts.is_failing ? 1 : 0);
+         metric("recording_failing", "gauge",
+                "1 if the recording has left out messages or changes within the last half minute.",
+                counts.trouble.empty() ? 0 : 1);
 }
 
 }  // namespace camway::process

@@ -62,6 +62,20 @@ std::uint64_t size_of(const fs::path& file) {
 
 }  // namespace
 
+std::string folder_fault(const fs::path& folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (!fs::exists(there, error) && !error && there.has_relative_path()) {
+    there = there.parent_path();
+  }
+  const std::string begin =
+      folder.string() +
+      (there == fs::absolute(folder, error) ? " cannot be written: " : " cannot be made: ");
+  if (!fs::is_directory(there, error)) return begin + there.string() + " is no folder";
+  if (access(there.c_str(), W_OK | X_OK) == 0) return "";
+  return begin + there.string() + ": " + std::generic_category().message(errno);
+}
+
 LogFiles::LogFiles(fs::path folder, std::string recording, const RecordLimits& limits,
                    base::FileDescriptor lock)
     : folder_(std::move(folder)),

@@ -31,6 +31,10 @@ struct RecordLimits {
   std::size_t most_bytes = std::size_t{8} << 30;
 };
 
+/// Returns why a folder can be neither written nor made; empty if it can. Makes nothing, and so
+/// does not disturb a daemon that records into it.
+std::string folder_fault(const std::filesystem::path& folder);
+
 /// The files of a folder of recordings: the one that is being written, and older ones.
 /// Not thread-safe.
 class LogFiles {

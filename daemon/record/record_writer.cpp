@@ -97,7 +97,7 @@ void RecordWriter::finish() {
 }
 
 RecordCounts RecordWriter::counts() const {
-  return {recorded_count_, recorded_bytes_, lost_, file_count_, is_failing_};
+  return {recorded_count_, recorded_bytes_, lost_, file_count_, trouble_.reason()};
 }
 
 bool RecordWriter::is_ready() {
@@ -116,7 +116,6 @@ bool RecordWriter::is_ready() {
   if (!begin_events() || !write_events()) return false;
   has_begun_ = true;
   omission_.reset();
-  is_failing_ = false;
   return true;
 }
 
@@ -184,7 +183,6 @@ void RecordWriter::lose(std::uint64_t messages, std::uint64_t changes, std::int6
 void RecordWriter::fail(const AppendResult& why) {
   retry_at_ = Steady::now() + kRetry;
   fault_ = why.error;
-  is_failing_ = true;
   trouble_.failed(why.error);
   note_omission({wire::utime_now(), wire::utime_now(), 0, 0, why.error});
 }

@@ -83,7 +83,6 @@ class RecordWriter {
   std::atomic<std::uint64_t> recorded_bytes_ = 0;
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<std::uint64_t> file_count_ = 0;
-  std::atomic<bool> is_failing_ = false;
 };
 
 }  // namespace camway::record

@@ -52,7 +52,7 @@ struct RecordCounts {
   std::uint64_t bytes = 0;     ///< of the recorded events
   std::uint64_t dropped = 0;   ///< left out: the disk is full, or too slow
   std::uint64_t files = 0;     ///< files that were begun
-  bool is_failing = false;     ///< whether the last write failed
+  std::string trouble;         ///< why events are being lost (`TroubleLog`); empty if none are
 };
 
 /// A change of a scene on its way to the disk. The snapshots have no meshes or trees of the whole

@@ -5,6 +5,7 @@ namespace camway::record {
 
 void TroubleLog::failed(std::string_view reason, Clock::time_point now) {
   failed_at_ = now;
+  set_reason(reason.empty() ? "unknown" : reason);
   ++failures_;
   if (!is_trouble_) {
     is_trouble_ = true;
@@ -30,6 +31,7 @@ void TroubleLog::succeeded(Clock::time_point now) {
   log_->info("the recording goes on",
              {{"failures", failures_}, {"messages", messages_}, {"changes", changes_}});
   is_trouble_ = false;
+  set_reason("");
   failures_ = messages_ = changes_ = 0;
 }
 
@@ -38,6 +40,11 @@ void TroubleLog::finish() {
   log_->warn("not all was recorded",
              {{"failures", failures_}, {"messages", messages_}, {"changes", changes_}});
   is_trouble_ = false;
+}
+
+void TroubleLog::set_reason(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  reason_ = reason;
 }
 
 }  // namespace camway::record

@@ -55,6 +55,8 @@ inline constexpr std::size_t kMaxTextBytes = max_bytes::plan_response_message;
 inline constexpr std::size_t kMaxDigestBytes = max_bytes::plan_response_scene_digest;
 inline constexpr std::size_t kMaxVersionBytes = max_bytes::status_version;
 inline constexpr std::size_t kMaxReloadFaultBytes = max_bytes::status_failed_reload;
+inline constexpr std::size_t kMaxRecordingFolderBytes = max_bytes::status_recording_folder;
+inline constexpr std::size_t kMaxRecordingTroubleBytes = max_bytes::status_recording_trouble;
 inline constexpr std::size_t kMaxHostBytes = max_bytes::claim_host;
 static_assert(max_bytes::planner_status_host == kMaxHostBytes &&
               max_bytes::planner_status_version == kMaxVersionBytes);

@@ -14,7 +14,8 @@ if(WITH_CAD)
 endif()
 foreach(file bin/camwayd bin/camway ${importers} lib/systemd/system/camwayd.service
              lib/systemd/system/camwayd-planner@.service
-             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/blender/camway_blender.zip share/camway/lcmtypes/camway_plan_request_t.lcm
+             share/camway/camwayd.toml share/camway/scenes/office.obj
+             share/camway/scenes/requests/office-graze-column.json share/camway/blender/camway_blender.zip share/camway/lcmtypes/camway_plan_request_t.lcm
              share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/lcmtypes/README.md
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
@@ -37,6 +38,14 @@ foreach(folder ${prefix} ${WORK_DIR}/doc)
     message(SEND_ERROR "documents in ${folder}:\n${said}")
   endif()
 endforeach()
+
+# The documents' first example runs with what is installed.
+execute_process(COMMAND ${prefix}/bin/camway plan --request ${prefix}/share/camway/scenes/requests/office-graze-column.json
+                        --response ${WORK_DIR}/column.json
+                WORKING_DIRECTORY / OUTPUT_QUIET ERROR_VARIABLE said RESULT_VARIABLE code)
+if(NOT code EQUAL 0 OR NOT said MATCHES "the path is proved free of collision")
+  message(SEND_ERROR "the installed request of the documents: ${said}")
+endif()
 
 # The package for Python finds the installed program that reads scenes.
 if(PACKAGE_PYTHON)

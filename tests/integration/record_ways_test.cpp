@@ -96,6 +96,15 @@ class RecordWaysTest : public IntegrationTest {
   std::unique_ptr<Recording> recording_;
 };
 
+/// A start that can never record is not tried again: the unit restarts after 1, and not after 2.
+TEST_F(RecordWaysTest, AFolderThatCannotBeMadeIsAFaultOfTheConfiguration) {
+  std::ofstream(file("taken")) << "no folder";
+  Process daemon({CAMWAYD_BINARY, "--scene-roots", scenes(), "--record", file("taken") + "/below"},
+                 file("refused.log"));
+  EXPECT_EQ(daemon.wait(), 2);
+  EXPECT_THAT(daemon.output(), HasSubstr("nothing can be recorded"));
+}
+
 /// Clients load files below the daemon's scene roots, put one as an object, and replace a scene.
 TEST_F(RecordWaysTest, FilesOfSceneRoots) {
   start_daemon_with_scenes(

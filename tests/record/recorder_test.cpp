@@ -235,11 +235,11 @@ TEST_F(RecorderTest, SaysWhatWasLostOnAFullDiskAndGoesOn) {
   for (int i = 0; i < 50; ++i) say(*recorder, std::string(5000, 'x'));
   store.change("wall", box(1.0));
   ASSERT_TRUE(integration::eventually([&] { return recorder->counts().dropped > 1; }));
-  EXPECT_TRUE(recorder->counts().is_failing);
+  EXPECT_THAT(recorder->counts().trouble, HasSubstr("No space left"));
   disk.make_room();
   ASSERT_TRUE(integration::eventually([&] {
     say(*recorder, "after");
-    return !recorder->counts().is_failing;
+    return recorder->counts().trouble.empty();
   }));
   recorder->finish();
   const RecordCounts counts = recorder->counts();
@@ -268,15 +268,20 @@ TEST_F(RecorderTest, SaysOnceThatADiskHoversAtFull) {
   ASSERT_NE(recorder, nullptr);
   for (int i = 0; i < 2; ++i) {
     disk.fill();
+    const std::uint64_t dropped = recorder->counts().dropped;
     ASSERT_TRUE(integration::eventually([&] {
       say(*recorder, std::string(5000, 'x'));
-      return recorder->counts().is_failing;
+      return recorder->counts().dropped > dropped;
     }));
+    EXPECT_THAT(recorder->counts().trouble, HasSubstr("No space left"));
     disk.make_room();
+    const std::uint64_t recorded = recorder->counts().recorded;
     ASSERT_TRUE(integration::eventually([&] {
       say(*recorder, "room");
-      return !recorder->counts().is_failing;
+      return recorder->counts().recorded > recorded;
     }));
+    // The trouble is not over with the first write that finds room.
+    EXPECT_THAT(recorder->counts().trouble, HasSubstr("No space left"));
   }
   recorder->finish();
   const std::string lines = log_.text();

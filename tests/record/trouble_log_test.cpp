@@ -37,7 +37,9 @@ TEST_F(TroubleLogTest, AShortTroubleMakesTwoLines) {
   trouble_.lost(2, 0);
   trouble_.succeeded(now_ + 30s - 1ms);
   EXPECT_EQ(lines_in(log_.text()), 1U) << "it may be full again";
+  EXPECT_EQ(trouble_.reason(), "full");
   trouble_.succeeded(now_ + 30s);
+  EXPECT_EQ(trouble_.reason(), "");
   trouble_.succeeded(now_ + 31s);
   trouble_.finish();
   EXPECT_EQ(lines_in(log_.text()), 2U);
@@ -55,6 +57,7 @@ TEST_F(TroubleLogTest, ADiskThatHoversAtFullMakesALineInTenMinutes) {
     trouble_.failed("full", now_ + second * 1s);
     trouble_.lost(3, 0);
     trouble_.succeeded(now_ + second * 1s + 500ms);
+    ASSERT_EQ(trouble_.reason(), "full") << second;
   }
   EXPECT_EQ(lines_in(log_.text()), 6U) << log_.text();
   EXPECT_THAT(log_.text(), Not(HasSubstr("goes on")));

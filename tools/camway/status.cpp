@@ -114,6 +114,14 @@ void print_reloads(const DaemonStatus& status) {
       status.failed_reload);
 }
 
+/// Returns the line about the recording, if the daemon records.
+void print_recording(const DaemonStatus& status) {
+  if (status.recording_folder.empty()) return;
+  fmt::print("recording    {} bytes into {}, {} messages and changes are missing{}\n",
+             status.recorded_bytes, status.recording_folder, status.not_recorded,
+             status.recording_trouble.empty() ? "" : "; FAILING: " + status.recording_trouble);
+}
+
 /// A planner that was silent for longer counts as lost.
 constexpr double kPlannerSilence_s = 1.0;
 
@@ -160,6 +168,7 @@ void print_text(const DaemonStatus& status) {
   fmt::print("planning     {}\n", quantiles_text(status.planning));
   print_traffic(status);
   print_reloads(status);
+  print_recording(status);
   print_fleet(status);
   fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
              status.broken_paths);

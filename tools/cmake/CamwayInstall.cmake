@@ -14,6 +14,10 @@ if(CAMWAY_WITH_CAD)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
         DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes COMPONENT tools)
+# The requests of the documents' examples name their scene as ../office.obj.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/requests
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes COMPONENT tools
+        FILES_MATCHING PATTERN "office-*.json")
 install(FILES ${CAMWAY_BLENDER_ZIP} DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/blender COMPONENT tools)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
                ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)

@@ -60,6 +60,40 @@ std::optional<LcmSelector::Step> step_from(std::string_view text) {
   return step;
 }
 
+/// The place that a text names in a struct, and the type of what is there.
+struct Place {
+  std::vector<LcmSelector::Step> steps;
+  std::string type;
+};
+
+base::Result<Place> place_in(const LcmTypes& types, const std::string& type,
+                             std::string_view text) {
+  Place place{{}, type};
+  const auto fail = [&](const std::string& reason) {
+    return base::Failure{"'" + std::string(text) + "': " + reason};
+  };
+  for (std::string_view rest = text;;) {
+    const std::size_t dot = std::min(rest.find('.'), rest.size());
+    std::optional<LcmSelector::Step> step = step_from(rest.substr(0, dot));
+    if (!step) return fail("an index is a whole number in brackets, as in pose[0]");
+    if (is_lcm_primitive(place.type)) return fail("'" + step->name + "' stands behind a number");
+    const auto found = types.find(place.type);
+    if (found == types.end()) return fail("no file defines the struct '" + place.type + "'");
+    const LcmMember* const member = member_of(found->second, step->name);
+    if (member == nullptr) {
+      return fail("'" + place.type + "' has no member '" + step->name + "'; it has " +
+                  members_text(found->second));
+    }
+    if (step->indices.size() > member->sizes.size()) {
+      return fail("'" + step->name + "' is no array of so many dimensions");
+    }
+    place.type = member->type;
+    place.steps.push_back(*std::move(step));
+    if (dot == rest.size()) return place;
+    rest.remove_prefix(dot + 1);
+  }
+}
+
 /// A selector in a walk through a message: the steps that are to come.
 struct Wanted {
   std::size_t selector = 0;
@@ -195,34 +229,33 @@ class Walk {
 
 base::Result<LcmSelector> LcmSelector::make(const LcmTypes& types, const std::string& type,
                                             std::string_view text) {
-  LcmSelector selector;
-  std::string here = type;
-  const auto fail = [&](const std::string& reason) {
-    return base::Failure{"'" + std::string(text) + "': " + reason};
-  };
-  for (std::string_view rest = text;;) {
-    const std::size_t dot = std::min(rest.find('.'), rest.size());
-    std::optional<Step> step = step_from(rest.substr(0, dot));
-    if (!step) return fail("an index is a whole number in brackets, as in pose[0]");
-    if (is_lcm_primitive(here)) return fail("'" + step->name + "' stands behind a number");
-    const auto found = types.find(here);
-    if (found == types.end()) return fail("no file defines the struct '" + here + "'");
-    const LcmMember* const member = member_of(found->second, step->name);
-    if (member == nullptr) {
-      return fail("'" + here + "' has no member '" + step->name + "'; it has " +
-                  members_text(found->second));
-    }
-    if (step->indices.size() > member->sizes.size()) {
-      return fail("'" + step->name + "' is no array of so many dimensions");
-    }
-    here = member->type;
-    selector.steps_.push_back(*std::move(step));
-    if (dot == rest.size()) break;
-    rest.remove_prefix(dot + 1);
+  auto place = place_in(types, type, text);
+  if (!place) return base::Failure{std::move(place.error)};
+  const std::string& end = place->type;
+  if (!is_lcm_primitive(end) || end == "string") {
+    const auto found = types.find(end);
+    return base::Failure{"'" + std::string(text) + "': is a " + end + ", not numbers" +
+                         (found == types.end() ? "" : "; it has " + members_text(found->second))};
   }
-  if (!is_lcm_primitive(here) || here == "string") return fail("is a " + here + ", not numbers");
-  selector.is_whole_ = here != "double" && here != "float";
+  LcmSelector selector;
+  selector.steps_ = std::move(place->steps);
+  selector.is_whole_ = end != "double" && end != "float";
   return selector;
+}
+
+std::vector<std::string> lcm_number_members(const LcmTypes& types, const std::string& type,
+                                            std::string_view text) {
+  const auto place = place_in(types, type, text);
+  const auto found = place ? types.find(place->type) : types.end();
+  if (found == types.end()) return {};
+  std::vector<std::string> names;
+  for (const LcmMember& member : found->second.members) {
+    if (!member.sizes.empty() || !is_lcm_primitive(member.type) || member.type == "string") {
+      return {};
+    }
+    names.push_back(member.name);
+  }
+  return names;
 }
 
 base::Result<LcmMessageReader> LcmMessageReader::make(const LcmTypes& types,

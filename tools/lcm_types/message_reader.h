@@ -35,6 +35,11 @@ class LcmSelector {
   bool is_whole_ = false;
 };
 
+/// Returns the names of the members of the struct that `text` names in the struct `type`, if all of
+/// them are single numbers: x, y and z of "pose.pos". Empty if it names numbers or nothing.
+std::vector<std::string> lcm_number_members(const LcmTypes& types, const std::string& type,
+                                            std::string_view text);
+
 /// Reads chosen numbers of messages of one struct. A value type; `types` must outlive it.
 class LcmMessageReader {
  public:

@@ -48,7 +48,7 @@ class Option:
     @property
     def short_description(self):
         """The first clause of the description, for lists."""
-        return re.split(r"[;:.] | [(\[]", self.description)[0].strip()
+        return re.split(r"[;.] | [(\[]", self.description)[0].strip()
 
 
 @dataclasses.dataclass

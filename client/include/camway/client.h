@@ -33,8 +33,8 @@ struct ClientOptions {
   /// Name of this client, different from all others. Empty: random. [Limit: [A-Za-z0-9_-]{1,32}]
   std::string client_id;
 
-  /// Largest duration of a call. A planning call lasts at least until the deadline of its request.
-  /// [Limit: 0 < value]
+  /// Largest duration of a call. A planning call lasts at least until the deadline of its request,
+  /// once a daemon was heard. [Limit: 0 < value]
   double deadline_s = 60.0;
   /// Time for a change of a scene, from its receipt by the daemon; 0 for the daemon's default. A
   /// change that takes longer is cancelled and ends with `kTimeout`. [Limit: 0 <= value]

@@ -39,7 +39,7 @@ struct FleetPlanner {
   bool is_behind = false;    ///< whether it has not read all of the log that the front has read
   /// Whether it gets no jobs, because its version is not that of the front.
   bool is_other_version = false;
-  double silent_s = 0.0;     ///< time since the front last heard it
+  double silent_s = 0.0;  ///< time since the front last heard it
 };
 
 /// The heartbeat of a daemon. Counters begin at the daemon's start.
@@ -94,6 +94,12 @@ struct DaemonStatus {
   std::int64_t failed_reload_utime = 0;  ///< time of the last, microseconds since 1970; 0 if none
   std::string failed_reload;             ///< reason of the last failure; empty if there was none
   bool reload_failed = false;            ///< whether no reload has succeeded since that failure
+
+  std::string recording_folder;     ///< folder into which the daemon records; empty if it does not
+  std::int64_t recorded_bytes = 0;  ///< bytes that were recorded
+  std::int64_t not_recorded = 0;    ///< messages and changes of scenes left out of the recording
+  /// Why something was left out within the last half minute; empty if nothing was.
+  std::string recording_trouble;
 
   std::string role;                    ///< "alone", or "front" of a fleet of planners
   bool log_in_touch = false;           ///< whether the fleet's log of scenes can be reached

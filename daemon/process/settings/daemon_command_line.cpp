@@ -27,9 +27,9 @@ namespace {
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
     "signal ends it at once), 1 LCM, the port for metrics, the folder of the state or the servers "
-    "of "
-    "the fleet cannot be used, LCM failed, or another daemon serves with this prefix, 2 wrong "
-    "command line, configuration or scene file, or standard output cannot be written.\n"
+    "of the fleet cannot be used, LCM failed, or another daemon serves with this prefix or records "
+    "into this folder, 2 wrong command line, configuration or scene file, the folder of recordings "
+    "cannot be made or written, or standard output cannot be written.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is logged and needs a restart.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";

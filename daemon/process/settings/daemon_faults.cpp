@@ -11,6 +11,7 @@
 #include "daemon/nats/security_files.h"
 #include "daemon/process/metrics/http_page.h"
 #include "daemon/process/settings/daemon_settings.h"
+#include "daemon/record/log_files.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 
 namespace camway::process {
@@ -171,7 +172,14 @@ std::vector<std::string> missing_things(const DaemonOptions& options) {
     faults.push_back(fmt::format("{}: {} is no address of this machine",
                                  options.where("metrics.address"), options.metrics.ip));
   }
+  if (const std::string fault = fault_of_record_folder(options); !fault.empty()) {
+    faults.push_back(options.where("record.folder") + ": " + fault);
+  }
   return faults;
+}
+
+std::string fault_of_record_folder(const DaemonOptions& options) {
+  return options.record.folder.empty() ? "" : record::folder_fault(options.record.folder);
 }
 
 }  // namespace camway::process

@@ -17,8 +17,12 @@ std::vector<std::string> contradictions(const DaemonOptions& options);
 /// can be found without a server. Changes nothing.
 std::vector<std::string> unusable_fleet_files(const DaemonOptions& options);
 
-/// Returns the faults of these files, of the key file and of the address for metrics if this
-/// machine lacks them. Changes nothing.
+/// Returns the faults of these files, of the key file, of the address for metrics and of the folder
+/// of recordings if this machine lacks them. Changes nothing.
 std::vector<std::string> missing_things(const DaemonOptions& options);
+
+/// Returns why the folder of recordings can be neither written nor made; empty without a folder or
+/// a fault. Changes nothing.
+std::string fault_of_record_folder(const DaemonOptions& options);
 
 }  // namespace camway::process

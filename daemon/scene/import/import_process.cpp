@@ -226,6 +226,11 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
   }
 }
 
+/// Names the package that has a program, where it is not the one of `camway` itself.
+std::string package_hint(std::string_view program) {
+  return program == "camway-import" ? "" : "; the package camway-formats has it";
+}
+
 }  // namespace
 
 void set_import_program_folder(fs::path folder) {
@@ -245,7 +250,7 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
             {},
             std::string(*name) + " is neither " +
                 (first.empty() ? "" : "in " + first.string() + ", ") +
-                "beside this program nor on PATH"};
+                "beside this program nor on PATH" + package_hint(*name)};
   }
   const base::FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};

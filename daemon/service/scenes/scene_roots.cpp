@@ -109,7 +109,7 @@ base::Result<fs::path> SceneRoots::resolve(std::string_view asked) const {
     }
     if (fs::is_regular_file(file, failed)) return file;
   }
-  return refuse(leads_out ? "leads out of the scene roots" : "is no file below a scene root");
+  return refuse(leads_out ? "leads out of the scene roots" : "is no file below a scene root, to which its path is relative");
 }
 
 std::string SceneRoots::write(std::string_view asked, std::string_view extension,

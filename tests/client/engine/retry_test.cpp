@@ -45,6 +45,17 @@ TEST(Retry, WaitsLongerAndLongerAndGivesUpInSilence) {
   EXPECT_EQ(lonely.end, Action::kSilence);
 }
 
+TEST(Retry, IsGivenUpWhereNobodyIsEverHeard) {
+  Retry::Rules rules = kRules;
+  rules.retries = 1000;
+  rules.silence_s = 4.0;
+  const History lonely = run(Retry(rules, kStart + seconds(100), 1));
+  EXPECT_EQ(lonely.sent_s, (std::vector<double>{0, 1, 3}));
+  EXPECT_EQ(lonely.end, Action::kSilence);
+  const History alive = run(Retry(rules, kStart + seconds(20), 1), true);
+  EXPECT_EQ(alive.end, Action::kDeadline);
+}
+
 TEST(Retry, GoesOnToTheDeadlineWhereSomebodyLives) {
   const History alive = run(Retry(kRules, kStart + seconds(20), 1), true);
   EXPECT_EQ(alive.sent_s, (std::vector<double>{0, 1, 3, 7, 12, 17}));

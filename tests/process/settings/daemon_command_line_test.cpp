@@ -339,6 +339,20 @@ file = "gone.obj"
   EXPECT_TRUE(parse({"--config", file.c_str()}).options) << "a start says it when it comes to it";
 }
 
+TEST_F(DaemonOptionsFile, ChecksThatRecordingsHaveAFolder) {
+  const std::string folder = (folder_ / "a" / "b").string();
+  const std::string file = write("c.toml", "");
+  const auto faults_of = [&](const std::string& record) {
+    return parse({"--check-config", "--scene-roots", "/", "--record", record.c_str()}).faults;
+  };
+  EXPECT_THAT(faults_of(folder), ElementsAre());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a")) << "a check makes nothing";
+  EXPECT_THAT(faults_of(file + "/b"),
+              ElementsAre("--record: " + file + "/b cannot be made: " + file + " is no folder"));
+  EXPECT_THAT(faults_of(file),
+              ElementsAre("--record: " + file + " cannot be written: " + file + " is no folder"));
+}
+
 TEST_F(DaemonOptionsFile, ABadFileGivesEveryFaultInIt) {
   const std::string file = write("c.toml", "[queue]\nlenght = 7\nrequests = 0\n");
   const ParsedOptions parsed = parse({"--config", file.c_str(), "--scene", "a=b"});

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Poses in logs of other programs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -15,6 +20,7 @@
 
 #include "tests/tools/camway/cli_runner.h"
 #include "tests/tools/camway/replay/log_builder.h"
+#include "tools/lcm_types/type_file.h"
 
 namespace camway::tools {
 namespace {
@@ -128,6 +134,146 @@ TEST_F(CliImportLog, AListOfPosesInOneMessageIsAPath) {
       import({"--type", type, "--position", "list.pos", "--orientation", "list.quat"});
   ASSERT_EQ(untimed.exit_code, 0) << untimed.err;
   EXPECT_FALSE(request()["keyframes"][0].contains("time"));
+}
+
+/// A message of a struct of 8-byte members and one count of 4 bytes, as LCM has them on the wire.
+class MessageBytes {
+ public:
+  MessageBytes(const LcmTypes& types, const std::string& name) {
+    add(*lcm_fingerprint(types, name), 8);
+  }
+  void add(std::uint64_t value, int bytes) {
+    for (int i = bytes - 1; i >= 0; --i) {
+      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+    }
+  }
+  void add(std::initializer_list<double> numbers) {
+    for (const double number : numbers) add(std::bit_cast<std::uint64_t>(number), 8);
+  }
+  [[nodiscard]] const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// A planned path in one message, with the time when it was sent.
+TEST_F(CliImportLog, OneTimeOfAListOfPosesIsNotTheTimeOfAny) {
+  const std::string text =
+      "struct path_t { int64_t utime; int32_t n; double pos[n][3]; double quat[n][4]; }";
+  LcmTypes types;
+  ASSERT_EQ(read_lcm_types(text, types), "");
+  MessageBytes message(types, "path_t");
+  message.add(1'700'000'000'000'000, 8);
+  message.add(50, 4);
+  for (int i = 0; i < 50; ++i) message.add({0.1 * i, 0.0, 0.0});
+  for (int i = 0; i < 50; ++i) message.add({1.0, 0.0, 0.0, 0.0});
+  log_ = LogBuilder();
+  log_.add_event("PATH", message.bytes());
+  const std::string type = folder_.write("path_t.lcm", text);
+  const std::vector<std::string> flags = {"--type",        type,   "--position", "pos",
+                                          "--orientation", "quat", "--all"};
+  const CliRun untimed = import(flags);
+  ASSERT_EQ(untimed.exit_code, 0) << untimed.err;
+  EXPECT_THAT(untimed.err, HasSubstr("one time for a list of poses, which is not taken"));
+  ASSERT_EQ(request()["keyframes"].size(), 50U);
+  EXPECT_FALSE(request()["keyframes"][0].contains("time"));
+  const auto with_flags = [&](std::vector<std::string> more) {
+    more.insert(more.end(), flags.begin(), flags.end());
+    return import(more);
+  };
+  const CliRun timed = with_flags({"--fps", "10"});
+  ASSERT_EQ(timed.exit_code, 0) << timed.err;
+  EXPECT_DOUBLE_EQ(request()["keyframes"][49]["time"].get<double>(), 4.9);
+  const CliRun asked = with_flags({"--time", "utime"});
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_THAT(asked.err, HasSubstr("--time has 1 numbers for 50 poses"));
+}
+
+/// Poses of structs in a log, whose quaternions have the members `order`.
+class CliImportStructs : public CliImportLog {
+ protected:
+  CliRun import_structs(const std::string& order, std::vector<std::string> flags,
+                        const std::string& beside = "geo_vec3_t.lcm") {
+    std::string members;
+    for (const char c : order) members += fmt::format("double {}; ", c);
+    const std::string vec3 = "package geo; struct vec3_t { double x, y, z; }";
+    const std::string pose = "package geo; struct quat_t { " + members +
+                             "} struct pose_t { vec3_t pos; quat_t q; } "
+                             "struct place_t { int64_t utime; pose_t at; }";
+    LcmTypes types;
+    EXPECT_EQ(read_lcm_types(vec3, types), "");
+    EXPECT_EQ(read_lcm_types(pose, types), "");
+    log_ = LogBuilder();
+    for (int i = 0; i < 3; ++i) {
+      MessageBytes message(types, "geo.place_t");
+      message.add(1'700'000'000'000'000 + 1000 * static_cast<std::uint64_t>(i), 8);
+      message.add({1.0 * i, 2.0, 3.0, 0.5, 0.1, 0.7, std::sqrt(1.0 - 0.75)});
+      log_.add_event("PLACE", message.bytes());
+    }
+    folder_.write(beside, vec3);
+    flags.insert(flags.end(), {"--type", folder_.write("pose.lcm", pose), "--all"});
+    return import(flags);
+  }
+};
+
+TEST_F(CliImportStructs, CountAsTheirNumbersInTheOrderOfTheirNames) {
+  const std::vector<std::string> flags = {"--position", "at.pos", "--orientation", "at.q"};
+  for (const std::string order : {"wxyz", "xyzw", "zwyx"}) {
+    std::vector<std::string> all = flags;
+    if (order == "xyzw") all.insert(all.end(), {"--quaternion", "xyzw"});  // true, and not needed
+    const CliRun run = import_structs(order, all);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, Not(HasSubstr("quaternions are taken")));
+    const Json last = request()["keyframes"][2];
+    EXPECT_EQ(last["position"], Json({2.0, 2.0, 3.0}));
+    const std::array<double, 4> written{0.5, 0.1, 0.7, std::sqrt(1.0 - 0.75)};
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(std::abs(last["orientation"][std::string("wxyz").find(order[i])].get<double>()),
+                  written[i], 1e-12)
+          << order;
+    }
+  }
+  const CliRun one_by_one = import_structs(
+      "xyzw", {"--position", "at.pos", "--orientation", "at.q.x,at.q.y,at.q.z,at.q.w"});
+  ASSERT_EQ(one_by_one.exit_code, 0) << one_by_one.err;
+  EXPECT_NEAR(std::abs(request()["keyframes"][0]["orientation"][1].get<double>()), 0.5, 1e-12);
+}
+
+TEST_F(CliImportStructs, OfOtherFilesAreNamedWithTheFilesThatWereTried) {
+  const CliRun run =
+      import_structs("wxyz", {"--position", "at.pos", "--orientation", "at.q"}, "vectors.lcm");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("geo.vec3_t is neither in the files of --type nor beside them in "
+                                 "geo_vec3_t.lcm or vec3_t.lcm"));
+  const CliRun named = import_structs(
+      "wxyz",
+      {"--position", "at.pos", "--orientation", "at.q", "--type", folder_.file("vectors.lcm")},
+      "vectors.lcm");
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+}
+
+TEST_F(CliImportLog, SaysWhichOrderOfQuaternionsItAssumed) {
+  const std::string note = "its quaternions are taken in the order w, x, y, z";
+  const CliRun assumed = import(pose_);
+  EXPECT_THAT(assumed.err, HasSubstr(note));
+  EXPECT_THAT(import(with({"--quaternion", "wxyz"})).err, Not(HasSubstr(note)));
+}
+
+TEST_F(CliImportLog, TheFormatOfLogsMayBeNamed) {
+  EXPECT_EQ(import(with({"--format", "lcm"})).exit_code, 0);
+  const std::string table = folder_.write("x.csv", "time,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n");
+  const CliRun run =
+      run_camway({"import", table, "--format", "lcm", "--request", folder_.file("r.json")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--format: " + table + " is no log of lcm-logger"));
+}
+
+TEST_F(CliImportLog, AMissingFileIsNoOtherKindOfFile) {
+  const CliRun run = run_camway({"import", folder_.file("none.lcmlog"), "--channel", "POSE",
+                                 "--request", folder_.file("r.json")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, Not(HasSubstr("is no log")));
+  EXPECT_THAT(run.err, HasSubstr("none.lcmlog"));
 }
 
 TEST_F(CliImportLog, LeavesOutWhatIsDamagedAndSaysSo) {

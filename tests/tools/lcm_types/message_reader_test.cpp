@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 LcmTypes sample_types() {
   LcmTypes types;
@@ -119,13 +120,21 @@ TEST_F(LcmMessageReaderTest, ReadsTheNumbersThatGeneratedCodeHasWritten) {
 TEST_F(LcmMessageReaderTest, RefusesNamesOfNoNumbers) {
   EXPECT_THAT(why_none("lost"), HasSubstr("has no member 'lost'; it has stamp_ns, rows"));
   EXPECT_THAT(why_none("names"), HasSubstr("is a string, not numbers"));
-  EXPECT_THAT(why_none("list"), HasSubstr("is a robot.pose_t, not numbers"));
+  EXPECT_THAT(why_none("list"),
+              HasSubstr("is a robot.pose_t, not numbers; it has utime, pos, quat"));
   EXPECT_THAT(why_none("small.x"), HasSubstr("'x' stands behind a number"));
   EXPECT_THAT(why_none("pad[0][1]"), HasSubstr("no array of so many dimensions"));
   for (const char* name : {"pad[", "pad[x]", "pad[-1]", "pad[1]x"}) {
     EXPECT_THAT(why_none(name), HasSubstr("in brackets")) << name;
   }
   EXPECT_NE(why_none(""), "");
+}
+
+TEST_F(LcmMessageReaderTest, NamesTheNumbersOfAStruct) {
+  EXPECT_THAT(lcm_number_members(types_, "robot.track_t", "target"), ElementsAre("x", "y", "z"));
+  for (const char* name : {"list", "target.x", "grid", "lost", ""}) {
+    EXPECT_THAT(lcm_number_members(types_, "robot.track_t", name), IsEmpty()) << name;
+  }
 }
 
 TEST_F(LcmMessageReaderTest, RefusesEveryTruncationAndExtension) {

@@ -31,6 +31,8 @@ CASES = [
     ("camway replay re", {"request.json", "results/"}),
     ("camway replay --baseline re", {"request.json", "results/"}),
     ("camway unpack re", {"request.json", "results/"}),
+    ("camway pack re", {"request.json", "results/"}),
+    ("camway session re", {"request.json", "results/"}),
     ("camway load --he", {"--help"}),
     ("camway scene load --up", {"--up", "--upload"}),
     ("camwayd --role ", {"alone", "front", "planner"}),
@@ -158,6 +160,14 @@ class Completion(unittest.TestCase):
         for (line, expected), offered in zip(CASES + ONLY_FISH, said.stdout.split("---\n")):
             with self.subTest(line):
                 self.assertEqual(set(offered.split()), expected)
+
+
+class Texts(unittest.TestCase):
+    """A colon within a text has a meaning to zsh, and is no end of it."""
+
+    def test_texts_go_on_behind_a_colon(self):
+        self.assertIn("'gl: looks along -Z, +Y up'", (MADE / "fish/camway.fish").read_text())
+        self.assertIn("[gl\\: looks along -Z, +Y up]", (MADE / "zsh/_camway").read_text())
 
 
 def main():

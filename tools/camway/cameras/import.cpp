@@ -79,6 +79,7 @@ base::Result<CameraTrack> read_log(const ImportFlags& flags) {
   }
   LogTrackOptions options = flags.log;
   options.axes = flags.read.axes.value_or(CameraAxes::kGl);
+  options.fps = flags.read.fps;
   base::Result<CameraTrack> track = read_log_track(flags.file, options);
   if (track && flags.body.empty() && !flags.read.axes) {
     track->notes.emplace_back("the camera is taken to look along -Z, +Y up (--camera-axes)");
@@ -88,6 +89,7 @@ base::Result<CameraTrack> read_log(const ImportFlags& flags) {
 
 std::string flag_of_logs(const ImportFlags& flags) {
   const LogTrackOptions& log = flags.log;
+  if (flags.format == kLogFormat.name) return "--format";
   if (!log.channel.empty()) return "--channel";
   if (!log.types.empty()) return "--type";
   if (!log.position.empty()) return "--position";
@@ -96,11 +98,11 @@ std::string flag_of_logs(const ImportFlags& flags) {
 }
 
 base::Result<CameraTrack> read_camera_track(const ImportFlags& flags, const CameraFormat*& format) {
+  const base::Result<CameraFile> file = camera_file(flags.file);
+  if (!file) return base::Failure{file.error};
   if (const std::string flag = flag_of_logs(flags); !flag.empty()) {
     return base::Failure{flag + ": " + flags.file + " is no log of lcm-logger"};
   }
-  const base::Result<CameraFile> file = camera_file(flags.file);
-  if (!file) return base::Failure{file.error};
   if (const std::string why = why_unreadable(*file); !why.empty()) {
     return base::Failure{flags.file + ": " + why};
   }
@@ -263,6 +265,7 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
   command.add_option("file", flags.file, "File with the camera path")->required();
   std::vector<std::string> names;
   for (const CameraFormat& format : camera_formats()) names.emplace_back(format.name);
+  names.emplace_back(kLogFormat.name);
   command.add_option("--format", flags.format, "Format of the file, if its name does not say it")
       ->check(cli_support::one_of(names));
   command.add_option("--camera", flags.read.camera, "Name of the camera [the animated one]");
@@ -270,7 +273,9 @@ void add_file_flags(CLI::App& command, ImportFlags& flags) {
                      "Name of the animation of a glTF file [the first that moves the camera]");
   command.add_option("--times", flags.times, "File with a time in seconds in each line, for KITTI")
       ->type_name("FILE");
-  command.add_option("--fps", flags.read.fps, "Frames a second of a file that counts frames")
+  command
+      .add_option("--fps", flags.read.fps,
+                  "Frames a second of a file that counts frames, or of a log's poses without times")
       ->check(cli_support::above_0());
   const auto set_axes = [&flags](const std::string& axes) {
     flags.read.axes = axes == "cv" ? CameraAxes::kCv : CameraAxes::kGl;
@@ -294,21 +299,22 @@ void add_log_flags(CLI::App& command, LogTrackOptions& log) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option(
-          "--position", log.position,
-          "Member of a log's message with the position: pos, pose.pos, poses[0].pos or x,y,z; "
-          "each element of a list is a pose")
+      .add_option("--position", log.position,
+                  "Member of a log's message with the position, an array or a struct of three "
+                  "numbers: pos, "
+                  "pose.pos, poses[0].pos; or x,y,z; each element of a list is a pose")
       ->type_name("MEMBER");
   command
       .add_option("--orientation", log.orientation, "Member of a log's message with the quaternion")
       ->type_name("MEMBER");
-  cli_support::add_choice(command, "--quaternion", log.order, base::named_values<QuaternionOrder>(),
-                          "Order of the numbers of a quaternion in a log");
+  cli_support::add_choice(
+      command, "--quaternion", log.order, base::named_values<QuaternionOrder>(),
+      "Order of the numbers of a quaternion in a log, if their names do not say it [wxyz]");
   command
-      .add_option(
-          "--time", log.time,
-          "Member of a log's message with the time [utime or timestamp, else the time when the "
-          "message was received]")
+      .add_option("--time", log.time,
+                  "Member of a log's message with the time [utime or timestamp if there is one for "
+                  "each pose, "
+                  "else the time when the message was received; none for lists of poses]")
       ->type_name("MEMBER");
   const auto set_unit = [&log](const std::string& name) {
     log.unit = base::value_of<TimeUnit>(name);

@@ -13,7 +13,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/record/event_log.h"
 #include "lcmtypes/wire/channels.h"
-#include "tools/json/json_document.h"
+#include "tools/camway/cameras/log_types.h"
 #include "tools/lcm_types/message_reader.h"
 
 namespace camway::tools {
@@ -32,51 +32,6 @@ double seconds_in(TimeUnit unit) {
   return kSeconds[static_cast<std::size_t>(unit)];
 }
 
-/// The structs of all given files, and of those beside them that these name.
-base::Result<LcmTypes> read_types(const std::vector<std::string>& files) {
-  LcmTypes types;
-  for (const std::string& file : files) {
-    const auto text = read_text(file);
-    if (!text) return Failure{"--type: " + text.error};
-    const std::string fault = read_lcm_types(*text, types);
-    if (!fault.empty()) return Failure{"--type: " + file + ": " + fault};
-  }
-  return types;
-}
-
-/// A struct that one of `types` has a member of, and no file defined; empty if there is none.
-std::string missing_type(const LcmTypes& types) {
-  for (const auto& [name, type] : types) {
-    for (const LcmMember& member : type.members) {
-      if (!is_lcm_primitive(member.type) && !types.contains(member.type)) return member.type;
-    }
-  }
-  return "";
-}
-
-/// Looks for a struct in the files beside the given ones, by the two usual names of its file.
-bool find_beside(const std::vector<std::string>& files, const std::string& name, LcmTypes& types) {
-  const std::string plain = name.substr(name.rfind('.') + 1);
-  std::string full = name;
-  std::ranges::replace(full, '.', '_');
-  for (const std::string& file : files) {
-    for (const std::string& stem : {full, plain}) {
-      const auto text = read_text((fs::path(file).parent_path() / (stem + ".lcm")).string());
-      if (text && read_lcm_types(*text, types).empty() && types.contains(name)) return true;
-    }
-  }
-  return false;
-}
-
-base::Result<LcmTypes> all_types(const std::vector<std::string>& files) {
-  auto types = read_types(files);
-  if (!types) return types;
-  for (;;) {
-    const std::string missing = missing_type(*types);
-    if (missing.empty() || !find_beside(files, missing, *types)) return types;
-  }
-}
-
 std::vector<std::string> split(std::string_view text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -87,6 +42,36 @@ std::vector<std::string> split(std::string_view text) {
     }
   }
   return parts;
+}
+
+/// The last letter of a name: "w" of "pose.q.w" and of "qw".
+char component_of(std::string_view name) { return name.empty() ? '\0' : name.back(); }
+
+/// Returns whether members are x, y, z, or w, x, y, z, in any order.
+bool is_named(const std::vector<std::string>& members) {
+  std::string letters;
+  for (const std::string& name : members) letters += component_of(name);
+  return std::ranges::is_permutation(letters,
+                                     std::string_view(members.size() == 4 ? "wxyz" : "xyz"));
+}
+
+/// The selectors of a struct's members: as w, x, y, z or x, y, z if these are their names, else in
+/// the order of the struct.
+std::vector<std::string> members_in_order(const std::string& of, std::vector<std::string> members) {
+  const auto rank = [](const std::string& name) {
+    return std::string_view("wxyz").find(component_of(name));
+  };
+  if (is_named(members)) std::ranges::sort(members, {}, rank);
+  for (std::string& name : members) name.insert(0, of + ".");
+  return members;
+}
+
+/// The order of quaternions that the names of four numbers say; nothing if they say none.
+std::optional<QuaternionOrder> order_of(const std::vector<std::string>& names) {
+  if (names.size() != 4) return std::nullopt;
+  if (component_of(names.front()) == 'w') return QuaternionOrder::kWxyz;
+  if (component_of(names.back()) == 'w') return QuaternionOrder::kXyzw;
+  return std::nullopt;
 }
 
 /// The numbers of one message: positions, orientations and times, one after the other.
@@ -108,16 +93,23 @@ class PoseReader {
     if (fault.empty() && !options.orientation.empty()) {
       fault = reader.select(types, "--orientation", options.orientation, reader.orientation_, 4);
     }
-    const std::string time = options.time.empty() ? reader.usual_time() : options.time;
+    reader.is_usual_time_ = options.time.empty();
+    const std::string time = reader.is_usual_time_ ? reader.usual_time() : options.time;
     if (fault.empty() && !time.empty()) {
       fault = reader.select(types, "--time", time, reader.time_, 1);
     }
     if (!fault.empty()) return Failure{fault};
+    reader.choose_order(options.order);
     return reader;
   }
 
   [[nodiscard]] bool has_time() const { return time_.count > 0; }
+  /// The order of the numbers of a quaternion, and whether nobody said it.
+  [[nodiscard]] QuaternionOrder order() const { return order_; }
+  [[nodiscard]] bool is_order_assumed() const { return is_order_assumed_; }
 
+  /// Leaves out times of the usual member if there is not one for each pose: a planned path has the
+  /// time when it was sent.
   [[nodiscard]] base::Result<PoseNumbers> read(std::span<const std::uint8_t> message) const {
     auto numbers = message_.read(message, selectors_);
     if (!numbers) return Failure{numbers.error};
@@ -132,7 +124,9 @@ class PoseReader {
       return Failure{fmt::format("--orientation has {} numbers for {} poses, not four for each",
                                  result.orientations.size(), poses)};
     }
-    if (has_time() && result.times.size() != poses) {
+    if (is_usual_time_ && result.times.size() != poses) {
+      result.times.clear();
+    } else if (has_time() && result.times.size() != poses) {
       return Failure{fmt::format("--time has {} numbers for {} poses, not one for each",
                                  result.times.size(), poses)};
     }
@@ -161,9 +155,19 @@ class PoseReader {
 
   std::string select(const LcmTypes& types, std::string_view flag, const std::string& text,
                      Selected& selected, std::size_t components) {
-    const std::vector<std::string> names = split(text);
+    std::vector<std::string> names = split(text);
     if (names.size() != 1 && names.size() != components) {
       return fmt::format("{} {}: name one array, or {} numbers", flag, text, components);
+    }
+    const bool is_list = names.size() > 1;
+    if (!is_list) {
+      const std::vector<std::string> members =
+          lcm_number_members(types, message_.type().name, text);
+      if (members.size() == components) names = members_in_order(text, members);
+    }
+    if (components == 4) {
+      named_order_ = order_of(names);
+      is_in_order_ = !is_list && is_named(names);
     }
     selected = {selectors_.size(), names.size()};
     for (const std::string& name : names) {
@@ -172,6 +176,14 @@ class PoseReader {
       selectors_.push_back(*std::move(selector));
     }
     return "";
+  }
+
+  /// Chooses the order of quaternions: that of a struct's names, else the given one, else that of
+  /// the names in --orientation.
+  void choose_order(std::optional<QuaternionOrder> given) {
+    is_order_assumed_ = orientation_.count > 0 && !given && !named_order_;
+    const QuaternionOrder named = named_order_.value_or(QuaternionOrder::kWxyz);
+    order_ = is_in_order_ ? named : given.value_or(named);
   }
 
   /// The first numbers of all selectors, then the second ones, and so on.
@@ -194,6 +206,11 @@ class PoseReader {
   Selected position_;
   Selected orientation_;
   Selected time_;
+  bool is_usual_time_ = false;
+  std::optional<QuaternionOrder> named_order_;
+  bool is_in_order_ = false;  ///< whether the quaternion is a struct with the names w, x, y, z
+  QuaternionOrder order_ = QuaternionOrder::kWxyz;
+  bool is_order_assumed_ = false;
 };
 
 /// A pose of the log, with its two times.
@@ -207,7 +224,7 @@ struct LoggedPose {
 /// Collects the poses of one channel.
 class PoseCollector {
  public:
-  PoseCollector(const LcmTypes& types, const LogTrackOptions& options)
+  PoseCollector(const LogTypes& types, const LogTrackOptions& options)
       : types_(types), options_(options) {}
 
   void take(const record::LogEvent& event) {
@@ -227,7 +244,16 @@ class PoseCollector {
   [[nodiscard]] const std::string& fault() const { return fault_; }
   [[nodiscard]] const std::map<std::string, std::size_t>& channels() const { return channels_; }
   [[nodiscard]] const std::vector<LoggedPose>& poses() const { return poses_; }
-  [[nodiscard]] bool has_time() const { return reader_ && reader_->has_time(); }
+  /// Returns whether all poses have a time of their messages.
+  [[nodiscard]] bool has_time() const { return reader_ && reader_->has_time() && untimed_ == 0; }
+  /// Returns whether messages have a time that is not one for each of their poses.
+  [[nodiscard]] bool has_unfit_time() const {
+    return reader_ && reader_->has_time() && untimed_ > 0;
+  }
+  [[nodiscard]] QuaternionOrder order() const {
+    return reader_ ? reader_->order() : QuaternionOrder::kWxyz;
+  }
+  [[nodiscard]] bool is_order_assumed() const { return reader_ && reader_->is_order_assumed(); }
   [[nodiscard]] bool has_lists() const { return has_lists_; }
   [[nodiscard]] std::size_t unread() const { return unread_; }
   [[nodiscard]] const std::string& why_unread() const { return why_unread_; }
@@ -235,12 +261,12 @@ class PoseCollector {
  private:
   bool choose_type(std::span<const std::uint8_t> message) {
     std::string known;
-    for (const auto& [name, type] : types_) {
-      const auto fingerprint = lcm_fingerprint(types_, name);
+    for (const auto& [name, type] : types_.structs) {
+      const auto fingerprint = lcm_fingerprint(types_.structs, name);
       known += fmt::format("\n  {}: {}", name,
                            fingerprint ? fmt::format("{:016x}", *fingerprint) : fingerprint.error);
       if (!fingerprint || lcm_fingerprint_of(message) != *fingerprint) continue;
-      auto reader = PoseReader::make(types_, name, options_);
+      auto reader = PoseReader::make(types_.structs, name, options_);
       if (reader) reader_ = *std::move(reader);
       if (!reader) fault_ = reader.error;
       return reader_.has_value();
@@ -250,12 +276,14 @@ class PoseCollector {
         "its messages are of none of the structs of --type, or of another version "
         "of one: they have the fingerprint {}, but{}",
         found ? fmt::format("{:016x}", *found) : "of none", known);
+    for (const std::string& missing : types_.missing) fault_ += "\n  " + missing;
     return false;
   }
 
   void add(const PoseNumbers& numbers, double received_s) {
     const std::size_t count = numbers.positions.size() / 3;
     has_lists_ = has_lists_ || count > 1;
+    if (numbers.times.empty()) ++untimed_;
     for (std::size_t i = 0; i < count; ++i) {
       LoggedPose pose;
       pose.position = geometry::Vec3(numbers.positions[3 * i], numbers.positions[3 * i + 1],
@@ -269,7 +297,7 @@ class PoseCollector {
     }
   }
 
-  const LcmTypes& types_;
+  const LogTypes& types_;
   const LogTrackOptions& options_;
   std::optional<PoseReader> reader_;
   std::map<std::string, std::size_t> channels_;
@@ -277,6 +305,7 @@ class PoseCollector {
   std::string fault_;
   std::string why_unread_;
   std::size_t unread_ = 0;
+  std::size_t untimed_ = 0;  ///< messages without a time for each pose
   bool has_lists_ = false;
 };
 
@@ -306,11 +335,11 @@ TimeUnit unit_of(const std::vector<LoggedPose>& poses) {
 }
 
 /// The orientation of a pose, of unit length; nothing if its numbers are none.
-std::optional<geometry::Quat> orientation_of(const LoggedPose& pose,
+std::optional<geometry::Quat> orientation_of(const LoggedPose& pose, QuaternionOrder order,
                                              const LogTrackOptions& options) {
   const std::array<double, 4>& q = pose.orientation;
   const bool is_given = !options.orientation.empty();
-  const geometry::Quat quat = is_given && options.order == QuaternionOrder::kXyzw
+  const geometry::Quat quat = is_given && order == QuaternionOrder::kXyzw
                                   ? geometry::Quat(q[3], q[0], q[1], q[2])
                                   : geometry::Quat(q[0], q[1], q[2], q[3]);
   if (!(std::abs(quat.norm() - 1.0) <= kMostQuaternionError)) return std::nullopt;
@@ -322,18 +351,19 @@ std::string add_keys(const PoseCollector& collected, const LogTrackOptions& opti
                      CameraTrack& track) {
   const std::vector<LoggedPose>& poses = collected.poses();
   const TimeUnit unit = options.unit.value_or(unit_of(poses));
-  track.has_times = collected.has_time() || !collected.has_lists();
+  const bool has_own_times = collected.has_time() || !collected.has_lists();
+  track.has_times = has_own_times || options.fps.has_value();
   std::size_t late = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto orientation = orientation_of(poses[i], options);
+    const auto orientation = orientation_of(poses[i], collected.order(), options);
     if (!orientation) {
       return fmt::format(
           "pose {} of its channel: the orientation is not of length 1 "
           "(--orientation, --quaternion)",
           i);
     }
-    double time_s = static_cast<double>(track.keys.size());
-    if (track.has_times) {
+    double time_s = static_cast<double>(track.keys.size()) / options.fps.value_or(1.0);
+    if (has_own_times) {
       time_s = collected.has_time() ? poses[i].time * seconds_in(unit) : poses[i].received_s;
     }
     if (!track.keys.empty() && !(time_s > track.keys.back().time_s)) {
@@ -360,9 +390,18 @@ void add_notes(const PoseCollector& collected, const record::LogSummary& log,
                                       collected.unread(), collected.why_unread()));
   }
   if (!collected.has_time()) {
+    const char* const lists = collected.has_unfit_time()
+                                  ? "its messages have one time for a list of poses, which is not "
+                                    "taken (--time, or --fps)"
+                                  : "its lists of poses have no times (--time, or --fps)";
     track.notes.emplace_back(
-        track.has_times ? "its messages have no time: that of their receipt is taken (--time)"
-                        : "its lists of poses have no times (--time)");
+        collected.has_lists()
+            ? lists
+            : "its messages have no time: that of their receipt is taken (--time)");
+  }
+  if (collected.is_order_assumed()) {
+    track.notes.emplace_back(
+        "its quaternions are taken in the order w, x, y, z (--quaternion wxyz, or xyzw)");
   }
   if (options.orientation.empty()) track.notes.emplace_back("it is never turned (--orientation)");
   if (!log.damage.empty()) track.notes.push_back(log.damage);
@@ -379,7 +418,7 @@ bool is_event_log(const fs::path& file) {
 }
 
 base::Result<CameraTrack> read_log_track(const std::string& file, const LogTrackOptions& options) {
-  const auto types = all_types(options.types);
+  const auto types = read_log_types(options.types);
   if (!types) return Failure{types.error};
   PoseCollector collected(*types, options);
   const record::LogSummary log =

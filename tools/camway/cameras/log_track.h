@@ -22,14 +22,19 @@ enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 constexpr std::array<std::string_view, 4> names_of(TimeUnit) { return {"s", "ms", "us", "ns"}; }
 
 /// The place of the poses in a log. Members are named as `LcmSelector` takes them; three or four
-/// names with commas between are the components one by one.
+/// names with commas between are the components one by one. A struct of three or four numbers
+/// counts as these.
 struct LogTrackOptions {
   std::string channel;             ///< empty: the only one in the log
   std::vector<std::string> types;  ///< files with the struct of its messages and those in it
   std::string position;
   std::string orientation;  ///< empty: never turned
-  QuaternionOrder order = QuaternionOrder::kWxyz;
-  std::string time;              ///< empty: `utime` or `timestamp`, else the time of receipt
+  /// Order of its numbers, where their names say none; without it w, x, y, z, with a note.
+  std::optional<QuaternionOrder> order;
+  /// Empty: `utime` or `timestamp` if there is one for each pose; else the time of receipt, or for
+  /// lists of poses none.
+  std::string time;
+  std::optional<double> fps;     ///< poses a second of lists without times
   std::optional<TimeUnit> unit;  ///< else the one that fits the times of receipt best
   CameraAxes axes = CameraAxes::kGl;
 };

@@ -133,6 +133,10 @@ OrderedJson status_json(const DaemonStatus& status) {
                {"failed_reload_utime", status.failed_reload_utime},
                {"failed_reload", status.failed_reload},
                {"reload_failed", status.reload_failed},
+               {"recording_folder", status.recording_folder},
+               {"recorded_bytes", status.recorded_bytes},
+               {"not_recorded", status.not_recorded},
+               {"recording_trouble", status.recording_trouble},
                {"total_scenes", status.total_scenes}});
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_info_json(scene));
