@@ -194,8 +194,10 @@ class RecordFleetTest : public FleetTest {
     ASSERT_EQ(front(prefix).wait(), 0) << front(prefix).output();
   }
 
-  /// Changes the office through this front, and plans through it all the while.
-  void work_through(const std::string& prefix, int rounds) const {
+  /// Changes the office through this front, and plans through it all the while. Returns the last
+  /// revision that it made.
+  std::int64_t work_through(const std::string& prefix, int rounds) const {
+    std::int64_t last = 0;
     Client painter(of_prefix(prefix));
     Client planner(of_prefix(prefix));
     for (int i = 0; i < rounds; ++i) {
@@ -207,8 +209,18 @@ class RecordFleetTest : public FleetTest {
           painter.put_object("office", crate, SceneBox{{0.3, 0.3, 0.3}},
                              beside_door(0.1 * i + (prefix == "ONE" ? 0.0 : 9.0)));
       EXPECT_TRUE(put.ok()) << put.error;
+      last = put.scene.revision;
       for (PendingPlan& plan : pending) plan.answer.get();
     }
+    return last;
+  }
+
+  /// Waits until this front has a revision of the office: until then, planners may be ahead of it,
+  /// and one that is stopped records no more.
+  static void await_revision(const std::string& prefix, std::int64_t revision) {
+    Client client(of_prefix(prefix));
+    ASSERT_TRUE(
+        eventually([&] { return client.describe_scene("office").scene.revision >= revision; }));
   }
 
   std::unique_ptr<Recording> recording_;
@@ -226,14 +238,19 @@ TEST_F(RecordFleetTest, FrontsRecordTheChangesOfOneAnother) {
   await_planners(2, "ONE");
   await_planners(2, "TWO");
   recording_->start_logger("ONE");
+  std::int64_t last = 0;
   {
-    std::jthread other([&] { work_through("TWO", kRounds); });
+    std::jthread other([&] { last = work_through("TWO", kRounds); });
     work_through("ONE", kRounds);
   }
+  // Of the last rounds through ONE, the first meets a change of TWO, the second one of its own
+  // after that.
+  await_revision("ONE", last);
+  await_revision("TWO", work_through("ONE", 2));
   stop("ONE");
   stop("TWO");
   recording_->stop_logger();
-  recording_->expect_same({file("one"), "--prefix", "ONE"}, kRequests);
+  recording_->expect_same({file("one"), "--prefix", "ONE"}, kRequests + 2 * kDoors.size());
   recording_->expect_same({file("two"), "--prefix", "TWO"}, kRequests);
   const std::string pack = file("part.camway-session");
   const auto [packed, said] = recording_->camway(

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "daemon/motion/path/bezier.h"
@@ -23,6 +24,7 @@ constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's ru
 constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
 constexpr double kPercentile = 0.99;     // of the acceleration
 constexpr int kAccelerationSamples = 8;  // in a piece
+constexpr int kSections = 14;            // of two samples, to a thousandth of their distance
 
 /// Second derivative of a cubic Bézier curve at u.
 template <class Point>
@@ -92,25 +94,67 @@ double simpson_weight(int i, int steps) {
   return i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
 }
 
-/// ∫ shift dt over a piece, which takes the place of the piece `before` of the original path.
-double integral_of_shift(const CubicPiece& now, const CubicPiece& before,
-                         const Closeness& closeness, double& largest_rad) {
-  using motion::bezier::value_at;
-  const Change change(now, before);
-  const bool turns = now.image != before.image;
-  double sum = 0.0;
-  for (int i = 0; i <= kSamplesAPiece; ++i) {
-    const double u = static_cast<double>(i) / kSamplesAPiece;
-    const double moved_m = value_at(change.moved_m, u).norm();
+/// The shift of a piece, which takes the place of the piece `before` of the original path.
+class PieceShift {
+ public:
+  PieceShift(const CubicPiece& now, const CubicPiece& before, const Closeness& closeness)
+      : now_(now),
+        before_(before),
+        closeness_(closeness),
+        change_(now, before),
+        turns_(now.image != before.image) {}
+
+  /// Returns the shift at u. [Units: radians]
+  [[nodiscard]] double at(double u) const {
+    using motion::bezier::value_at;
+    const double moved_m = value_at(change_.moved_m, u).norm();
     const double turned_rad =
-        turns ? turn_rad(value_at(now.image, u), value_at(before.image, u)) : 0.0;
-    const double shift_rad =
-        (moved_m + closeness.turn_lever_m * turned_rad) / closeness.viewing_distance_m;
-    largest_rad = std::max(largest_rad, shift_rad);
-    sum += simpson_weight(i, kSamplesAPiece) * shift_rad;
+        turns_ ? turn_rad(value_at(now_.image, u), value_at(before_.image, u)) : 0.0;
+    return (moved_m + closeness_.turn_lever_m * turned_rad) / closeness_.viewing_distance_m;
   }
-  return sum * change.duration_s / (3.0 * kSamplesAPiece);
-}
+
+  /// Returns ∫ shift dt. [Units: radian seconds]
+  [[nodiscard]] double integral() const {
+    double sum = 0.0;
+    for (int i = 0; i <= kSamplesAPiece; ++i) {
+      sum += simpson_weight(i, kSamplesAPiece) * at(static_cast<double>(i) / kSamplesAPiece);
+    }
+    return sum * change_.duration_s / (3.0 * kSamplesAPiece);
+  }
+
+  /// Returns the largest shift, by golden sections beside the largest sample (Kiefer 1953): between
+  /// samples lies up to a thirtieth more. [Units: radians]
+  [[nodiscard]] double largest() const {
+    constexpr double kStep = 1.0 / kSamplesAPiece;
+    double best_u = 0.0;
+    double best_rad = at(0.0);
+    for (int i = 1; i <= kSamplesAPiece; ++i) {
+      const double rad = at(i * kStep);
+      if (rad > best_rad) {
+        best_rad = rad;
+        best_u = i * kStep;
+      }
+    }
+    double low = std::max(0.0, best_u - kStep);
+    double high = std::min(1.0, best_u + kStep);
+    for (int i = 0; i < kSections; ++i) {
+      const double left = high - (std::numbers::phi - 1.0) * (high - low);
+      const double right = low + (std::numbers::phi - 1.0) * (high - low);
+      const double left_rad = at(left);
+      const double right_rad = at(right);
+      best_rad = std::max({best_rad, left_rad, right_rad});
+      (left_rad < right_rad ? low : high) = left_rad < right_rad ? left : right;
+    }
+    return best_rad;
+  }
+
+ private:
+  const CubicPiece& now_;
+  const CubicPiece& before_;
+  const Closeness& closeness_;
+  const Change change_;
+  const bool turns_;
+};
 
 }  // namespace
 
@@ -122,7 +166,9 @@ double Closeness::best_spacing_s(double height_m) const {
 Shift shift_of(const CubicPath& path, const CubicPath& original, const Closeness& closeness) {
   Shift shift;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    shift.mean_rad += integral_of_shift(now, before, closeness, shift.largest_rad);
+    const PieceShift piece(now, before, closeness);
+    shift.mean_rad += piece.integral();
+    shift.largest_rad = std::max(shift.largest_rad, piece.largest());
   });
   shift.mean_rad /= path.end_s() - path.begin_s();
   return shift;
@@ -131,10 +177,9 @@ Shift shift_of(const CubicPath& path, const CubicPath& original, const Closeness
 double closeness_cost(const CubicPath& path, const CubicPath& original,
                       const Closeness& closeness) {
   double cost = 0.0;
-  double largest_rad = 0.0;
   const double a = closeness.acceleration_m_per_s2;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    cost += integral_of_shift(now, before, closeness, largest_rad);
+    cost += PieceShift(now, before, closeness).integral();
     // The offset's second derivative is linear: Simpson's rule is exact for its square.
     const Change change(now, before);
     const double squares = change.squared_acceleration(0.0, closeness) +

@@ -42,6 +42,30 @@ TEST(Closeness, ShiftOfABumpIsItsHeightOverTheViewingDistance) {
   EXPECT_EQ(shift_of(original, original, closeness).largest_rad, 0.0);
 }
 
+// A peak between samples counts, too: the tests of the page compare its curves with these measures.
+TEST(Closeness, TheLargestShiftIsThatOfAllInstants) {
+  constexpr int kInstants = 20'000;
+  constexpr double kMost = 1e-5;  // a share: both miss the peak by less than a thousandth of a sample's distance
+  testing::Random random(7306);
+  const CubicPath original = straight(20.0, 1.0);
+  const Closeness closeness{.viewing_distance_m = 4.0, .turn_lever_m = 4.0};
+  for (int run = 0; run < 20; ++run) {
+    const motion::KnotRow knots = motion::KnotRow::about(10.0, random.log_uniform(0.3, 3.0), nullptr);
+    motion::CubicPoint peak{random.in_cube(0.5), geometry::Vec4::Zero()};
+    CubicPath path = motion::with_bumps(original, std::vector{motion::BumpRow{knots, 2, {peak}}});
+    // Another bump beside it moves the peak away from the knots.
+    const motion::KnotRow beside = motion::KnotRow::about(10.7, random.log_uniform(0.3, 3.0), nullptr);
+    peak.position = random.in_cube(0.5);
+    path = motion::with_bumps(path, std::vector{motion::BumpRow{beside, 2, {peak}}});
+    double largest_rad = 0.0;
+    for (int i = 0; i <= kInstants; ++i) {
+      const double at_s = 20.0 * i / kInstants;
+      largest_rad = std::max(largest_rad, (path.at(at_s).position - original.at(at_s).position).norm() / 4.0);
+    }
+    EXPECT_NEAR(shift_of(path, original, closeness).largest_rad, largest_rad, kMost * largest_rad) << run;
+  }
+}
+
 TEST(Closeness, TurnsCountByTheirAngleForCamerasAndByTheirLeverForBodies) {
   // About the view, by images: exp(n a / 4) turns by a.
   const CubicPath original = straight(1.0, 1.0);

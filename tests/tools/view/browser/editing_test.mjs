@@ -9,6 +9,7 @@ import {open_door, request_file, scene_file} from './programs.mjs';
 
 const kCollision = 0xd55e00;
 const kBlended = 45;  // how far a colour is off that is seen through a wall
+const kStray_px = 4;  // pixels of other lines whose blended colours are as near
 const kSteps = 4;  // of a drag
 const kSmall = {width: 960, height: 600};  // drawn sooner
 // From the first keyframe of office-wall-rooms along z: there is the wall of the corridor, and there the corridor.
@@ -51,7 +52,7 @@ test('a keyframe that is dragged into a wall is red, and elsewhere the path is c
   const begin = await page.place_of([x, y, z]);
   const in_wall = await page.place_of([x, y, z + kToWall_m]);
   const beyond = await page.place_of([x, y, z + kBeyondWall_m]);
-  assert.equal(count_of(await page.picture(begin), kCollision, kBlended), 0);
+  assert.ok(count_of(await page.picture(begin), kCollision, kBlended) <= kStray_px, 'the keyframe is red already');
   const {mouse} = page.tab;
   await mouse.move(...begin);
   await mouse.down();
