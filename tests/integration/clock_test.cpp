@@ -45,9 +45,7 @@ class ClockTest : public IntegrationTest {
   }
 
   /// Sets how far the daemon's clock is ahead of the local one.
-  void set_clock(long ahead_s) const {
-    write_file(file("offset"), std::to_string(ahead_s));
-  }
+  void set_clock(long ahead_s) const { write_file(file("offset"), std::to_string(ahead_s)); }
 
   std::string doctor_says() const {
     Process doctor({CAMWAY_BINARY, "doctor"}, file("doctor.log"));
@@ -62,9 +60,9 @@ TEST_F(ClockTest, AJumpChangesNothingForRequestsAndLeases) {
   Process load({CAMWAY_BINARY, "load", "--scene", office, "--request",
                 request_file("office-free-door"), "--clients", "2", "--seconds", "3"},
                file("load.log"));
-  Client client(patient());
   std::atomic<int> lost = 0;
   std::atomic<int> broken = 0;
+  Client client(patient());  // after what its handler uses, so that it ends before
   const PlanRequest request = request_of("office-free-door", "office");
   client.watch(request, [&](const WatchEvent& event) {
     lost += event.kind == WatchEvent::Kind::kLost ? 1 : 0;

@@ -149,11 +149,11 @@ TEST_F(StateTest, AWatchedPathIsCheckedAgainstWhatWasKept) {
 
 TEST_F(StateTest, ADaemonThatForgotIsToldToTheWatcher) {
   start_daemon_with_scenes({"office=" + scene_file("office")});
-  Client client(patient());
-  EXPECT_FALSE(client.status().daemon_start.durable);
-  ASSERT_TRUE(client.put_object("office", "crate", SceneBox{{1, 1, 1}}, beside(1.0)).ok());
   std::mutex mutex;
   std::vector<WatchEvent> events;
+  Client client(patient());  // after what its handler uses, so that it ends before
+  EXPECT_FALSE(client.status().daemon_start.durable);
+  ASSERT_TRUE(client.put_object("office", "crate", SceneBox{{1, 1, 1}}, beside(1.0)).ok());
   client.watch(request_of("office-free-door", "office"), [&](const WatchEvent& event) {
     const std::lock_guard lock(mutex);
     events.push_back(event);

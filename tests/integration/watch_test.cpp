@@ -7,6 +7,7 @@
 #include <csignal>
 #include <deque>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -39,13 +40,13 @@ Pose at(double x_m, double y_m) {
   return pose;
 }
 
-/// Collects the events of a client.
+/// Collects the events of a client, which may outlive it and call its handler after that.
 class Events {
  public:
-  WatchHandler handler() {
-    return [this](const WatchEvent& event) {
-      const std::lock_guard lock(mutex_);
-      events_.push_back(event);
+  [[nodiscard]] WatchHandler handler() const {
+    return [kept = kept_](const WatchEvent& event) {
+      const std::lock_guard lock(kept->mutex);
+      kept->events.push_back(event);
     };
   }
 
@@ -53,10 +54,10 @@ class Events {
   /// others.
   bool wait_for(Kind kind, std::int64_t revision, WatchEvent* found = nullptr) {
     return eventually([&] {
-      const std::lock_guard lock(mutex_);
-      while (!events_.empty()) {
-        const WatchEvent event = events_.front();
-        events_.pop_front();
+      const std::lock_guard lock(kept_->mutex);
+      while (!kept_->events.empty()) {
+        const WatchEvent event = kept_->events.front();
+        kept_->events.pop_front();
         if (event.kind != kind || (revision != 0 && event.scene_revision != revision)) continue;
         if (found != nullptr) *found = event;
         return true;
@@ -66,8 +67,11 @@ class Events {
   }
 
  private:
-  std::mutex mutex_;  ///< guards events_
-  std::deque<WatchEvent> events_;
+  struct Kept {
+    std::mutex mutex;  ///< guards events
+    std::deque<WatchEvent> events;
+  };
+  std::shared_ptr<Kept> kept_ = std::make_shared<Kept>();
 };
 
 class WatchTest : public IntegrationTest {
