@@ -246,8 +246,8 @@ TEST_F(RecordFleetTest, FrontsRecordTheChangesOfOneAnother) {
     std::jthread other([&] { last = work_through("TWO", kRounds); });
     work_through("ONE", kRounds);
   }
-  // Of the last rounds through ONE, the first meets a change of TWO, the second one of its own
-  // after that.
+  // Two more rounds through ONE: the first plans with the last change of TWO, the second with a
+  // change of ONE after it.
   await_revision("ONE", last);
   await_revision("TWO", work_through("ONE", 2));
   stop("ONE");

@@ -66,7 +66,8 @@ class Client:
             key_file: keys that sign messages, in the format of the daemon's `auth.key_file`
             key_window_s: largest difference between the time of a signed message and the local clock
             client_id: name of this client, different from all others; empty: random
-            deadline_s: largest duration of a call; a plan lasts at least until the deadline of its request
+            deadline_s: largest duration of a call; a plan lasts at least until the deadline of its request, once a daemon
+                was heard
             change_deadline_s: time for a change of a scene; 0 for the daemon's default
             try_timeout_s: wait before the first repetition of a request
             backoff: factor from one wait to the next

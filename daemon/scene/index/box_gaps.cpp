@@ -77,7 +77,7 @@ struct Sides {
   second = __builtin_convertvector(__builtin_convertvector(high, Ints), Floats);
 }
 
-/// What processors need instructions of their own for.
+/// The two steps that AVX2 has instructions for, on any processor.
 struct Portable {
   [[gnu::always_inline]] static void sides_of(const ByteBoxes& boxes, Sides& out) {
     static_assert(sizeof(ByteBoxes) == 6 * kNodeWidth && kNodeWidth == 8);

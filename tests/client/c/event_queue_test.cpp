@@ -135,7 +135,7 @@ TEST_F(CEventQueueTest, WatchesMayOutliveTheirQueue) {
   EXPECT_EQ(camway_event_queue_next(other, 0.0, &event_, sizeof event_), CAMWAY_BAD_ARGUMENT);
 }
 
-/// What a handler gets where it looks for an event, and where it waits for one.
+/// The statuses that a handler gets: of a look for an event, and of a wait for one.
 struct Looks {
   camway_event_queue* queue;
   camway_status at_once = CAMWAY_OK;

@@ -15,6 +15,9 @@ import support
 import camway
 from camway import _native
 
+# Threads take turns after nearly each step of the interpreter, so that they meet in the middle of a change.
+SHORT_SWITCH_S = 1e-6
+
 
 class PackageTest(unittest.TestCase):
     def test_every_public_name_is_documented(self):
@@ -118,7 +121,7 @@ class LazyTest(unittest.TestCase):
 
     def test_threads_see_the_same_objects(self):
         self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
-        sys.setswitchinterval(1e-6)
+        sys.setswitchinterval(SHORT_SWITCH_S)
         for _ in range(20):
             answer, seen, barrier = self.answer("office-graze-column"), [], threading.Barrier(8)
 

@@ -226,10 +226,12 @@ TEST_F(CliImportStructs, CountAsTheirNumbersInTheOrderOfTheirNames) {
     EXPECT_THAT(run.err, Not(HasSubstr("quaternions are taken")));
     const Json last = request()["keyframes"][2];
     EXPECT_EQ(last["position"], Json({2.0, 2.0, 3.0}));
+    // The import normalises; its text has 17 digits.
+    constexpr double kQuaternionRounding = 1e-12;
     const std::array<double, 4> written{0.5, 0.1, 0.7, std::sqrt(1.0 - 0.75)};
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(std::abs(last["orientation"][std::string("wxyz").find(order[i])].get<double>()),
-                  written[i], 1e-12)
+                  written[i], kQuaternionRounding)
           << order;
     }
   }

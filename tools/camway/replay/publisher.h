@@ -24,7 +24,7 @@ namespace camway::tools {
 /// Client and id of a request.
 using RequestKey = std::pair<std::string, std::int64_t>;
 
-/// What was sent, and what came of it. Requests have their recorded ids.
+/// Counts of sent messages and of their answers. Requests have their recorded ids.
 struct PublishTally {
   std::size_t sent = 0;           ///< messages
   std::size_t other_version = 0;  ///< planning requests that a daemon of this version cannot read

@@ -13,6 +13,8 @@ const kSmall = {width: 960, height: 600};  // drawn sooner
 const kHandleReach_px = 150;  // handles are looked for so far about what they move
 const kHandleStep_px = 2;
 const kSlow_ms = 100;
+const kRounding_m = 1e-9;  // of sums and differences of heights
+const kSinglePrecision = 1e-5;  // of metres and quaternions that the view computes with
 
 const door = await open_door('--scene', scene_file('office'), '--request', request_file('office-wall-rooms'));
 after(async () => {
@@ -123,10 +125,10 @@ test('a box is added, moved by the mouse and by keys, another tab shows it, and 
     await pause(kSlow_ms / 2);
   }
   const turned = Math.cos(2.5 * Math.PI / 180);
-  await page.until(({state}, {height, turned}) => {
+  await page.until(({state}, {height, turned, near}) => {
     const box = state.scene.objects.find(({name}) => name === 'box_1');
-    return Math.abs(box.position[1] - height) < 1e-4 && Math.abs(box.orientation[0] - turned) < 1e-6;
-  }, {height: moved.position[1] + 0.2, turned});
+    return Math.abs(box.position[1] - height) < near && Math.abs(box.orientation[0] - turned) < near;
+  }, {height: moved.position[1] + 0.2, turned, near: kSinglePrecision});
   await page.tab.unrouteAll({behavior: 'wait'});
   await page.tab.keyboard.press('Delete');
   await page.until(({state}) => state.scene.objects.length === 1);
@@ -211,7 +213,7 @@ test('keys alone lead from a path through a wall to one that is corrected and pr
   }
   await page.drawn();
   assert.equal(new Set(await page.tab.evaluate(() => window.sizes)).size, 1);
-  [0.2, 0.05, 0].forEach((height_m, i) => assert.ok(Math.abs(heights_m[i] - height_m) < 1e-9, `${heights_m}`));
+  [0.2, 0.05, 0].forEach((height_m, i) => assert.ok(Math.abs(heights_m[i] - height_m) < kRounding_m, `${heights_m}`));
   for (const key of ['Alt+ArrowLeft', 'Alt+ArrowUp', 'Alt+PageUp', 'Alt+Shift+ArrowLeft']) await keyboard.press(key);
   await page.shows('ok');
   const {request, answer} = await page.state();

@@ -10,6 +10,9 @@ import { kEmptyState } from '../src/model/store.js';
 import type { State } from '../src/model/store.js';
 import { Random } from './random.js';
 
+const kRounding_s = 1e-12; // of times of some seconds, by a few operations
+const kRandomRounding_s = 1e-9; // of those of random paths, whose pieces are scaled and cut
+
 const collision = (t_begin: number, t_end: number): Collision => ({ t_begin, t_end }) as Collision;
 
 function answerOf(segments: Segment[], members: object = {}): Answer {
@@ -28,8 +31,8 @@ test('the path beside an answer alone is the path as interpolated, on the clock 
   const answer = { ...slowed(random, [2, 5], 3), collisions: [collision(5, 8)] };
   const beside = besideOf({ ...kEmptyState, answer, before });
   assert.equal(beside.path, before);
-  assert.ok(Math.abs(beside.timeOf(8) - 4) < 1e-12 && Math.abs(beside.onAnswer(4) - 8) < 1e-12);
-  assert.ok(Math.abs((beside.collisions[0]?.begin ?? NaN) - 3) < 1e-12);
+  assert.ok(Math.abs(beside.timeOf(8) - 4) < kRounding_s && Math.abs(beside.onAnswer(4) - 8) < kRounding_s);
+  assert.ok(Math.abs((beside.collisions[0]?.begin ?? NaN) - 3) < kRounding_s);
 });
 
 test('two answers are on clocks of their own, which the clock of the request joins', () => {
@@ -46,17 +49,17 @@ test('two answers are on clocks of their own, which the clock of the request joi
     assert.deepEqual(beside.collisions, [{ begin: span[0], end: endOf(other.segments) }], 'nothing is beyond the ends');
     const given_s = random.number(...span);
     const on = (factor: number): number => span[0] + factor * (given_s - span[0]);
-    assert.ok(Math.abs(beside.timeOf(on(a)) - on(b)) < 1e-9);
-    assert.ok(Math.abs(beside.onAnswer(on(b)) - on(a)) < 1e-9);
+    assert.ok(Math.abs(beside.timeOf(on(a)) - on(b)) < kRandomRounding_s);
+    assert.ok(Math.abs(beside.onAnswer(on(b)) - on(a)) < kRandomRounding_s);
 
     // The other one at the same instant of the request, and back.
     const exchanged = { ...now, ...withOtherAnswer(now) };
     assert.equal(exchanged.answer, other);
     assert.deepEqual(exchanged.compared, { name: 'recorded', otherName: 'now', other: answer });
-    assert.ok(Math.abs(exchanged.cursor_s - beside.timeOf(now.cursor_s)) < 1e-9);
+    assert.ok(Math.abs(exchanged.cursor_s - beside.timeOf(now.cursor_s)) < kRandomRounding_s);
     const back = { ...exchanged, ...withOtherAnswer(exchanged) };
     assert.deepEqual({ ...back, cursor_s: 0 }, { ...now, cursor_s: 0 });
-    assert.ok(Math.abs(back.cursor_s - now.cursor_s) < 1e-9);
+    assert.ok(Math.abs(back.cursor_s - now.cursor_s) < kRandomRounding_s);
   }
 });
 
