@@ -46,7 +46,8 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
       forces.row(term.variable) += term.share * bound.multiplier * bound.direction;
     }
   }
-  result.noalias() += form_.inverse() * forces;
+  form_.factors().solve_in_place(forces);
+  result += forces;
   bounds_.remember();
   return result;
 }
@@ -75,8 +76,9 @@ void ConstrainedMinimum::find_touching(std::vector<PathSample>& samples) {
   for (Eigen::Index j = 0; j < count; ++j) {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(form_.minimum().rows());
     for (const Term& term : touching_[static_cast<std::size_t>(j)]->terms) {
-      moved += term.share * form_.inverse().col(term.variable);
+      moved[term.variable] = term.share;
     }
+    form_.factors().solve_in_place(moved);
     for (Eigen::Index i = 0; i <= j; ++i) {
       double sum = 0.0;
       for (const Term& term : touching_[static_cast<std::size_t>(i)]->terms) {

@@ -3,21 +3,19 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 namespace camway::correction {
 
 namespace {
 
-constexpr int kTimesAStep = 6;   // between two knots
+constexpr int kTimesAStep = 4;   // between two knots
 constexpr double kSmall = 1e-9;  // decides where a coefficient has no effect on the path
 
 }  // namespace
 
 Offsets fitted(const FreeCoefficients& free, const motion::CubicPath& wanted,
                const motion::CubicPath& base) {
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Identity(free.size(), free.size()) * kSmall;
-  StackedPoints sums = StackedPoints::Zero(free.size(), 7);
+  SumOfSquares squares(free.size());
+  squares.hessian.col(0).setConstant(kSmall);
   for (int k = free.first() - 2; k < free.last() + 2; ++k) {
     for (int i = 0; i < kTimesAStep; ++i) {
       const double time_s =
@@ -27,14 +25,11 @@ Offsets fitted(const FreeCoefficients& free, const motion::CubicPath& wanted,
       const motion::CubicPoint from = base.at(time_s);
       const StackedPoint offset =
           stacked({to.position - from.position, to.image - from.image}, 1.0);
-      const Terms terms = free.at(time_s);
-      for (const Term& a : terms) {
-        sums.row(a.variable) += a.share * offset.transpose();
-        for (const Term& b : terms) squares(a.variable, b.variable) += a.share * b.share;
-      }
+      squares.count(1.0, free.at(time_s), -offset);
     }
   }
-  const StackedPoints variables = squares.ldlt().solve(sums);
+  StackedPoints variables = -squares.slope;
+  BandFactors(squares.hessian).solve_in_place(variables);
   return free.offsets_of(variables, 1.0);
 }
 

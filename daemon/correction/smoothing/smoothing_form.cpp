@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include "daemon/motion/path/bezier.h"
 
 namespace camway::correction {
@@ -168,12 +166,11 @@ Offsets FreeCoefficients::offsets_of(const StackedPoints& variables, double leve
 SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& free,
                              Objective objective, double lever_m, const Closeness& closeness,
                              const StackedPoints& about)
-    : hessian_(Eigen::MatrixXd::Zero(free.size(), free.size())),
-      slope_(StackedPoints::Zero(free.size(), 7)) {
+    : bending_(free.size()), squares_(free.size()) {
   if (objective == Objective::kClosest) {
     const double a = closeness.acceleration_m_per_s2;
-    bend_weight_ = 2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a);
-    find_places(problem, free, lever_m);
+    find_places(problem, free, lever_m,
+                2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a));
     bound_about(about);
   } else {
     count_differences(problem, free, objective, lever_m);
@@ -184,7 +181,7 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
 // Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
 // Gauss's rule with four points is exact for the squares of both.
 void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& free,
-                                double lever_m) {
+                                double lever_m, double bend_weight) {
   const motion::KnotRow& knots = free.knots();
   for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
     const double begin_s = std::max(knots.knot_s(k), problem.path.begin_s());
@@ -194,21 +191,23 @@ void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& 
       const double time_s = std::lerp(begin_s, end_s, share);
       OffsetPlace& place = places_.emplace_back();
       place.share_s = weight * (end_s - begin_s);
+      Terms bent;
       for (int near = std::max(k - 1, free.first()); near <= std::min(k + 2, free.last()); ++near) {
         free.add(near, free.bump(near).value(time_s), place.value);
-        free.add(near, free.bump(near).second_derivative(time_s), place.bent);
+        free.add(near, free.bump(near).second_derivative(time_s), bent);
       }
       place.offset =
           stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
-      place.bending = stacked(difference(problem.path.second_derivative(time_s),
-                                         problem.original.second_derivative(time_s)),
-                              lever_m);
+      bending_.count(place.share_s * bend_weight, bent,
+                     stacked(difference(problem.path.second_derivative(time_s),
+                                        problem.original.second_derivative(time_s)),
+                             lever_m));
     }
   }
 }
 
 void SmoothingForm::bound_about(const StackedPoints& about) {
-  assert(bend_weight_ > 0.0);
+  assert(!places_.empty());
   if (bound_at_ && *bound_at_ == about) return;  // the form would be the same
   bound_at_ = about;
   std::vector<double> sizes_m;
@@ -217,21 +216,18 @@ void SmoothingForm::bound_about(const StackedPoints& about) {
   }
   const double largest_m = sizes_m.empty() ? 0.0 : *std::ranges::max_element(sizes_m);
   const double floor_m = largest_m > 0.0 ? kRoundedShare * largest_m : 1.0;
-  hessian_.setZero();
-  slope_.setZero();
-  at_zero_ = 0.0;
+  squares_ = bending_;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const OffsetPlace& place = places_[i];
-    count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.offset);
-    count(place.share_s * bend_weight_, place.bent, place.bending);
+    squares_.count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.offset);
   }
   solve();
 }
 
 void SmoothingForm::solve() {
-  const Eigen::LLT<Eigen::MatrixXd> factors(hessian_);
-  inverse_ = factors.solve(Eigen::MatrixXd::Identity(hessian_.rows(), hessian_.cols()));
-  minimum_ = -inverse_ * slope_;
+  factors_.emplace(squares_.hessian);
+  minimum_ = -squares_.slope;
+  factors_->solve_in_place(minimum_);
 }
 
 void SmoothingForm::count_differences(const Problem& problem, const FreeCoefficients& free,
@@ -246,30 +242,17 @@ void SmoothingForm::count_differences(const Problem& problem, const FreeCoeffici
     const StackedPoint here = path_at(k);
     Terms value;
     free.add(k, 1.0, value);
-    count(weights.distance, value, here - stacked(extended(problem.original, time_s), lever_m));
+    squares_.count(weights.distance, value,
+                   here - stacked(extended(problem.original, time_s), lever_m));
     Terms step = value;
     free.add(k - 1, -1.0, step);
-    count(weights.stretch, step, here - path_at(k - 1));
+    squares_.count(weights.stretch, step, here - path_at(k - 1));
     Terms bend;
     free.add(k - 1, 1.0, bend);
     free.add(k, -2.0, bend);
     free.add(k + 1, 1.0, bend);
-    count(weights.bend, bend, path_at(k - 1) - 2.0 * here + path_at(k + 1));
+    squares_.count(weights.bend, bend, path_at(k - 1) - 2.0 * here + path_at(k + 1));
   }
-}
-
-void SmoothingForm::count(double weight, const Terms& terms, const StackedPoint& constant) {
-  at_zero_ += 0.5 * weight * constant.squaredNorm();
-  for (const Term& a : terms) {
-    slope_.row(a.variable) += weight * a.share * constant.transpose();
-    for (const Term& b : terms) hessian_(a.variable, b.variable) += weight * a.share * b.share;
-  }
-}
-
-double SmoothingForm::value(const StackedPoints& variables) const {
-  const StackedPoints curved = hessian_ * variables;
-  return at_zero_ + slope_.cwiseProduct(variables).sum() +
-         0.5 * curved.cwiseProduct(variables).sum();
 }
 
 }  // namespace camway::correction

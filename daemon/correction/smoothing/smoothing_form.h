@@ -6,39 +6,14 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <boost/container/static_vector.hpp>
 
 #include "daemon/correction/path/candidate.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/guide.h"
+#include "daemon/correction/smoothing/sum_of_squares.h"
 
 namespace camway::correction {
-
-/// A point of a path in the space in which paths are cubic splines: the position, then the image in
-/// R⁴ times a lever arm. The lever arm makes steps of equal length move the body about equally far.
-/// [Units: metres]
-using StackedPoint = Eigen::Matrix<double, 7, 1>;
-/// Stacked points, one per row.
-using StackedPoints = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
-
-inline StackedPoint stacked(const motion::CubicPoint& point, double lever_m) {
-  StackedPoint result;
-  result << point.position, lever_m * point.image;
-  return result;
-}
-inline motion::CubicPoint unstacked(const StackedPoint& point, double lever_m) {
-  return {point.head<3>(), point.tail<4>() / lever_m};
-}
-
-/// A term of a linear combination of variables.
-struct Term {
-  Eigen::Index variable;  ///< row of the variable in `StackedPoints`
-  double share;           ///< its factor
-};
-/// The value of a row of bumps at a time, in terms of the variables. Four bumps reach a time, and
-/// the coefficient of each may follow from two variables.
-using Terms = boost::container::static_vector<Term, 8>;
 
 /// Returns whether a row of bumps on `knots` can have free ends. The bumps that keep the two
 /// keyframes of the interval reach two knots beyond these keyframes; they must not reach the next
@@ -103,12 +78,6 @@ class FreeCoefficients {
   std::vector<Held> held_;
 };
 
-inline StackedPoint combined(const Terms& terms, const StackedPoints& variables) {
-  StackedPoint sum = StackedPoint::Zero();
-  for (const Term& term : terms) sum += term.share * variables.row(term.variable).transpose();
-  return sum;
-}
-
 /// An objective as a quadratic form of the free coefficients.
 /// - `kClosest`: D times the cost of `closeness.h`, up to a constant, with the offset's size at its
 ///   quadratic bound about the offset e of given coefficients: half of
@@ -135,17 +104,19 @@ class SmoothingForm {
   void bound_about(const StackedPoints& about);
 
   /// Returns the value of the form.
-  [[nodiscard]] double value(const StackedPoints& variables) const;
+  [[nodiscard]] double value(const StackedPoints& variables) const {
+    return squares_.value(variables);
+  }
   /// Returns the coefficients that minimise the form.
   [[nodiscard]] const StackedPoints& minimum() const { return minimum_; }
-  /// Returns the inverse of the Hessian, which is the same in all seven dimensions.
-  [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }
+  /// Returns the factors of the Hessian, which is the same in all seven dimensions.
+  [[nodiscard]] const BandFactors& factors() const { return *factors_; }
 
  private:
   void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
                          double lever_m);
-  void find_places(const Problem& problem, const FreeCoefficients& free, double lever_m);
-  void count(double weight, const Terms& terms, const StackedPoint& constant);
+  void find_places(const Problem& problem, const FreeCoefficients& free, double lever_m,
+                   double bend_weight);
   void solve();
 
   /// A place of Gauss's rule: the offset from the original there, as a function of the
@@ -153,18 +124,14 @@ class SmoothingForm {
   struct OffsetPlace {
     double share_s;  ///< weight in the integral
     Terms value;
-    Terms bent;            ///< second derivative
-    StackedPoint offset;   ///< offset of the problem's path
-    StackedPoint bending;  ///< its second derivative
+    StackedPoint offset;  ///< offset of the problem's path
   };
 
   std::vector<OffsetPlace> places_;        ///< for `kClosest`
-  double bend_weight_ = 0.0;               ///< of squared second derivatives, for `kClosest`
+  SumOfSquares bending_;                   ///< of second derivatives, for `kClosest`
   std::optional<StackedPoints> bound_at_;  ///< `about` of the present form, for `kClosest`
-  Eigen::MatrixXd hessian_;
-  StackedPoints slope_;  ///< gradient at zero
-  double at_zero_ = 0.0;
-  Eigen::MatrixXd inverse_;
+  SumOfSquares squares_;                   ///< the form
+  std::optional<BandFactors> factors_;     ///< of the form
   StackedPoints minimum_;
 };
 
