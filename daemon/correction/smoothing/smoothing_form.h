@@ -11,6 +11,7 @@
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/guide.h"
+#include "daemon/correction/smoothing/stacked_point.h"
 #include "daemon/correction/smoothing/sum_of_squares.h"
 
 namespace camway::correction {
