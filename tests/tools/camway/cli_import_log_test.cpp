@@ -270,6 +270,12 @@ TEST_F(CliImportLog, TheFormatOfLogsMayBeNamed) {
   EXPECT_THAT(run.err, HasSubstr("--format: " + table + " is no log of lcm-logger"));
 }
 
+TEST_F(CliImportLog, NoOtherFormatMayBeNamed) {
+  const CliRun run = import(with({"--format", "tum"}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is a log of lcm-logger, which is read as lcm"));
+}
+
 TEST_F(CliImportLog, AMissingFileIsNoOtherKindOfFile) {
   const CliRun run = run_camway({"import", folder_.file("none.lcmlog"), "--channel", "POSE",
                                  "--request", folder_.file("r.json")});

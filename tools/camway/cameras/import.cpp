@@ -67,6 +67,10 @@ constexpr CameraFormat kLogFormat{"lcm", ".lcmlog", "log of lcm-logger, poses of
                                   nullptr, nullptr};
 
 base::Result<CameraTrack> read_log(const ImportFlags& flags) {
+  if (!flags.format.empty() && flags.format != kLogFormat.name) {
+    return base::Failure{fmt::format("--format: {} is a log of lcm-logger, which is read as {}",
+                                     flags.file, kLogFormat.name)};
+  }
   if (flags.log.types.empty() || flags.log.position.empty()) {
     return base::Failure{flags.file +
                          ": is a log of lcm-logger: --type names the .lcm file of its messages, "
