@@ -144,6 +144,24 @@ test('an option that is refused is marked, and the path is still drawn', async (
   assert.equal(await refused.end(), 0, refused.output);
 });
 
+test('a text that is being typed outlives a drawing of its panel', async () => {
+  const page = await open_page(door.url);
+  await page.ready();
+  await page.show_panel('Options');
+  const field = page.tab.locator('[data-key="clearance_m"]');
+  for (const [typed, rest, left, value] of [['0.0', '2', 'Tab', 0.02], ['0.03', '', 'Tab', 0.03], ['0.0', '4', 'Enter', 0.04]]) {
+    await field.fill(typed);
+    const old = await field.elementHandle();
+    await page.drop_socket();  // the panel is drawn anew, with the state of the connection
+    await page.until(({state}, old) => state.connection === 'open' && !old.isConnected, old);
+    assert.equal(await field.inputValue(), typed);
+    await page.tab.keyboard.type(rest);
+    await page.tab.keyboard.press(left);
+    await page.until(({state}, value) => state.request.options?.clearance_m === value, value);
+  }
+  await page.close();
+});
+
 test('a page with an edit is loaded again, with the request that was planned last', async () => {
   const page = await open_page(door.url);
   await page.ready();

@@ -2,16 +2,44 @@
 import type { State, Store } from '../model/store.js';
 import { oncePerFrame } from './dom.js';
 
-/** Replaces the content of `host`. Where the focus was on an element with a `data-key`, the new one of it has it. */
+/**
+ * Replaces the content of `host`. Where the focus was on an element with a `data-key`, the new one of it has it, with
+ * the text that was typed into it and is not read yet.
+ */
 export function renderKeepingFocus(host: HTMLElement, content: readonly Node[]): void {
   const active = document.activeElement;
-  const key = active instanceof HTMLElement && host.contains(active) ? active.dataset['key'] : undefined;
+  const focused = active instanceof HTMLElement && host.contains(active) ? active : undefined;
+  const typed = focused && typedInto(focused);
   const top = host.scrollTop;
   host.replaceChildren(...content);
   host.scrollTop = top;
+  const key = focused?.dataset['key'];
   if (key === undefined) return;
   const again = [...host.querySelectorAll<HTMLElement>('[data-key]')].find((element) => element.dataset['key'] === key);
   again?.focus({ preventScroll: true });
+  if (typed && again instanceof HTMLInputElement) typeAgain(again, typed);
+}
+
+interface Typed {
+  text: string;
+  selection: [from: number | null, to: number | null];
+}
+
+function typedInto(element: HTMLElement): Typed | undefined {
+  if (!(element instanceof HTMLInputElement) || element.type !== 'text' || element.value === element.defaultValue) return undefined;
+  return { text: element.value, selection: [element.selectionStart, element.selectionEnd] };
+}
+
+/** Firefox does not tell of a text that a script has set, so that is told when the focus leaves. */
+function typeAgain(input: HTMLInputElement, { text, selection }: Typed): void {
+  input.value = text;
+  input.setSelectionRange(...selection);
+  let isRead = false;
+  input.addEventListener('input', () => (isRead = false));
+  input.addEventListener('change', () => (isRead = true));
+  input.addEventListener('blur', () => {
+    if (!isRead && input.value !== input.defaultValue) input.dispatchEvent(new Event('change'));
+  });
 }
 
 /**
