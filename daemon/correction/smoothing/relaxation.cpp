@@ -36,6 +36,7 @@ constexpr double kGentlerRoom = 1.25;  // the same in steps that make room
 constexpr double kPriceOfRoom = 1.25;  // largest growth of the cost for wider gaps
 constexpr int kMostCuts = 3;           // attempts at a step, each with more contacts
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
+constexpr int kStepsAgain = 4;         // of each round but the first, at least
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;  // moves back towards the initial correction
 
@@ -313,7 +314,9 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
   Offsets better = free.offsets;
   double share = kRetreat;
   for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
-    relaxation.run(budget, deadline);
+    // A step may jump over what is thin. The path is taken back then, and more contacts are known.
+    base::Budget again(kStepsAgain);
+    relaxation.run(i == 0 || budget.covers(kStepsAgain) ? budget : again, deadline);
     better = relaxation.offsets();
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
     ++free.paths;
