@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <vector>
+
+#include "daemon/base/largest_value.h"
 
 namespace camway::correction {
 
@@ -25,18 +28,20 @@ void measure(const CubicPath& path, const CubicPath& interpolated, const Closene
   constexpr int kSamples = 6;  // of a piece
   const CubicPath changed = path.around(correction.t_begin_s, correction.t_end_s);
   correction.shift = shift_of(changed, interpolated, closeness);
+  std::vector<double> times_s;
   for (const motion::CubicPiece& piece : changed.pieces) {
     const double begin_s = std::max(piece.t0_s, correction.t_begin_s);
     const double end_s = std::min(piece.t1_s, correction.t_end_s);
     for (int i = 0; i <= kSamples; ++i) {
-      const double time_s = std::lerp(begin_s, end_s, static_cast<double>(i) / kSamples);
-      const motion::Pose now = changed.pose(time_s);
-      const motion::Pose before = interpolated.pose(time_s);
-      correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
-      correction.turned_rad =
-          std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+      times_s.push_back(std::lerp(begin_s, end_s, static_cast<double>(i) / kSamples));
     }
   }
+  correction.moved_m = base::largest_value(times_s, [&](double time_s) {
+    return (changed.at(time_s).position - interpolated.at(time_s).position).norm();
+  });
+  correction.turned_rad = base::largest_value(times_s, [&](double time_s) {
+    return changed.pose(time_s).orientation.angularDistance(interpolated.pose(time_s).orientation);
+  });
 }
 
 }  // namespace

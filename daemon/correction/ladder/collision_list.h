@@ -67,7 +67,7 @@ class CollisionList {
 };
 
 /// Sets `moved_m`, `turned_rad` and `shift` of all corrections to what they are on `path`, compared
-/// with `interpolated`; by samples.
+/// with `interpolated`, by samples and a search beside the largest.
 void measure_corrections(const motion::CubicPath& path, const motion::CubicPath& interpolated,
                          const Closeness& closeness, std::vector<Correction>& corrections);
 

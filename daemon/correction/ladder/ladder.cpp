@@ -55,7 +55,8 @@ class Ladder {
       // those that were refused.
       result.needed_keyframes = corrected_.needed_keyframes();
       redraw(options_.origin, space_, corrected_, collisions_);
-      polish(options_.objective, options_.origin, space_, corrected_, collisions_);
+      result.is_polished =
+          polish(options_.objective, options_.origin, space_, corrected_, collisions_);
     }
     result.corrections = collisions_.corrections();
     if (is_corrected) {

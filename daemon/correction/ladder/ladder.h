@@ -52,6 +52,8 @@ struct LadderResult {
   std::vector<ShutIn> shut_in;
   Closeness closeness;  ///< the scale by which corrections were compared
   bool timed_out = false;
+  /// Whether polishing found a path that is better by another objective than `kClosest`.
+  bool is_polished = false;
   /// If the limit was exceeded: the number of inserted keyframes that all corrections found would
   /// need.
   std::optional<std::size_t> needed_keyframes;

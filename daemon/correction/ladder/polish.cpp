@@ -23,7 +23,8 @@ class Polisher {
            CollisionList& collisions)
       : origin_(origin), space_(space), corrected_(corrected), collisions_(collisions) {}
 
-  void pursue(Objective objective) {
+  bool pursue(Objective objective) {
+    bool gains = false;
     const Improvement pursuit{.objective = objective, .may_turn = false, .worth = kPursuitWorth};
     base::Budget budget(kPursuitStepsPerLeg * static_cast<std::int64_t>(collisions_.count_legs()));
     const std::vector<bool> legs = collisions_.corrected_legs(corrected_);
@@ -33,9 +34,10 @@ class Polisher {
         const Problem part = part_about(leg);
         const std::optional<Candidate> other =
             polished(part, knots, pursuit, budget, space_, deadline());
-        if (other) take_if_better(leg, objective, *other, part);
+        if (other && take_if_better(leg, objective, *other, part)) gains = true;
       }
     }
+    return gains;
   }
 
  private:
@@ -51,11 +53,10 @@ class Polisher {
     return objective_cost(objective, path, part.original, space_, deadline());
   }
 
-  void take_if_better(std::size_t leg, Objective objective, const Candidate& other,
+  bool take_if_better(std::size_t leg, Objective objective, const Candidate& other,
                       const Problem& part) {
-    if (is_better(cost(objective, other.path, part), cost(objective, part.path, part))) {
-      take(leg, other);
-    }
+    return is_better(cost(objective, other.path, part), cost(objective, part.path, part)) &&
+           take(leg, other);
   }
 
   bool take(std::size_t leg, const Candidate& candidate) {
@@ -73,11 +74,10 @@ class Polisher {
 
 }  // namespace
 
-void polish(Objective objective, const motion::TimeOrigin& origin, FreeSpace& space,
+bool polish(Objective objective, const motion::TimeOrigin& origin, FreeSpace& space,
             CorrectedPath& corrected, CollisionList& collisions) {
   Polisher polisher(origin, space, corrected, collisions);
-  if (objective == Objective::kClosest) return;
-  polisher.pursue(objective);
+  return objective != Objective::kClosest && polisher.pursue(objective);
 }
 
 }  // namespace camway::correction

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "daemon/base/largest_value.h"
 #include "daemon/motion/path/bezier.h"
 #include "daemon/motion/path/quaternion.h"
 
@@ -24,7 +24,6 @@ constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's ru
 constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
 constexpr double kPercentile = 0.99;     // of the acceleration
 constexpr int kAccelerationSamples = 8;  // in a piece
-constexpr int kSections = 14;            // of two samples, to a thousandth of their distance
 
 /// Second derivative of a cubic Bézier curve at u.
 template <class Point>
@@ -122,30 +121,13 @@ class PieceShift {
     return sum * change_.duration_s / (3.0 * kSamplesAPiece);
   }
 
-  /// Returns the largest shift, by golden sections beside the largest sample (Kiefer 1953): between
-  /// samples lies up to a thirtieth more. [Units: radians]
+  /// Returns the largest shift: between samples lies up to a thirtieth more. [Units: radians]
   [[nodiscard]] double largest() const {
-    constexpr double kStep = 1.0 / kSamplesAPiece;
-    double best_u = 0.0;
-    double best_rad = at(0.0);
-    for (int i = 1; i <= kSamplesAPiece; ++i) {
-      const double rad = at(i * kStep);
-      if (rad > best_rad) {
-        best_rad = rad;
-        best_u = i * kStep;
-      }
+    std::array<double, kSamplesAPiece + 1> places;
+    for (int i = 0; i <= kSamplesAPiece; ++i) {
+      places[static_cast<std::size_t>(i)] = static_cast<double>(i) / kSamplesAPiece;
     }
-    double low = std::max(0.0, best_u - kStep);
-    double high = std::min(1.0, best_u + kStep);
-    for (int i = 0; i < kSections; ++i) {
-      const double left = high - (std::numbers::phi - 1.0) * (high - low);
-      const double right = low + (std::numbers::phi - 1.0) * (high - low);
-      const double left_rad = at(left);
-      const double right_rad = at(right);
-      best_rad = std::max({best_rad, left_rad, right_rad});
-      (left_rad < right_rad ? low : high) = left_rad < right_rad ? left : right;
-    }
-    return best_rad;
+    return base::largest_value(places, [this](double u) { return at(u); });
   }
 
  private:

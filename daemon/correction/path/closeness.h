@@ -39,7 +39,8 @@ struct Shift {
   bool operator==(const Shift&) const = default;
 };
 
-/// Compares `path` with `original`, by samples and a search beside the largest. Requires `original` to cover the time of `path`.
+/// Compares `path` with `original`, by samples and a search beside the largest. Requires `original`
+/// to cover the time of `path`.
 Shift shift_of(const motion::CubicPath& path, const motion::CubicPath& original,
                const Closeness& closeness);
 

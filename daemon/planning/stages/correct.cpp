@@ -58,6 +58,7 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision
   CorrectedPlan plan;
   plan.timed_out = corrected.timed_out;
   plan.needed_keyframes = corrected.needed_keyframes;
+  plan.is_polished = corrected.is_polished;
   plan.closeness = corrected.closeness;
   result.shut_in = std::move(corrected.shut_in);
   result.corrections = std::move(corrected.corrections);
@@ -95,6 +96,7 @@ CorrectedPlan insert_keyframes(const collision::Query& query, const PlanRequest&
           .closeness = {},
           .is_as_interpolated = false,
           .timed_out = corrected.timed_out,
+          .is_polished = false,
           .needed_keyframes = {}};
 }
 

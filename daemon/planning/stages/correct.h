@@ -23,6 +23,8 @@ struct CorrectedPlan {
   correction::Closeness closeness = {};  ///< with `path`: the scale by which it is near
   bool is_as_interpolated = true;
   bool timed_out = false;  ///< the deadline came before all collisions were corrected
+  /// Whether the path is better by another objective than `kClosest` than the closest path.
+  bool is_polished = false;
   /// The number of inserted keyframes that all corrections found would need, if that is more than
   /// allowed.
   std::optional<std::size_t> needed_keyframes;

@@ -23,6 +23,22 @@ std::string note_of_clearance(double clearance_m) {
                            : "";
 }
 
+/// Says that the path is the closest one, where the request asks for another and none was found.
+std::string note_of_objective(const PlanRequest& request, const CorrectedPlan& corrected) {
+  if (!corrected.path || corrected.is_polished) return {};
+  switch (request.options.objective) {
+    case correction::Objective::kClosest:
+      return {};
+    case correction::Objective::kShortest:
+      return "; none was found that is shorter than the closest one";
+    case correction::Objective::kSmoothest:
+      return "; none was found that is smoother than the closest one";
+    case correction::Objective::kSafest:
+      return "; none was found that keeps more room than the closest one";
+  }
+  return {};
+}
+
 void set_status_of_free(const Outcomes& plan, PlanResult& result) {
   if (plan.slowed.breach) {
     // It is proved free, and the certificate says so; it is not what was asked for.
@@ -39,6 +55,7 @@ void set_status_of_free(const Outcomes& plan, PlanResult& result) {
         fmt::format("{}; the path is proved free of collision{}{}", what_was_done(result),
                     note_of_clearance(result.certificate.clearance_lower_bound_m),
                     plan.query.obstacles.bounds.any() ? ", and within bounds" : "") +
+        note_of_objective(plan.request, plan.corrected) +
         note_of_times(result, plan.slowed.is_everywhere) + notes(plan, result);
   }
 }
