@@ -122,7 +122,9 @@ TEST(StoreyPanels, KeyframesHaveTheirHeights) {
   }
   for (motion::Keyframe& keyframe : plan.keyframes) keyframe.pose.position.y() = 1.6;
   EXPECT_TRUE(are_level(plan.keyframes, plan.up));
-  for (const PanelKeyframe& keyframe : storey_panels(plan)[0].keyframes) {
+  const std::vector<Panel> panels = storey_panels(plan);
+  ASSERT_FALSE(panels.empty());
+  for (const PanelKeyframe& keyframe : panels[0].keyframes) {
     EXPECT_EQ(keyframe.remark, "");
   }
 }
