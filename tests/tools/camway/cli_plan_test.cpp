@@ -42,6 +42,19 @@ TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
               HasSubstr("free.json: ok: no collision to correct; the path is proved free"));
 }
 
+TEST_F(CliPlan, SaysThatNothingBetterThanTheClosestPathWasFound) {
+  const std::string request = folder_.write(
+      "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
+  const auto message_of = [&](const std::string& objective) {
+    return run_camway({"plan", "--scene", scene_, "--request", request, "--objective", objective})
+        .err;
+  };
+  EXPECT_THAT(message_of("closest"), Not(HasSubstr("none was found")));
+  EXPECT_THAT(message_of("safest"), Not(HasSubstr("none was found")));
+  EXPECT_THAT(message_of("shortest"),
+              HasSubstr("; none was found that is shorter than the closest one"));
+}
+
 TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
   const std::string request = folder_.write(
       "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
