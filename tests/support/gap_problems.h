@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <random>
 #include <utility>
@@ -54,6 +55,22 @@ inline correction::Problem problem_of_leg(const std::vector<motion::Keyframe>& k
   problem.has_path_end = last + 1 == keyframes.size();
   problem.interval = {keyframes[gap].time_s, keyframes[gap + 1].time_s};
   return problem;
+}
+
+/// Returns the problem of a straight path along z, from 4 to -4 in 8 s, without turning.
+inline correction::Problem problem_along_z() {
+  const auto at = [](double time_s, double z_m) {
+    return motion::Keyframe{time_s, {{0, 0, z_m}, geometry::Quat::Identity()}};
+  };
+  return problem_of_leg({at(0, 4), at(8, -4)}, 0);
+}
+
+/// Adds a plate across that path at z = 0, which reaches `height_m` into the way of the near
+/// quadrilateral of `small_camera()`, from below.
+inline void add_plate_across(scene::Mesh& mesh, double height_m, double thickness_m) {
+  const motion::Camera camera = small_camera();
+  const double low_m = -std::tan(camera.fov_y_rad / 2.0) * camera.near_m;
+  add_cuboid(mesh, {-3, -3, -0.5 * thickness_m}, {3, low_m + height_m, 0.5 * thickness_m});
 }
 
 inline std::vector<motion::Keyframe> random_keyframes(Draw& draw, int count) {

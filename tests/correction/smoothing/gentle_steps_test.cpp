@@ -29,12 +29,9 @@ struct CostTerms {
 class GentleStepsTest : public ::testing::Test {
  protected:
   GentleStepsTest() {
-    const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
-    testing::add_cuboid(mesh_, {-3, -3, -0.05}, {3, low_m + 0.3, 0.05});
+    testing::add_plate_across(mesh_, 0.3, 0.1);
     index_ = scene::SceneIndex::build(mesh_);
-    problem_ = testing::problem_of_leg({{0, {{0, 0, 4}, geometry::Quat::Identity()}},
-                                        {8, {{0, 0, -4}, geometry::Quat::Identity()}}},
-                                       0);
+    problem_ = testing::problem_along_z();
   }
 
   [[nodiscard]] FreeSpace space() const {

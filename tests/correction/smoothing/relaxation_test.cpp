@@ -478,10 +478,9 @@ Hurdle hurdle(double height_m) {
   Hurdle hurdle;
   RelaxationCase& c = hurdle.c;
   c.policy.rule = OrientationRule::kKeep;
-  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
-  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m + height_m, 0.3});
+  testing::add_plate_across(c.mesh, height_m, 0.6);
   c.build();
-  c.problem = testing::problem_of_leg({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
+  c.problem = testing::problem_along_z();
   hurdle.free = correction_with(c, lifted(c.problem, 8, {0, 1.5 * height_m, 0}), Ends::kFixed);
   return hurdle;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <optional>
 
 #include "daemon/correction/path/closeness.h"
@@ -21,12 +20,9 @@ constexpr double kTooHigh_m = 2.4;  // coefficients of a row over it
 class ThinObstacleTest : public ::testing::Test {
  protected:
   ThinObstacleTest() {
-    const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
-    testing::add_cuboid(mesh_, {-3, -3, -0.5 * kThin_m}, {3, low_m + kHeight_m, 0.5 * kThin_m});
+    testing::add_plate_across(mesh_, kHeight_m, kThin_m);
     index_ = scene::SceneIndex::build(mesh_);
-    problem_ = testing::problem_of_leg({{0, {{0, 0, 4}, geometry::Quat::Identity()}},
-                                        {8, {{0, 0, -4}, geometry::Quat::Identity()}}},
-                                       0);
+    problem_ = testing::problem_along_z();
   }
 
   [[nodiscard]] FreeSpace space() const {
