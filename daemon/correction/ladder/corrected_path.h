@@ -74,6 +74,11 @@ class CorrectedPath {
   /// as `take` does.
   bool take_instead(const ChangedPart& part, const Candidate& candidate);
 
+  /// Makes the path as interpolated between two given keyframes, which no changed part may cross.
+  void restore(std::size_t first_keyframe, std::size_t last_keyframe);
+  /// Takes over the path and the changed parts of `other`, a changed copy of this object.
+  void adopt(CorrectedPath&& other);
+
   /// Counts the keyframes of a candidate that `take` refused.
   void count_refused(const Candidate& candidate);
 

@@ -170,9 +170,8 @@ class Redrawer {
 
 }  // namespace
 
-void redraw(const motion::TimeOrigin& origin, FreeSpace& space, CorrectedPath& corrected,
-            CollisionList& collisions) {
-  const std::vector<ChangedPart> parts = corrected.changed_parts();
+void redraw(const std::vector<ChangedPart>& parts, const motion::TimeOrigin& origin,
+            FreeSpace& space, CorrectedPath& corrected, CollisionList& collisions) {
   for (const ChangedPart& part : parts) {
     if (corrected.deadline().passed()) return;
     const ChangedPart wide = corrected.widened(part, kBeside);

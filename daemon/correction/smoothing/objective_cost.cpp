@@ -21,7 +21,7 @@ constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
 constexpr double kTightGap = 0.02;      // in radii of the ball: enough for all but `kSafest`
-constexpr double kSameGap = 0.99;       // share of the least gap: samples miss more than the rest
+constexpr double kSameGap = 1.0;       // share of the least gap: samples miss more than the rest
 constexpr double kWorthAChange = 1e-3;  // share of the cost: less is within the error of samples
 
 template <class Use>
