@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "daemon/planning/stages/path_check.h"
 #include "tests/bench/fidelity/assembly.h"
 #include "tests/bench/fidelity/changed_ranges.h"
-#include "tests/bench/fidelity/local_search.h"
+#include "tests/bench/fidelity/goal.h"
+#include "tests/bench/fidelity/range_search.h"
 #include "tests/bench/measure.h"
 
 namespace camway::bench {
@@ -20,9 +20,6 @@ namespace {
 using motion::CubicPath;
 using planning::PlanOptions;
 
-constexpr std::size_t kTrials = 6;        // starts of a range that have a trial
-constexpr double kShareOfTrial = 0.08;    // of the time of a range
-constexpr double kOtherShift = 0.3;       // of the cheapest start's: starts within it are the same
 constexpr double kMarginOfSearch = 0.5;   // of the duration of a range, on either side
 constexpr double kLittleTurn_rad = 0.17;  // ten degrees
 constexpr double kLongestPlan_s = 2.0;    // of an other answer
@@ -91,62 +88,11 @@ TimeRange widened(const std::vector<TimeRange>& ranges, std::size_t i, const Cub
   return {std::max(before_s, range.begin_s - margin_s), std::min(after_s, range.end_s + margin_s)};
 }
 
-/// Largest shift in a range of one path from another. [Units: radians]
-double shift_between(const Shot& shot, const CubicPath& a, const CubicPath& b,
-                     const TimeRange& range) {
-  constexpr int kTimes = 100;
-  double largest_rad = 0.0;
-  for (int i = 0; i <= kTimes; ++i) {
-    const double share = static_cast<double>(i) / kTimes;
-    const double time_s = std::lerp(range.begin_s, range.end_s, share);
-    const motion::Pose one = a.pose(time_s);
-    const motion::Pose other = b.pose(time_s);
-    const double moved_m = (one.position - other.position).norm();
-    largest_rad = std::max(largest_rad, moved_m / shot.closeness().viewing_distance_m +
-                                            one.orientation.angularDistance(other.orientation));
-  }
-  return largest_rad;
-}
-
-/// The cheapest starts of a range that differ from one another, cheapest first.
-std::vector<const CubicPath*> cheapest(const Shot& shot, std::span<const CubicPath> starts,
-                                       const TimeRange& range) {
-  std::vector<std::pair<double, const CubicPath*>> by_cost;
-  for (const CubicPath& start : starts) {
-    by_cost.emplace_back(shot.cost(start.around(range.begin_s, range.end_s)), &start);
-  }
-  std::ranges::stable_sort(by_cost, {}, &std::pair<double, const CubicPath*>::first);
-  const double shift_rad =
-      kOtherShift * shift_between(shot, *by_cost.front().second, shot.interpolated(), range);
-  std::vector<const CubicPath*> list;
-  for (const auto& [cost, start] : by_cost) {
-    const bool is_other = std::ranges::all_of(list, [&, path = start](const CubicPath* known) {
-      return shift_between(shot, *path, *known, range) > shift_rad;
-    });
-    if (is_other && list.size() < kTrials) list.push_back(start);
-  }
-  return list;
-}
-
-/// Searches one range from the cheapest starts. Returns the whole path of the best.
-CubicPath searched(const Shot& shot, const correction::FreeSpace& space,
-                   std::span<const CubicPath> starts, const TimeRange& range,
-                   const SearchEffort& effort) {
-  std::vector<LocalSearch> searches;
-  for (const CubicPath* start : cheapest(shot, starts, range)) {
-    LocalSearch& search = searches.emplace_back(shot, space, *start, range, effort.seed);
-    search.run(kShareOfTrial * effort.seconds);
-  }
-  LocalSearch& best = *std::ranges::min_element(searches, {}, &LocalSearch::cost);
-  const auto trials = static_cast<double>(searches.size());
-  best.run((1.0 - trials * kShareOfTrial) * effort.seconds);
-  return best.path();
-}
-
 /// Searches each range by itself, and joins the results to one path.
 CubicPath searched_everywhere(const Shot& shot, std::span<const CubicPath> starts,
                               const SearchEffort& effort) {
   const correction::FreeSpace space = shot.space_with(effort.clearance_m + kSlack_m);
+  const Goal goal = closeness_goal(shot);
   const std::vector<TimeRange> ranges = ranges_of(shot, starts);
   SearchEffort share = effort;
   share.seconds /= static_cast<double>(ranges.size());
@@ -154,24 +100,11 @@ CubicPath searched_everywhere(const Shot& shot, std::span<const CubicPath> start
   std::vector<TimeRange> wide;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     wide.push_back(widened(ranges, i, shot.interpolated()));
-    paths.push_back(searched(shot, space, starts, wide.back(), share));
+    paths.push_back(searched(shot, goal, space, starts, wide.back(), share));
   }
   std::vector<PathPart> parts;
   for (std::size_t i = 0; i < paths.size(); ++i) parts.push_back({wide[i], &paths[i]});
   return assembled(shot.interpolated(), shot.plan().keyframes, parts);
-}
-
-/// The paths that keep this clearance.
-std::vector<CubicPath> free_with(const Shot& shot, std::span<const CubicPath> paths,
-                                 double clearance_m) {
-  const correction::FreeSpace space = shot.space_with(clearance_m);
-  std::vector<CubicPath> kept;
-  for (const CubicPath& path : paths) {
-    const planning::PathCheck check = planning::check_path(
-        space.query(), path.path(), base::Deadline::never(), base::Deadline::never());
-    if (check.certificate.certified) kept.push_back(path);
-  }
-  return kept;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,22 +8,10 @@
 
 #include "daemon/motion/spline/cubic_path.h"
 #include "tests/bench/fidelity/answers.h"
+#include "tests/bench/fidelity/range_search.h"
 #include "tests/bench/fidelity/shot.h"
 
 namespace camway::bench {
-
-/// Effort of the slow reference.
-struct SearchEffort {
-  double seconds = 2.0;  ///< processor time of the searches of a shot, without its plans
-  std::uint64_t seed = 1;
-  /// Clearance that the search keeps, at least the required one. [Units: metres]
-  double clearance_m = 0.0;
-};
-
-/// The search keeps so much more than the required clearance. Detection counts a stretch as
-/// colliding that it cannot prove free while the body moves by a tenth of the interval tolerance;
-/// where the gap is larger than that, every division of the path proves it.
-inline constexpr double kSlack_m = 1e-4;
 
 /// Returns the answers from which the slow reference starts, beside the default one: without
 /// turning, with little turning, with other viewing distances and seeds, and on other sides of what

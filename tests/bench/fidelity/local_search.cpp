@@ -71,15 +71,17 @@ CubicPoint difference(const CubicPoint& a, const CubicPoint& b) {
 
 }  // namespace
 
-LocalSearch::LocalSearch(const Shot& shot, const correction::FreeSpace& space,
+LocalSearch::LocalSearch(const Shot& shot, const Goal& goal, const correction::FreeSpace& space,
                          const CubicPath& start, const TimeRange& range, std::uint64_t seed)
     : shot_(shot),
+      goal_(goal),
       space_(space),
       whole_(start),
       part_(start.around(range.begin_s, range.end_s)),
       random_(seed),
       least_first_(range.begin_s <= start.begin_s() ? -1 : 2),
-      most_beyond_(range.end_s >= start.end_s() ? 1 : -2) {
+      most_beyond_(range.end_s >= start.end_s() ? 1 : -2),
+      height_m_(goal.least_height_m) {
   for (const motion::Keyframe& keyframe : shot.plan().keyframes) {
     keyframes_s_.push_back(keyframe.time_s);
   }
@@ -90,7 +92,7 @@ LocalSearch::LocalSearch(const Shot& shot, const correction::FreeSpace& space,
     height_m_ = std::max(height_m_, offset.position.norm() + turn_m);
   }
   make_scales(knots_s);
-  cost_ = shot.cost(part_);
+  cost_ = goal.cost(part_);
 }
 
 void LocalSearch::make_scales(const std::vector<double>& knots_s) {
@@ -116,7 +118,7 @@ void LocalSearch::step() {
       scales_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(scales_.size()) - 1))];
   std::optional<BumpRow> proposed = row(scale);
   if (!proposed) return;
-  const auto kind = static_cast<Kind>(random_.integer(0, kKinds - 1));
+  const Kind kind = any_kind();
   const double peak_s = 0.5 * (proposed->begin_s() + proposed->end_s());
   const CubicPoint along = direction(kind, peak_s);
   double& size = scale.steps[kind];
@@ -134,11 +136,20 @@ void LocalSearch::step() {
   }
 }
 
+LocalSearch::Kind LocalSearch::any_kind() {
+  if (goal_.may_turn) return static_cast<Kind>(random_.integer(0, kKinds - 1));
+  return random_.chance(0.5) ? kMove : kBack;
+}
+
 /// A vector of about the length `height_m_`.
 CubicPoint LocalSearch::direction(Kind kind, double time_s) {
   const double turn = kTurnsEquallyFar / shot_.closeness().turn_lever_m;
   CubicPoint along;
-  if (kind == kBack) return difference(part_.at(time_s), shot_.interpolated().at(time_s));
+  if (kind == kBack) {
+    along = difference(part_.at(time_s), shot_.interpolated().at(time_s));
+    if (!goal_.may_turn) along.image.setZero();
+    return along;
+  }
   if (kind != kTurn) along.position = random_.normal_vector(height_m_);
   if (kind != kMove) {
     const double size = turn * height_m_;
@@ -197,8 +208,8 @@ bool LocalSearch::try_row(const BumpRow& row) {
   const double begin_s = problem.path.begin_s();
   const double end_s = problem.path.end_s();
   problem.original = shot_.interpolated().around(begin_s, end_s);
-  const double before = shot_.cost(problem.path);
-  const double after = shot_.cost(motion::with_bumps(problem.path, std::span(&row, 1)));
+  const double before = goal_.cost(problem.path);
+  const double after = goal_.cost(motion::with_bumps(problem.path, std::span(&row, 1)));
   if (!(after < before)) return false;
   problem.keyframes_s = keyframes_within(begin_s, end_s);
   problem.has_path_begin = begin_s == whole_.begin_s();

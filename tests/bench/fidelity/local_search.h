@@ -9,13 +9,15 @@
 
 #include "daemon/motion/spline/bump.h"
 #include "tests/bench/fidelity/changed_ranges.h"
+#include "tests/bench/fidelity/goal.h"
 #include "tests/bench/fidelity/shot.h"
 #include "tests/support/random.h"
 
 namespace camway::bench {
 
-/// A random search that lowers the cost of a part of a path and keeps it proved free. Slow, and
-/// independent of how planning relaxes corrections: it knows nothing of contacts, forms or margins.
+/// A random search that lowers the cost of a part of a path by a goal and keeps it proved free.
+/// Slow, and independent of how planning relaxes corrections: it knows nothing of contacts, forms
+/// or margins.
 ///
 /// A step adds a few bumps to the path. Their spacing is drawn from several scales, so that a long
 /// change takes no more steps than a short one. Their coefficients are proportional to one random
@@ -27,11 +29,11 @@ namespace camway::bench {
 /// Deterministic up to the number of steps, which processor time limits. Not thread-safe.
 class LocalSearch {
  public:
-  /// Refers to `shot` and `space`, which must outlive it. Changes `start` within `range` alone.
-  /// `space`: of the shot, with the clearance that the search keeps. Requires `start` to be proved
-  /// free there.
-  LocalSearch(const Shot& shot, const correction::FreeSpace& space, const motion::CubicPath& start,
-              const TimeRange& range, std::uint64_t seed);
+  /// Refers to `shot`, `goal` and `space`, which must outlive it. Changes `start` within `range`
+  /// alone. `space`: of the shot, with the clearance that the search keeps. Requires `start` to be
+  /// proved free there.
+  LocalSearch(const Shot& shot, const Goal& goal, const correction::FreeSpace& space,
+              const motion::CubicPath& start, const TimeRange& range, std::uint64_t seed);
 
   /// Searches for `seconds` of processor time.
   void run(double seconds);
@@ -50,6 +52,7 @@ class LocalSearch {
 
   void make_scales(const std::vector<double>& knots_s);
   void step();
+  [[nodiscard]] Kind any_kind();
   [[nodiscard]] motion::CubicPoint direction(Kind kind, double time_s);
   [[nodiscard]] std::optional<motion::BumpRow> row(const Scale& scale);
   [[nodiscard]] std::vector<double> cancelling(const motion::KnotRow& knots, int first, int count);
@@ -57,6 +60,7 @@ class LocalSearch {
   bool try_row(const motion::BumpRow& row);
 
   const Shot& shot_;
+  const Goal& goal_;
   const correction::FreeSpace& space_;
   motion::CubicPath whole_;
   motion::CubicPath part_;  ///< the pieces that meet the range
@@ -65,7 +69,7 @@ class LocalSearch {
   testing::Random random_;
   int least_first_ = 0;  ///< least index of a bump, and the greatest from the last knot on
   int most_beyond_ = 0;
-  double height_m_ = 0.0;  ///< largest offset at the start
+  double height_m_ = 0.0;  ///< largest offset at the start, or the goal's if that is larger
   double cost_ = 0.0;
 };
 
