@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "daemon/motion/spline/bump.h"
@@ -15,7 +15,6 @@ namespace camway::bench {
 namespace {
 
 using correction::Objective;
-using geometry::Vec3;
 using motion::CubicPath;
 using testing::Random;
 
@@ -24,6 +23,20 @@ CubicPath divided(const CubicPath& path) {
   const motion::BumpRow none{motion::KnotRow(path.begin_s(), path.end_s(), 37), 2,
                              std::vector<motion::CubicPoint>(33)};
   return motion::with_bumps(path, std::span(&none, 1));
+}
+
+/// A flight over the floor of `scene_of`, of which every instant has the same distance from it.
+std::vector<motion::Keyframe> level_flight(Random& random, double height_m) {
+  std::vector<motion::Keyframe> keyframes = curved_flight(random);
+  for (motion::Keyframe& keyframe : keyframes) {
+    keyframe.pose.position.y() = -5.0 + height_m;
+    keyframe.pose.orientation = geometry::Quat::Identity();
+  }
+  return keyframes;
+}
+
+double half_height_m(const motion::Camera& camera) {
+  return camera.near_m * std::tan(0.5 * camera.fov_y_rad);
 }
 
 TEST(ObjectiveValue, DoesNotDependOnHowACurveIsDivided) {
@@ -57,16 +70,10 @@ TEST(ObjectiveValue, ProvesTheClearanceOfAFloor) {
   const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
   Random random(3);
   for (int i = 0; i < 10; ++i) {
-    // The flight is level, so every instant has the same distance from the floor.
-    std::vector<motion::Keyframe> keyframes = curved_flight(random);
     const double height_m = random.uniform(0.1, 0.3);
-    for (motion::Keyframe& keyframe : keyframes) {
-      keyframe.pose = {{keyframe.pose.position.x(), -5.0 + height_m, keyframe.pose.position.z()},
-                       geometry::Quat::Identity()};
-    }
-    const BenchRequest request = request_of(keyframes);
+    const BenchRequest request = request_of(level_flight(random, height_m));
     const Shot shot(*scene, request, 1.0);
-    const double half_m = request.camera.near_m * std::tan(0.5 * request.camera.fov_y_rad);
+    const double half_m = half_height_m(request.camera);
     const TimeRange all{0.0, 10.0};
     const double clearance_m = proved_clearance_m(shot, shot.interpolated(), std::span(&all, 1));
     EXPECT_LE(clearance_m, height_m - half_m + 1e-9);
@@ -91,23 +98,21 @@ TEST(Goal, CostsOfPartsAddUp) {
   }
 }
 
-TEST(Goal, DangerFallsWithTheGapAndEndsWhereThatSuffices) {
-  Random random(5);
+TEST(Goal, DangerIsThatOfTheGapTimesTheLength) {
   const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
-  const BenchRequest request = request_of(curved_flight(random));
-  const Shot shot(*scene, request, 1.0);
-  for (const double sharpness : kSharpness) {
-    const Goal goal = danger_goal(shot, sharpness);
-    double last = std::numeric_limits<double>::infinity();
-    for (const double height_m : {0.12, 0.16, 0.2, 0.24}) {
-      CubicPath path = shot.interpolated();
-      for (motion::CubicPiece& piece : path.pieces) {
-        for (Vec3& point : piece.position) point.y() = -5.0 + height_m;
-      }
-      EXPECT_LT(goal.cost(path), last);
-      last = goal.cost(path);
+  Random random(5);
+  for (const double height_m : {0.12, 0.16, 0.2, 0.24, 2.0}) {
+    const BenchRequest request = request_of(level_flight(random, height_m));
+    const Shot shot(*scene, request, 1.0);
+    const double most_m = sufficient_gap_m(shot);
+    const double soft_m = kSoftShare * most_m;
+    const double gap_m = std::min(most_m, height_m - half_height_m(request.camera));
+    const double length_m = curve_cost(Objective::kShortest, shot.interpolated());
+    for (const double sharpness : kSharpness) {
+      const double danger = std::pow((most_m + soft_m) / (gap_m + soft_m), sharpness) - 1.0;
+      EXPECT_NEAR(danger_goal(shot, sharpness).cost(shot.interpolated()), length_m * danger,
+                  1e-6 * length_m * danger);
     }
-    EXPECT_EQ(goal.cost(shot.interpolated()), 0.0);  // six metres above the floor
   }
 }
 
