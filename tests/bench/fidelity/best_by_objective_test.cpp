@@ -97,6 +97,30 @@ TEST(BestByObjective, IsTheNaturalSplineWhereThatIsFree) {
   }
 }
 
+TEST(BestByObjective, ChangesItsRangesAlone) {
+  Random random(5);
+  const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
+  const BenchRequest request = request_of(curved_flight(random));
+  const Shot shot(*scene, request, 1.0);
+  const std::array<TimeRange, 2> ranges{{{2.0, 4.0}, {6.0, 8.0}}};
+  const CubicPath best = best_by_objective(
+      Objective::kShortest, shot, std::span(&shot.interpolated(), 1), ranges, {.seconds = 0.4});
+  for (const TimeRange& range : ranges) {
+    const std::span one(&range, 1);
+    EXPECT_LT(value_of(Objective::kShortest, shot, best, one),
+              value_of(Objective::kShortest, shot, shot.interpolated(), one));
+  }
+  for (int i = 0; i <= 100; ++i) {
+    const double time_s = 0.1 * i;
+    if (std::ranges::any_of(ranges, [&](const TimeRange& range) {
+          return range.begin_s < time_s && time_s < range.end_s;
+        })) {
+      continue;
+    }
+    EXPECT_LE((best.at(time_s).position - shot.interpolated().at(time_s).position).norm(), kSame);
+  }
+}
+
 TEST(BestByObjective, KeepsWhatItMayNotChangeAndIsNoWorseThanAnyStart) {
   Random random(2);
   const std::shared_ptr<const scene::Snapshot> scene = scene_of(true);
