@@ -86,13 +86,13 @@ double best_value(Objective objective, const Shot& shot, std::span<const CubicPa
 /// Finds the reference of a request, and compares.
 void compare(Objective objective, const Shot& shot, const Answer& closest, const Answer& answer,
              SearchEffort effort, Outcome& outcome) {
-  const std::array both{closest.cubic, answer.cubic};
-  const std::vector<TimeRange> ranges = compared_ranges(shot, both);
+  const Extent extent = extent_of(objective, shot, closest.cubic, answer.cubic);
+  const std::vector<TimeRange>& ranges = extent.compared;
   if (ranges.empty()) return;
   const std::vector<CubicPath> starts =
-      starts_of(objective, shot, closest.cubic, answer.cubic, ranges);
+      starts_of(objective, shot, closest.cubic, answer.cubic, extent);
   effort.clearance_m = kept_clearance_m(objective, shot, closest.cubic, ranges);
-  const CubicPath best = best_by_objective(objective, shot, starts, ranges, effort);
+  const CubicPath best = best_by_objective(objective, shot, starts, extent, effort);
   const auto value = [&](const CubicPath& path) { return value_of(objective, shot, path, ranges); };
   outcome.closest = value(closest.cubic);
   outcome.answer = value(answer.cubic);

@@ -2,6 +2,7 @@
 #include "tests/bench/fidelity/best_by_objective.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -93,23 +94,33 @@ bool leads_too_far(const Shot& shot, const CubicPath& path, const CubicPath& clo
   return shift_rad(shot, path, range) > kFarther * (shift_rad(shot, closest, range) + gap_rad);
 }
 
-/// The least gap of the keyframes of a range, at most the sufficient one: no path has more.
-double keyframes_gap_m(const Shot& shot, const TimeRange& range) {
+/// What is compared of a searched range.
+std::vector<TimeRange> compared_in(const Extent& extent, const TimeRange& range) {
+  std::vector<TimeRange> within;
+  std::ranges::copy_if(extent.compared, std::back_inserter(within),
+                       [&](const TimeRange& compared) { return is_within(compared, range); });
+  return within;
+}
+
+/// The least gap of the keyframes of ranges, at most the sufficient one: no path has more.
+double keyframes_gap_m(const Shot& shot, std::span<const TimeRange> ranges) {
   collision::Query query = shot.space().query();
   query.options.clearance_m = 0.0;
   query.obstacles.bounds = {};
   correction::FreeSpace space(query);
   double least_m = sufficient_gap_m(shot);
   for (const Keyframe& keyframe : shot.plan().keyframes) {
-    if (keyframe.time_s < range.begin_s || keyframe.time_s > range.end_s) continue;
-    least_m = std::min(least_m, space.gap_m(keyframe.pose, least_m));
+    const bool counts = std::ranges::any_of(ranges, [&](const TimeRange& range) {
+      return range.begin_s <= keyframe.time_s && keyframe.time_s <= range.end_s;
+    });
+    if (counts) least_m = std::min(least_m, space.gap_m(keyframe.pose, least_m));
   }
   return least_m;
 }
 
-/// Options of the plans whose answers are starts in a range.
+/// Options of the plans whose answers are starts, in a range of which this is compared.
 std::vector<PlanOptions> options_of_starts(Objective objective, const Shot& shot,
-                                           const TimeRange& range) {
+                                           std::span<const TimeRange> compared) {
   PlanOptions own = shot.plan().options;
   own.deadline_s = std::min(own.deadline_s, kLongestPlanOfStart_s);
   std::vector<PlanOptions> list;
@@ -119,7 +130,7 @@ std::vector<PlanOptions> options_of_starts(Objective objective, const Shot& shot
     list.back().seed = seed;
   }
   if (objective != Objective::kSafest) return list;
-  const double gap_m = keyframes_gap_m(shot, range);
+  const double gap_m = keyframes_gap_m(shot, compared);
   for (const double share : kShares) {
     if (share * gap_m <= own.clearance_m) continue;
     list.push_back(own);
@@ -130,7 +141,8 @@ std::vector<PlanOptions> options_of_starts(Objective objective, const Shot& shot
 
 /// The best path in a range, of starts that differ there alone.
 CubicPath best_in(Objective objective, const Shot& shot, const std::vector<CubicPath>& starts,
-                  const TimeRange& range, const SearchEffort& effort) {
+                  const TimeRange& range, std::span<const TimeRange> compared,
+                  const SearchEffort& effort) {
   const double clearance_m = std::max(effort.clearance_m, shot.plan().options.clearance_m);
   std::vector<CubicPath> known = starts;
   const std::vector<Goal> goals = goals_of(objective, shot);
@@ -146,7 +158,7 @@ CubicPath best_in(Objective objective, const Shot& shot, const std::vector<Cubic
   }
   std::vector<double> values;
   for (const CubicPath& path : known) {
-    values.push_back(value_of(objective, shot, path, std::span(&range, 1)));
+    values.push_back(value_of(objective, shot, path, compared));
   }
   const auto best = std::ranges::min_element(
       values, [&](double a, double b) { return is_worse(objective, b, a); });
@@ -166,11 +178,27 @@ std::vector<TimeRange> compared_ranges(const Shot& shot, std::span<const CubicPa
   return joined(std::move(all));
 }
 
+Extent extent_of(Objective objective, const Shot& shot, const CubicPath& closest,
+                 const CubicPath& answer) {
+  const std::array both{closest, answer};
+  Extent extent{compared_ranges(shot, both), {}};
+  extent.compared = objective == Objective::kSafest
+                        ? compared_ranges(shot, std::span(both).first(1))
+                        : extent.searched;
+  // Where the answer alone is changed, there is nothing to compare.
+  std::erase_if(extent.searched, [&](const TimeRange& searched) {
+    return std::ranges::none_of(
+        extent.compared, [&](const TimeRange& compared) { return is_within(compared, searched); });
+  });
+  return extent;
+}
+
 std::vector<CubicPath> starts_of(Objective objective, const Shot& shot, const CubicPath& closest,
-                                 const CubicPath& answer, std::span<const TimeRange> ranges) {
+                                 const CubicPath& answer, const Extent& extent) {
   std::vector<CubicPath> starts = {closest, answer};
-  for (const TimeRange& range : ranges) {
-    for (const PlanOptions& options : options_of_starts(objective, shot, range)) {
+  for (const TimeRange& range : extent.searched) {
+    const std::vector<TimeRange> compared = compared_in(extent, range);
+    for (const PlanOptions& options : options_of_starts(objective, shot, compared)) {
       const Answer other = planned(shot, options);
       if (other.cubic.pieces.empty()) continue;
       const std::optional<CubicPath> cut = cut_to(shot, range, other.cubic, closest);
@@ -193,12 +221,12 @@ double kept_clearance_m(Objective objective, const Shot& shot, const CubicPath& 
 }
 
 CubicPath best_by_objective(Objective objective, const Shot& shot,
-                            std::span<const CubicPath> starts, std::span<const TimeRange> ranges,
+                            std::span<const CubicPath> starts, const Extent& extent,
                             const SearchEffort& effort) {
   CubicPath best = starts.front();
   SearchEffort share = effort;
-  share.seconds /= static_cast<double>(ranges.size());
-  for (const TimeRange& range : ranges) {
+  share.seconds /= static_cast<double>(extent.searched.size());
+  for (const TimeRange& range : extent.searched) {
     std::vector<CubicPath> cut = {best};
     for (const CubicPath& start : starts.subspan(1)) {
       std::optional<CubicPath> other = cut_to(shot, range, start, best);
@@ -206,7 +234,8 @@ CubicPath best_by_objective(Objective objective, const Shot& shot,
     }
     // The same spline through other joints differs by rounding, which may cost a proof.
     cut = free_with(shot, cut, shot.plan().options.clearance_m);
-    if (!cut.empty()) best = best_in(objective, shot, cut, range, share);
+    if (!cut.empty())
+      best = best_in(objective, shot, cut, range, compared_in(extent, range), share);
   }
   return best;
 }

@@ -49,7 +49,7 @@ CubicPath bent(const CubicPath& path, const Vec3& size) {
 }
 
 CubicPath best_from(Objective objective, const Shot& shot, const CubicPath& start, double seconds) {
-  return best_by_objective(objective, shot, std::span(&start, 1), std::span(&kAll, 1),
+  return best_by_objective(objective, shot, std::span(&start, 1), {{kAll}, {kAll}},
                            {.seconds = seconds});
 }
 
@@ -102,9 +102,10 @@ TEST(BestByObjective, ChangesItsRangesAlone) {
   const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
   const BenchRequest request = request_of(curved_flight(random));
   const Shot shot(*scene, request, 1.0);
-  const std::array<TimeRange, 2> ranges{{{2.0, 4.0}, {6.0, 8.0}}};
-  const CubicPath best = best_by_objective(
-      Objective::kShortest, shot, std::span(&shot.interpolated(), 1), ranges, {.seconds = 0.4});
+  const std::vector<TimeRange> ranges{{2.0, 4.0}, {6.0, 8.0}};
+  const CubicPath best =
+      best_by_objective(Objective::kShortest, shot, std::span(&shot.interpolated(), 1),
+                        {ranges, ranges}, {.seconds = 0.4});
   for (const TimeRange& range : ranges) {
     const std::span one(&range, 1);
     EXPECT_LT(value_of(Objective::kShortest, shot, best, one),
@@ -132,12 +133,12 @@ TEST(BestByObjective, KeepsWhatItMayNotChangeAndIsNoWorseThanAnyStart) {
     options.objective = objective;
     const Answer answer = planned(shot, options);
     ASSERT_TRUE(closest.is_proved() && answer.is_proved());
-    const std::array both{closest.cubic, answer.cubic};
-    const std::vector<TimeRange> ranges = compared_ranges(shot, both);
+    const Extent extent = extent_of(objective, shot, closest.cubic, answer.cubic);
+    const std::vector<TimeRange>& ranges = extent.compared;
     ASSERT_FALSE(ranges.empty());
     const std::vector<CubicPath> starts =
-        starts_of(objective, shot, closest.cubic, answer.cubic, ranges);
-    const CubicPath best = best_by_objective(objective, shot, starts, ranges, {.seconds = 0.3});
+        starts_of(objective, shot, closest.cubic, answer.cubic, extent);
+    const CubicPath best = best_by_objective(objective, shot, starts, extent, {.seconds = 0.3});
     EXPECT_TRUE(shot.certified_clearance_m(best.path()));
     const double value = value_of(objective, shot, best, ranges);
     EXPECT_TRUE(is_worse(objective, value_of(objective, shot, closest.cubic, ranges), value));
@@ -151,7 +152,7 @@ TEST(BestByObjective, KeepsWhatItMayNotChangeAndIsNoWorseThanAnyStart) {
       EXPECT_LE(pose.orientation.angularDistance(keyframe.pose.orientation), 4.0 * kSame);
     }
     for (const TimeRange& changed : changed_ranges(best, shot.interpolated())) {
-      EXPECT_TRUE(std::ranges::any_of(ranges, [&](const TimeRange& range) {
+      EXPECT_TRUE(std::ranges::any_of(extent.searched, [&](const TimeRange& range) {
         return range.begin_s <= changed.begin_s && changed.end_s <= range.end_s;
       }));
     }
@@ -175,7 +176,7 @@ TEST(BestByObjective, KeepsTheClearanceOfTheClosestPathWhereThatIsTight) {
   for (const double clearance_m : {kept_m(Objective::kShortest), 0.9 * *closest.clearance_m}) {
     const CubicPath best =
         best_by_objective(Objective::kShortest, shot, std::span(&closest.cubic, 1),
-                          std::span(&kAll, 1), {.seconds = 0.3, .clearance_m = clearance_m});
+                          {{kAll}, {kAll}}, {.seconds = 0.3, .clearance_m = clearance_m});
     EXPECT_GE(proved_clearance_m(shot, best, std::span(&kAll, 1)),
               (1.0 - 2.0 * kClearanceError) * clearance_m);
     EXPECT_LT(curve_cost(Objective::kShortest, best),
@@ -200,24 +201,45 @@ TEST(BestByObjective, DoesNotTurnTheCamera) {
   }
 }
 
+/// The path as interpolated, with a bump between two times.
+CubicPath bumped_at(const Shot& shot, double begin_s, double end_s) {
+  const motion::CubicPoint bump{{0.1, 0.2, 0.3}, geometry::Vec4::Zero()};
+  const motion::BumpRow row{motion::KnotRow(begin_s, end_s, 4), 2, {bump}};
+  return motion::with_bumps(shot.interpolated(), std::span(&row, 1));
+}
+
 TEST(ComparedRanges, AreIntervalsBetweenKeyframes) {
   Random random(4);
   const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
   const BenchRequest request = request_of(curved_flight(random));
   const Shot shot(*scene, request, 1.0);
-  const auto bumped = [&](double begin_s, double end_s) {
-    motion::BumpRow row{
-        motion::KnotRow(begin_s, end_s, 4), 2, {{{0.1, 0.2, 0.3}, geometry::Vec4::Zero()}}};
-    return motion::with_bumps(shot.interpolated(), std::span(&row, 1));
-  };
   // Keyframes are two seconds apart.
-  const std::array paths{bumped(2.2, 3.1), bumped(2.5, 4.5), bumped(8.5, 9.0)};
+  const std::array paths{bumped_at(shot, 2.2, 3.1), bumped_at(shot, 2.5, 4.5),
+                         bumped_at(shot, 8.5, 9.0)};
   const std::vector<TimeRange> ranges = compared_ranges(shot, paths);
   ASSERT_EQ(ranges.size(), 2U);
   EXPECT_EQ(ranges[0].begin_s, 2.0);
   EXPECT_EQ(ranges[0].end_s, 6.0);
   EXPECT_EQ(ranges[1].begin_s, 8.0);
   EXPECT_EQ(ranges[1].end_s, 10.0);
+}
+
+TEST(Extent, ComparesTheLeastGapWhereTheClosestPathIsChanged) {
+  Random random(4);
+  const std::shared_ptr<const scene::Snapshot> scene = scene_of(false);
+  const BenchRequest request = request_of(curved_flight(random));
+  const Shot shot(*scene, request, 1.0);
+  const CubicPath closest = bumped_at(shot, 2.2, 3.1);
+  const CubicPath answer = bumped_at(shot, 1.5, 3.1);
+  for (const Objective objective : kObjectives) {
+    const Extent extent = extent_of(objective, shot, closest, answer);
+    ASSERT_EQ(extent.searched.size(), 1U);
+    ASSERT_EQ(extent.compared.size(), 1U);
+    EXPECT_EQ(extent.searched[0].begin_s, 0.0);
+    EXPECT_EQ(extent.searched[0].end_s, 4.0);
+    EXPECT_EQ(extent.compared[0].begin_s, objective == Objective::kSafest ? 2.0 : 0.0);
+    EXPECT_EQ(extent.compared[0].end_s, 4.0);
+  }
 }
 
 }  // namespace
