@@ -39,7 +39,7 @@ constexpr int kMostCuts = 3;           // attempts at a step, each with more con
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
 constexpr int kStepsAgain = 4;         // of each round but the first, at least
 constexpr double kRetreat = 0.6;
-constexpr double kAffordable = 0.95;  // share of what room may cost
+constexpr double kAffordable = 0.5;   // share of what is left of the price of room
 constexpr int kLooks = 2;             // closer looks: the whole step, and what of it is affordable
 constexpr int kRetreats = 3;          // moves back towards the initial correction
 
@@ -119,8 +119,8 @@ class Relaxation {
     return std::min(kRetreat, (most_growth() - 1.0) * old / (cost(now) - old));
   }
 
-  /// The share of the way from `found` to the dearer `wider` on which the cost has grown by no more
-  /// than room may cost, less what sampling may add.
+  /// The share of the way from `found` to the dearer `wider` that may cost `kAffordable` of what is
+  /// left of the price of room. The cost is convex.
   [[nodiscard]] double affordable_share(const Relaxed& wider, const Relaxed& found,
                                         const Relaxed& before) const {
     const double now = cost(found);
