@@ -39,9 +39,9 @@ constexpr int kMostCuts = 3;           // attempts at a step, each with more con
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
 constexpr int kStepsAgain = 4;         // of each round but the first, at least
 constexpr double kRetreat = 0.6;
-constexpr double kAffordable = 0.5;   // share of what is left of the price of room
-constexpr int kLooks = 2;             // closer looks: the whole step, and what of it is affordable
-constexpr int kRetreats = 3;          // moves back towards the initial correction
+constexpr double kAffordable = 0.5;  // share of what is left of the price of room
+constexpr int kLooks = 2;            // closer looks: the whole step, and what of it is affordable
+constexpr int kRetreats = 3;         // moves back towards the initial correction
 
 double horizon_m(Objective objective, double radius_m) {
   return (objective == Objective::kSafest ? kComfort + kHorizon : kHorizon) * radius_m;
