@@ -127,9 +127,7 @@ bool Rungs::accept(std::span<const std::size_t> group, CorrectionKind kind,
     Correction& correction = collisions_[i].correction;
     if (is_taken) correction = {correction.interval, kind, begin_s, end_s};
   }
-  if (!is_taken) return false;
-  deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
-  return true;
+  return is_taken;
 }
 
 }  // namespace camway::correction
