@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "daemon/collision/clearance.h"
 #include "daemon/correction/smoothing/objective_cost.h"
@@ -85,6 +87,24 @@ TEST(MoreRoom, AsksForNoMoreThanSufficesOrTheKeyframesHave) {
     const double sufficient_m = kComfort * FreeSpace(c.query()).ball_radius_m();
     EXPECT_LT(safest.corrections.at(0).moved_m, 2.0 * sufficient_m) << run;
   }
+}
+
+// With more clearance, the collisions with the two faces of a plate are one.
+TEST(MoreRoom, ProgressTellsOfTheCollisionsOfThePath) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-3, -3, -0.1}, {0.0, 3, 0.1});
+  LadderCase c = case_with(mesh, {at(0, {0.05, 0, 2}), at(5, {0.05, 0, -2})});
+  c.options.objective = Objective::kSafest;
+  const motion::CubicPath path = c.path();
+  const std::vector<collision::CollisionInterval> collisions = c.collisions(path);
+  ASSERT_EQ(collisions.size(), 2u);
+  const auto progress = std::make_shared<base::Progress>();
+  const LadderResult safest =
+      correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), c.query(), c.keyframes, path,
+                        collisions, c.options, Deadline::never().watched({}, progress));
+  EXPECT_TRUE(safest.is_polished);
+  EXPECT_EQ(progress->collisions, 2);
+  EXPECT_EQ(progress->corrected, 2);
 }
 
 // Attempts correct everything between two keyframes, so an open collision there would be lost.
