@@ -89,10 +89,12 @@ TEST(MoreRoom, AsksForNoMoreThanSufficesOrTheKeyframesHave) {
   }
 }
 
-// With more clearance, the collisions with the two faces of a plate are one.
+// With more clearance, the collisions with the two plates are one.
 TEST(MoreRoom, ProgressTellsOfTheCollisionsOfThePath) {
   scene::Mesh mesh;
-  testing::add_cuboid(mesh, {-3, -3, -0.1}, {0.0, 3, 0.1});
+  for (const double z_m : {-0.15, 0.15}) {
+    testing::add_cuboid(mesh, {-3, -3, z_m - 0.01}, {0.0, 3, z_m + 0.01});
+  }
   LadderCase c = case_with(mesh, {at(0, {0.05, 0, 2}), at(5, {0.05, 0, -2})});
   c.options.objective = Objective::kSafest;
   const motion::CubicPath path = c.path();
