@@ -87,6 +87,16 @@ test('the viewing distance that was asked for is found again from the mean shift
   }
 });
 
+test('a body off the eye shifts in the page as in the answer', kSkip, () => {
+  const body = { type: 'box', center: [0, -1, 0], size: [0.5, 0.3, 0.2] };
+  const { camera: _, ...rest } = requestOf('gallery-wall-slot', { viewing_distance_m: 2 });
+  const request: PlanRequest = { ...rest, body };
+  const answer = planned(request);
+  assert.ok(answer.corrections?.some(({ turned_deg }) => turned_deg > 30));
+  const curve = new Curves(answer.segments, interpolated(request).segments, request, answer).curve('shift');
+  assert.ok(isNear(curve?.largest ?? 0, answer.measures?.after['largest_shift_deg'] as number, 0.02), `${curve?.largest}`);
+});
+
 test('an answer that is edited on plans to the same path', kSkip, () => {
   const request = requestOf('office-graze-column');
   const answer = planned(request);
