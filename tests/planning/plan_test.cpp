@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "daemon/collision/near_quad.h"
+#include "daemon/correction/path/viewing_distance.h"
 #include "tests/planning/plan_fixture.h"
 #include "tests/support/body_motion.h"
 #include "tests/support/random.h"
@@ -301,6 +302,27 @@ TEST(Plan, ABodyOffTheEyeShiftsNoLessThanItsPointsMove) {
   EXPECT_LE(result.measures->largest_shift_rad * 2.5, 1.5 * largest_m);
   EXPECT_GE(result.measures->mean_shift_rad * 2.5, (1.0 - kBetween) * mean_m);
   EXPECT_EQ(result.corrections[0].shift.largest_rad, result.measures->largest_shift_rad);
+  EXPECT_EQ(result.viewing_distance_m, 2.5);
+}
+
+TEST(Plan, TheViewingDistanceThatItTellsGivesTheSameAnswer) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
+  testing::add_cuboid(mesh, {-9, -9, -6}, {9, 9, -5});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  const PlanResult result = planned(*snapshot, request);
+  ASSERT_TRUE(result.viewing_distance_m.has_value());
+  EXPECT_GT(*result.viewing_distance_m, correction::kLeastViewingDistance_m);
+  EXPECT_LT(*result.viewing_distance_m, correction::kMostViewingDistance_m);
+  request.options.viewing_distance_m = result.viewing_distance_m;
+  const PlanResult again = planned(*snapshot, request);
+  EXPECT_EQ(again.viewing_distance_m, result.viewing_distance_m);
+  EXPECT_EQ(numbers_of(again), numbers_of(result));
+  EXPECT_EQ(again.measures, result.measures);
+  request.options.viewing_distance_m = 0.7 * *result.viewing_distance_m;
+  EXPECT_NE(planned(*snapshot, request).measures, result.measures);
+  EXPECT_FALSE(planned(*snapshot_of({}), request).viewing_distance_m.has_value());
 }
 
 TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {

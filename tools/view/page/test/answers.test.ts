@@ -81,7 +81,8 @@ for (const name of kNames) {
 test('the viewing distance that was asked for is found again from the mean shift alone', kSkip, () => {
   for (const distance_m of [1.5, 4, 9]) {
     const request = requestOf('office-graze-slalom', { viewing_distance_m: distance_m });
-    const answer = planned(request);
+    const { viewing_distance_m: told, ...answer } = planned(request);
+    assert.equal(told, distance_m);
     const curves = new Curves(answer.segments, interpolated(request).segments, { ...request, options: {} }, answer);
     assert.ok(isNear(curves.scale.viewingDistance_m, distance_m, 0.02), `${curves.scale.viewingDistance_m} for ${distance_m}`);
   }

@@ -150,6 +150,13 @@ test('without the option, the viewing distance is the one that gives the mean sh
   }
 });
 
+test('without the option, the viewing distance is the one that the answer says', () => {
+  const [before, after] = changedPair(new Random('told'));
+  const answer: Answer = { ...kEmpty, segments: after, viewing_distance_m: 2.5 };
+  const { scale } = new Curves(after, before, { keyframes: [] }, answer);
+  assert.deepEqual([scale.viewingDistance_m, scale.turnLever_m, scale.source], [2.5, 2.5, 'answer']);
+});
+
 test('no shift is drawn without the path before', () => {
   const [, after] = changedPair(new Random('slow'));
   assert.equal(new Curves(after, [], undefined, { ...kEmpty, segments: after }).curve('shift'), undefined);

@@ -28,7 +28,7 @@ export interface ShiftScale {
   turnLever_m: number;
   /** The point whose move counts, in the camera frame: the eye of a camera, the centre of another body. */
   center: Vec3;
-  /** Where the distance is from: an option, the mean shift that the answer states, or a guess. */
+  /** Where the distance is from: an option, the answer or its mean shift, or a guess. */
   source: 'request' | 'answer' | 'assumed';
 }
 
@@ -54,8 +54,8 @@ export function shiftOf(change: Change, scale: ShiftScale): number {
 }
 
 /**
- * The scale of shifts of an answer. Without the option, the viewing distance follows from the mean shift that the
- * answer states: the mean shift is the mean turn plus the mean move over the distance.
+ * The scale of shifts of an answer. Without the option, the answer says the viewing distance. That of a daemon does
+ * not: the distance then follows from the mean shift, which is the mean turn plus the mean move over the distance.
  */
 export function shiftScale(
   request: PlanRequest | undefined,
@@ -72,6 +72,7 @@ export function shiftScale(
   });
   const asked = request?.options?.['viewing_distance_m'];
   if (typeof asked === 'number' && asked > 0) return scaleOf(asked, 'request');
+  if (answer?.viewing_distance_m !== undefined) return scaleOf(answer.viewing_distance_m, 'answer');
   // On a slowed path the means would be of other instants.
   if (!times.isSame) return scaleOf(kAssumedDistance_m, 'assumed');
   const shift_rad = (answer?.measures?.after['mean_shift_deg'] ?? 0) / kDegreesPerRadian;
