@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "daemon/motion/path/bezier.h"
 
@@ -99,9 +100,12 @@ Problem CorrectedPath::part_about(std::size_t leg, const motion::TimeOrigin& ori
   return part;
 }
 
+bool CorrectedPath::fits(const Candidate& candidate) const {
+  return count_with(candidate) <= static_cast<std::size_t>(limits_.max_inserted_keyframes);
+}
+
 bool CorrectedPath::take(const Candidate& candidate) {
-  const auto most = static_cast<std::size_t>(limits_.max_inserted_keyframes);
-  if (count_with(candidate) > most) return false;
+  if (!fits(candidate)) return false;
   path_.replace(candidate.path);
   const auto [begin_s, end_s] = range_of(candidate);
   add_changed({begin_s, end_s, turns(candidate)});
@@ -162,6 +166,22 @@ bool CorrectedPath::take_instead(const ChangedPart& part, const Candidate& candi
   if (take(candidate)) return true;
   add_changed(part);
   return false;
+}
+
+void CorrectedPath::restore(std::size_t first_keyframe, std::size_t last_keyframe) {
+  const double begin_s = keyframes_s_[first_keyframe];
+  const double end_s = keyframes_s_[last_keyframe];
+  path_.replace(interpolated_.around(begin_s, end_s));
+  std::erase_if(changed_, [&](const ChangedPart& part) {
+    return begin_s <= part.begin_s && part.end_s <= end_s;
+  });
+  leave_time_for_the_rest();
+}
+
+void CorrectedPath::adopt(CorrectedPath&& other) {
+  path_ = std::move(other.path_);
+  changed_ = std::move(other.changed_);
+  leave_time_for_the_rest();
 }
 
 void CorrectedPath::count_refused(const Candidate& candidate) {

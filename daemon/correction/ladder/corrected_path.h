@@ -57,6 +57,8 @@ class CorrectedPath {
   [[nodiscard]] Problem part_about(std::size_t leg, const motion::TimeOrigin& origin,
                                    double ball_radius_m) const;
 
+  /// Returns whether `candidate` inserts no more keyframes than the limit allows.
+  [[nodiscard]] bool fits(const Candidate& candidate) const;
   /// Replaces a part of the path by `candidate` and returns true; returns false if that would
   /// exceed the limit of inserted keyframes.
   bool take(const Candidate& candidate);
@@ -73,6 +75,11 @@ class CorrectedPath {
   /// Replaces a changed part by a candidate for the problem that `restored` returned. Returns false
   /// as `take` does.
   bool take_instead(const ChangedPart& part, const Candidate& candidate);
+
+  /// Makes the path as interpolated between two given keyframes, which no changed part may cross.
+  void restore(std::size_t first_keyframe, std::size_t last_keyframe);
+  /// Takes over the path and the changed parts of `other`, a changed copy of this object.
+  void adopt(CorrectedPath&& other);
 
   /// Counts the keyframes of a candidate that `take` refused.
   void count_refused(const Candidate& candidate);

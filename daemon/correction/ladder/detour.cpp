@@ -53,9 +53,10 @@ class Detour {
         has_center_(space.body().is_near(space.center_C(), kBallShares.front() * radius_m_)) {}
 
   DetourResult run(Search search) {
-    result_.candidate = search == Search::kTurning ? with_turns()
-                        : space_.may_turn()        ? with_ball(Lattices::kAllButFinest)
-                                                   : without_turns();
+    result_.candidate = search == Search::kQuick     ? with_ball(Lattices::kCoarse)
+                        : search == Search::kTurning ? with_turns()
+                        : space_.may_turn()          ? with_ball(Lattices::kAllButFinest)
+                                                     : without_turns();
     return std::move(result_);
   }
 

@@ -14,6 +14,7 @@ namespace camway::correction {
 
 /// The kind of search for a detour.
 enum class Search : std::uint8_t {
+  kQuick,     ///< ways on coarse lattices alone, for which no proof is asked
   kWithRoom,  ///< ways with room for the body in any orientation; cheap
   kTurning,   ///< ways on which the body must turn to get through
 };

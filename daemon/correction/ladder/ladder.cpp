@@ -2,21 +2,18 @@
 #include "daemon/correction/ladder/ladder.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <span>
 #include <utility>
 
-#include "daemon/base/budget.h"
 #include "daemon/correction/infeasibility/prover.h"
 #include "daemon/correction/ladder/collision_list.h"
 #include "daemon/correction/ladder/corrected_path.h"
 #include "daemon/correction/ladder/detour.h"
-#include "daemon/correction/ladder/nudge.h"
+#include "daemon/correction/ladder/more_room.h"
 #include "daemon/correction/ladder/polish.h"
 #include "daemon/correction/ladder/redraw.h"
+#include "daemon/correction/ladder/rungs.h"
 #include "daemon/correction/ladder/shut_in_list.h"
-#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/viewing_distance.h"
 
 namespace camway::correction {
@@ -25,12 +22,6 @@ namespace {
 
 using collision::CollisionInterval;
 using motion::CubicPath;
-
-constexpr int kStepsPerLeg = 48;  // steps of relaxation per interval with a collision
-/// Collisions that are nearer than so many spacings of knots get one row of bumps.
-constexpr double kNearSpacings = 2.0;
-/// A turn costs so much more than a move that shifts the picture as far: it changes what is seen.
-constexpr double kTurnPenalty = 3.0;
 
 class Ladder {
  public:
@@ -43,8 +34,8 @@ class Ladder {
         corrected_(path, keyframes, {options.max_inserted_keyframes, options.rest_s_per_piece},
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
-        prover_(mesh, space.body(), keyframes, options.max_shrink),
-        budget_(kStepsPerLeg * static_cast<std::int64_t>(collisions_.count_legs())) {}
+        rungs_(space, corrected_, collisions_, options.origin, options.seed),
+        prover_(mesh, space.body(), keyframes, options.max_shrink) {}
 
   LadderResult run() && {
     const bool is_corrected = options_.max_inserted_keyframes > 0 && correct();
@@ -54,8 +45,13 @@ class Ladder {
       // Counted before the redrawing, which spares keyframes of the corrections taken, but not of
       // those that were refused.
       result.needed_keyframes = corrected_.needed_keyframes();
-      redraw(options_.origin, space_, corrected_, collisions_);
-      result.is_polished =
+      const std::vector<ChangedPart> parts = corrected_.changed_parts();
+      redraw(parts, options_.origin, space_, corrected_, collisions_);
+      if (options_.objective == Objective::kSafest) {
+        result.is_polished =
+            make_more_room(options_.origin, options_.seed, space_, corrected_, collisions_);
+      }
+      result.is_polished |=
           polish(options_.objective, options_.origin, space_, corrected_, collisions_);
     }
     result.corrections = collisions_.corrections();
@@ -94,76 +90,44 @@ class Ladder {
       const ListedCollision& collision = collisions_[i];
       if (!collision.is_open() || collision.is_beyond_limit) continue;
       if (prover_.has_proof()) return;
-      if (search == Search::kWithRoom && (move_away(i) || collision.is_beyond_limit)) continue;
-      const std::size_t leg = collision.leg;
-      // A detour replaces the whole interval between keyframes: do not search it twice.
-      if (is_cut_off(leg)) has_no_way[leg] = true;
-      if (search == Search::kWithRoom) {
-        turn_or_replace(i, has_no_way);
-      } else if (!has_no_way[leg]) {
-        has_no_way[leg] = shut_in_.is_worthless(leg) || !replace_leg(i, search);
-        shut_in_.mark_searched(leg);
-      }
+      correct(i, search, has_no_way);
+      if (!collision.is_open()) report_progress();
     }
   }
 
-  // Moves the camera aside for a group of collisions, or else for its first one.
-  bool move_away(std::size_t index) {
-    const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
-    const std::vector<std::size_t> group = collisions_.open_near(index, near_s);
-    if (group.size() > 1 && accept(group, CorrectionKind::kMove, nudged(group, NudgeKind::kMove))) {
-      return true;
+  void correct(std::size_t index, Search search, std::vector<bool>& has_no_way) {
+    const bool is_moved = search == Search::kWithRoom && rungs_.move_away(index);
+    if (is_moved || collisions_[index].is_beyond_limit) return;
+    const std::size_t leg = collisions_[index].leg;
+    // A detour replaces the whole interval between keyframes: do not search it twice.
+    if (is_cut_off(leg)) has_no_way[leg] = true;
+    if (search == Search::kWithRoom) {
+      turn_or_replace(index, has_no_way);
+    } else if (!has_no_way[leg]) {
+      has_no_way[leg] = shut_in_.is_worthless(leg) || !replace_leg(index, search);
+      shut_in_.mark_searched(leg);
     }
-    const std::span<const std::size_t> first(group.data(), 1);
-    return accept(first, CorrectionKind::kMove, nudged(first, NudgeKind::kMove));
+  }
+
+  void report_progress() const {
+    deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
   }
 
   // Turns the camera, or takes a detour that keeps its orientation, whichever costs less.
   void turn_or_replace(std::size_t index, std::vector<bool>& has_no_way) {
     const std::size_t leg = collisions_[index].leg;
-    const std::optional<Candidate> turned =
-        space_.may_turn() ? nudged({&index, 1}, NudgeKind::kTurn) : std::nullopt;
-    const double most_cost =
-        turned ? kTurnPenalty * cost(index, *turned) : std::numeric_limits<double>::infinity();
+    const std::optional<Candidate> turned = rungs_.turned(index);
     if (!has_no_way[leg]) {
+      const double most_cost = rungs_.most_cost_instead_of(index, turned);
       has_no_way[leg] = !replace_leg(index, Search::kWithRoom, most_cost) && !turned;
     }
-    if (collisions_[index].is_open()) accept({&index, 1}, CorrectionKind::kTurn, turned);
+    if (collisions_[index].is_open()) rungs_.take_turn(index, turned);
   }
 
-  [[nodiscard]] double cost(std::size_t index, const Candidate& candidate) const {
-    return closeness_cost(candidate.path, problem(index).original, space_.closeness());
-  }
-
-  // The part of the path that may change for some collisions between the same keyframes, in order
-  // of time.
-  [[nodiscard]] Problem problem(std::span<const std::size_t> group) const {
-    Problem problem = collisions_.with_open_collisions(corrected_.part_about(
-        collisions_[group.front()].leg, options_.origin, space_.ball_radius_m()));
-    problem.interval = collisions_[group.front()].correction.interval;
-    problem.interval.t_end_s = collisions_[group.back()].correction.interval.t_end_s;
-    for (const std::size_t i : group) {
-      std::erase(problem.foreign_collisions, collisions_[i].correction.interval);
-    }
-    return problem;
-  }
-  [[nodiscard]] Problem problem(std::size_t index) const { return problem({&index, 1}); }
-
-  std::optional<Candidate> nudged(std::span<const std::size_t> group, NudgeKind nudge_kind) {
-    std::vector<CollisionInterval> intervals;
-    for (const std::size_t i : group) intervals.push_back(collisions_[i].correction.interval);
-    NudgeResult found = nudge(problem(group), intervals, nudge_kind, budget_, space_, deadline());
-    for (const std::size_t i : group) collisions_[i].correction.tried += found.effort;
-    return std::move(found.candidate);
-  }
-
-  // A detour replaces everything between the two keyframes. One that costs more than `most_cost`
-  // is found, but not taken. Returns whether one was found.
+  // Returns whether a detour was found that costs no more than `most_cost`, or a dearer one.
   bool replace_leg(std::size_t index, Search search,
                    double most_cost = std::numeric_limits<double>::infinity()) {
     const std::size_t leg = collisions_[index].leg;
-    const std::vector<std::size_t> same_leg = collisions_.open_in(leg);
-    const Problem problem = this->problem(same_leg);
     const ProofsOfNoWay proofs{
         .is_separated = [this] { return prover_.is_separated(); },
         .is_caged =
@@ -171,29 +135,9 @@ class Ladder {
               return prover_.is_caged() || prover_.is_caged_off(center_W(leg), center_W(leg + 1));
             },
     };
-    const DetourResult found =
-        go_round(problem, search, budget_, space_, options_.seed, proofs, deadline());
-    if (found.pocket) shut_in_.add(leg, *found.pocket);
-    for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
-    if (found.candidate && cost(index, *found.candidate) > most_cost) return true;
-    return accept(same_leg, CorrectionKind::kGoRound, found.candidate);
-  }
-
-  // Takes a correction of some collisions, unless that would exceed the limit of keyframes.
-  bool accept(std::span<const std::size_t> corrected, CorrectionKind kind,
-              const std::optional<Candidate>& candidate) {
-    if (!candidate) return false;
-    const bool is_taken = corrected_.take(*candidate);
-    if (!is_taken) corrected_.count_refused(*candidate);
-    const auto [begin_s, end_s] = corrected_.range_of(*candidate);
-    for (const std::size_t i : corrected) {
-      collisions_[i].is_beyond_limit = !is_taken;
-      Correction& correction = collisions_[i].correction;
-      if (is_taken) correction = {correction.interval, kind, begin_s, end_s};
-    }
-    if (!is_taken) return false;
-    deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
-    return true;
+    const Rungs::Replaced replaced = rungs_.replace_leg(index, search, proofs, most_cost);
+    if (replaced.pocket) shut_in_.add(leg, *replaced.pocket);
+    return replaced.has_way;
   }
 
   // Whether earlier searches or cages show that no way joins the ends of an interval.
@@ -214,8 +158,8 @@ class Ladder {
   const LadderOptions& options_;
   CorrectedPath corrected_;
   CollisionList collisions_;
+  Rungs rungs_;
   Prover prover_;
-  base::Budget budget_;  ///< steps of the relaxation of detours, and then of polishing
   ShutInList shut_in_;
   bool timed_out_ = false;
 };

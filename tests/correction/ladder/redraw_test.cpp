@@ -101,7 +101,7 @@ class RedrawTest : public ::testing::Test {
     }
     const CubicPath before = corrected.path();
     inserted_before_ = corrected.inserted_s().size();
-    redraw({}, space, corrected, list);
+    redraw(std::vector(corrected.changed_parts()), {}, space, corrected, list);
     inserted_after_ = corrected.inserted_s().size();
     cost_before_ = closeness_cost(before, c_.interpolated, closeness);
     cost_after_ = closeness_cost(corrected.path(), c_.interpolated, closeness);
@@ -219,7 +219,7 @@ TEST(Redraw, KeepsTheBeginningOfAPartFree) {
       list[i].correction = {list[i].correction.interval, CorrectionKind::kMove, begin_s, end_s};
     }
     const std::size_t before = corrected.inserted_s().size();
-    redraw({}, space, corrected, list);
+    redraw(std::vector(corrected.changed_parts()), {}, space, corrected, list);
     redrawn += corrected.inserted_s().size() < before ? 1 : 0;
     EXPECT_TRUE(
         collision::detect_collisions(c.query(), corrected.path().path(), 0.0, 8.0, never)->empty())

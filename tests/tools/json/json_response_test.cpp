@@ -439,6 +439,25 @@ TEST(JsonResponse, OfEarlierVersionsHasOldNames) {
             *write_plan_response(*parse_as<planning::PlanResult>(text, "P.json").value).value);
 }
 
+TEST(JsonResponse, OfEarlierVersionsLacksShifts) {
+  planning::PlanResult result;
+  result.corrections.resize(1);
+  result.corrections[0].moved_m = 0.25;
+  result.measures.emplace().largest_deviation_m = 0.25;
+  result.measures_before = motion::PathMeasures{};
+  std::string text = *write_plan_response(result).value;
+  const std::string shifts = R"(, "largest_shift_deg": 0.0, "mean_shift_deg": 0.0)";
+  for (std::size_t at = 0; (at = text.find(shifts)) != std::string::npos;) {
+    text.erase(at, shifts.size());
+  }
+  ASSERT_EQ(text.find("shift"), std::string::npos) << text;
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->corrections.at(0).moved_m, 0.25);
+  EXPECT_EQ(read.value->corrections[0].shift, correction::Shift{});
+  EXPECT_EQ(read.value->measures, result.measures);
+}
+
 TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
   const char* const expected[] = {
       "P.json: collisions[0].witness: has both depth_m and depth, its old name; leave one out",

@@ -41,6 +41,18 @@ PlanResult result_with(std::vector<Correction> corrections) {
   return result;
 }
 
+// Corrections that touch are drawn as one change, of which the dearest kind is told.
+TEST(PlanSummary, TellsOnceWhatCorrectedCollisionsInSeveralWays) {
+  const PlanResult result = result_with({corrected(1, 2, CorrectionKind::kGoRound, 2.0, 0.0),
+                                         corrected(3, 3.01, CorrectionKind::kMove, 2.0, 0.0),
+                                         corrected(4, 5, CorrectionKind::kMove, 0.1, 0.0),
+                                         corrected(6, 7, CorrectionKind::kNone, 2.0, 0.0)});
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("\n  1.00-2.00, 3.00-3.01 s: collides; goes another way, moved up to 2 m\n"
+                       "  4.00-5.00 s: collides; moved up to 0.1 m\n"
+                       "  6.00-7.00 s: collides; not corrected"));
+}
+
 TEST(PlanSummary, SaysWhatEachCorrectionDid) {
   PlanResult result = result_with({corrected(2.314, 2.649, CorrectionKind::kMove, 0.1234, 0.0),
                                    corrected(3, 4, CorrectionKind::kTurn, 0.0, 0.0698),
