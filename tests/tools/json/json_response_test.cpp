@@ -76,6 +76,7 @@ void add_any_report(planning::PlanResult& result, testing::Random& random) {
   }
   if (random() % 2 == 0) result.measures_before = any_measures(random);
   if (random() % 2 == 0) result.measures = any_measures(random);
+  if (random() % 2 == 0) result.viewing_distance_m = number();
   if (random() % 2 == 0) result.near_scale = number();
   if (random() % 2 == 0) result.time_scale = number();
   result.slowed.resize(random() % 3);
@@ -325,6 +326,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.measures_before = measures;
   measures.length_m = 5.0;
   result.measures = measures;
+  result.viewing_distance_m = 4.5;
   result.near_scale = 0.75;
   result.time_scale = 1.5;
   result.deadline_reached = true;
@@ -336,7 +338,8 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   "measures": {
     "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "largest_shift_deg": 0.0, "mean_shift_deg": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
     "after": {"length_m": 5.0,)"));
-  EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
+  EXPECT_THAT(text, HasSubstr(R"("viewing_distance_m": 4.5,
+  "near_scale": 0.75,
   "time_scale": 1.5,
   "deadline_reached": true,
   "slowed": [
@@ -346,6 +349,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
   EXPECT_EQ(read.value->measures, result.measures);
+  EXPECT_EQ(read.value->viewing_distance_m, 4.5);
   EXPECT_TRUE(read.value->deadline_reached);
   EXPECT_EQ(read.value->slowed, result.slowed);
 }
@@ -470,8 +474,8 @@ TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
 
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
-  for (const char* key : {"measures", "near_scale", "time_scale", "deadline_reached", "slowed",
-                          "keyframe_faults", "infeasibility"}) {
+  for (const char* key : {"measures", "viewing_distance_m", "near_scale", "time_scale",
+                          "deadline_reached", "slowed", "keyframe_faults", "infeasibility"}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }

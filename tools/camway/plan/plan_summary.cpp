@@ -140,6 +140,13 @@ void add_corrections(const PlanResult& result, std::vector<std::string>& lines) 
   if (shown < all.size()) lines.push_back(fmt::format("and {} more", all.size() - shown));
 }
 
+void add_shift(const PlanResult& result, std::vector<std::string>& lines) {
+  if (!result.measures || !result.viewing_distance_m) return;
+  const double shift_deg = degrees(result.measures->largest_shift_rad);
+  lines.push_back("shifted up to " + two_digits(shift_deg) + " degrees at a viewing distance of " +
+                  two_digits(*result.viewing_distance_m) + " m");
+}
+
 void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lines) {
   const bool repaired = result.status != Status::kInvalid;
   if (!repaired && result.keyframe_faults.size() == 1) return;  // the message says all
@@ -234,6 +241,7 @@ std::size_t inserted_count(const PlanResult& result) {
 std::string plan_summary(const PlanResult& result, const scene::Mesh* mesh) {
   std::vector<std::string> lines;
   add_corrections(result, lines);
+  add_shift(result, lines);
   add_keyframe_faults(result, lines);
   add_slowed(result, lines);
   add_proof(result, mesh, lines);
