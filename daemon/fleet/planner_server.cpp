@@ -26,7 +26,6 @@ constexpr std::chrono::milliseconds kSceneLook{2};
 constexpr std::chrono::milliseconds kLeastPause{10};
 /// For a status that is late.
 constexpr std::chrono::milliseconds kLateness{100};
-constexpr double kMillisecond_s = 1e-3;
 
 std::string name_of_host() {
   std::array<char, wire::kMaxHostBytes + 1> name{};

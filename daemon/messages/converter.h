@@ -89,10 +89,11 @@ void translate(const Wire& wire, Enum& mine, Refusal& refusal) {
   mine = value.value_or(mine);
 }
 /// Reads the index of a vertex, or a seed.
-template <std::signed_integral Wire>
-void translate(const Wire& wire, std::make_unsigned_t<Wire>& mine, Refusal& refusal) {
+template <std::signed_integral Wire, std::unsigned_integral Mine>
+requires(sizeof(Wire) == sizeof(Mine) &&
+         !std::same_as<Mine, bool>) void translate(const Wire& wire, Mine& mine, Refusal& refusal) {
   if (wire < 0) refusal.add(wire, fmt::format("is {}; it must be at least 0", wire));
-  mine = static_cast<std::make_unsigned_t<Wire>>(wire);
+  mine = static_cast<Mine>(wire);
 }
 
 /// Cuts the texts of a message to its limits.

@@ -148,6 +148,7 @@ class Planner {
           correction::shift_of(*corrected_.path, prepared_.interpolated, corrected_.closeness);
       result_.measures->largest_shift_rad = shift.largest_rad;
       result_.measures->mean_shift_rad = shift.mean_rad;
+      result_.viewing_distance_m = corrected_.closeness.viewing_distance_m;
     }
   }
 

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "daemon/collision/near_quad.h"
+#include "daemon/correction/path/viewing_distance.h"
 #include "tests/planning/plan_fixture.h"
+#include "tests/support/body_motion.h"
 #include "tests/support/random.h"
 
 namespace camway::planning {
@@ -266,6 +268,61 @@ TEST(Plan, ACameraAsTheBodyIsTheCamera) {
     EXPECT_EQ(numbers_of(planned(*column_scene(), as_body)),
               numbers_of(planned(*column_scene(), request)));
   }
+}
+
+// The slot is endless in y and narrower than the plate, which has to roll through it. The plate
+// hangs below the eye, so a roll swings it.
+TEST(Plan, ABodyOffTheEyeShiftsNoLessThanItsPointsMove) {
+  constexpr int kInstants = 2'000;
+  constexpr double kBetween = 1e-3;  // a share: what sampling misses
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.7, 80, 0.05});
+  testing::add_cuboid(mesh, {-0.5, -80, -0.05}, {80, 80, 0.05});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.body = motion::BoxShape{Vec3(0, -0.8, 0), Vec3(0.4, 0.1, 0.1)};
+  request.options.viewing_distance_m = 2.5;
+  const PlanResult result = planned(*snapshot, request);
+  ASSERT_EQ(result.status, Status::kOk) << result.message;
+  ASSERT_EQ(result.corrections.size(), 1U);
+  EXPECT_GT(result.corrections[0].turned_rad, 0.5);
+  const motion::Body body = *motion::Body::make(*request.body);
+  const motion::Path before = motion::interpolate(request.keyframes);
+  double largest_m = 0.0;
+  double mean_m = 0.0;
+  for (int i = 0; i < kInstants; ++i) {
+    const double time_s = 4.0 * (i + 0.5) / kInstants;
+    const double moved_m =
+        testing::farthest_move_m(body, before.pose(time_s), result.path.pose(time_s));
+    largest_m = std::max(largest_m, moved_m);
+    mean_m += moved_m / kInstants;
+  }
+  EXPECT_GE(result.measures->largest_shift_rad * 2.5, (1.0 - kBetween) * largest_m);
+  EXPECT_LE(result.measures->largest_shift_rad * 2.5, 1.5 * largest_m);
+  EXPECT_GE(result.measures->mean_shift_rad * 2.5, (1.0 - kBetween) * mean_m);
+  EXPECT_EQ(result.corrections[0].shift.largest_rad, result.measures->largest_shift_rad);
+  EXPECT_EQ(result.viewing_distance_m, 2.5);
+}
+
+TEST(Plan, TheViewingDistanceThatItTellsGivesTheSameAnswer) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
+  testing::add_cuboid(mesh, {-9, -9, -6}, {9, 9, -5});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  const PlanResult result = planned(*snapshot, request);
+  ASSERT_TRUE(result.viewing_distance_m.has_value());
+  EXPECT_GT(*result.viewing_distance_m, correction::kLeastViewingDistance_m);
+  EXPECT_LT(*result.viewing_distance_m, correction::kMostViewingDistance_m);
+  request.options.viewing_distance_m = result.viewing_distance_m;
+  const PlanResult again = planned(*snapshot, request);
+  EXPECT_EQ(again.viewing_distance_m, result.viewing_distance_m);
+  EXPECT_EQ(numbers_of(again), numbers_of(result));
+  EXPECT_EQ(again.measures, result.measures);
+  request.options.viewing_distance_m = 0.7 * *result.viewing_distance_m;
+  EXPECT_NE(planned(*snapshot, request).measures, result.measures);
+  EXPECT_FALSE(planned(*snapshot_of({}), request).viewing_distance_m.has_value());
 }
 
 TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {

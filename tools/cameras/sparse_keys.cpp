@@ -49,7 +49,8 @@ SparseKeys::SparseKeys(const motion::Path& path, double fps) {
     times.push_back(std::min(path.begin_s() + static_cast<double>(i) * step_s, path.end_s()));
   }
   std::ranges::sort(times);
-  times.erase(std::ranges::unique(times).begin(), times.end());
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double time_s : times) add_candidate(path, time_s);
   for (const motion::Segment& segment : path.segments()) {
     const auto found = std::ranges::lower_bound(times, segment.t0_s);

@@ -8,7 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/scene/cache/scene_cache.h"
+#include "daemon/scene/import/record/import_words.h"
 #include "tools/camway/common/commands.h"
 
 namespace camway::tools {
@@ -27,6 +29,16 @@ std::uint64_t bytes_of(const std::vector<CachedScene>& scenes) {
   return bytes;
 }
 
+/// Returns "house.obj (scale 0.0254, z-to-y)": a file may be kept in several readings.
+std::string file_text(const CachedScene& scene) {
+  std::string reading;
+  if (scene.scale != 1.0) reading = fmt::format("scale {}", scene.scale);
+  if (scene.up != scene::UpAxis::kAsInFile) {
+    reading += (reading.empty() ? "" : ", ") + std::string(base::name_of(scene.up));
+  }
+  return reading.empty() ? scene.scene_file : scene.scene_file + " (" + reading + ")";
+}
+
 void print_json(const SceneCache& cache, const std::vector<CachedScene>& scenes) {
   using OrderedJson = nlohmann::ordered_json;
   OrderedJson json;
@@ -36,6 +48,8 @@ void print_json(const SceneCache& cache, const std::vector<CachedScene>& scenes)
   json["scenes"] = OrderedJson::array();
   for (const CachedScene& scene : scenes) {
     json["scenes"].push_back({{"file", scene.scene_file},
+                              {"scale", scene.scale},
+                              {"up", base::name_of(scene.up)},
                               {"triangles", scene.triangles},
                               {"bytes", scene.bytes},
                               {"last_used", time_text(scene.last_used)},
@@ -55,7 +69,7 @@ void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes)
   for (const CachedScene& scene : scenes) {
     fmt::print("{:<20}  {:>9}  {:>8.1f}  {:<7}  {}\n", time_text(scene.last_used), scene.triangles,
                static_cast<double>(scene.bytes) / kBytesPerMb,
-               scene.is_of_this_build ? "this" : "another", scene.scene_file);
+               scene.is_of_this_build ? "this" : "another", file_text(scene));
   }
   fmt::print("{}: {} {}, {:.1f} MB of at most {:.0f} MB\n", cache.folder().string(), scenes.size(),
              scenes.size() == 1 ? "scene" : "scenes",
@@ -65,16 +79,18 @@ void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes)
 
 /// Returns the cache. On an error, prints it and returns nothing.
 std::optional<SceneCache> open_cache() {
-  std::optional<SceneCache> cache = scene::cache_of_environment();
-  const std::string fault = cache ? cache->fault() : "";
-  if (!cache) {
-    print_error(
-        "there is no cache: CAMWAY_CACHE_DIR is empty, CAMWAY_CACHE_BYTES is 0, or no HOME");
+  scene::UserCache user = scene::cache_of_environment();
+  const std::string fault = user.cache ? user.cache->fault() : "";
+  if (!user.fault.empty()) {
+    print_error(user.fault);
+  } else if (!user.cache) {
+    print_error("there is no cache: " + user.absence);
   } else if (!fault.empty()) {
-    print_error(cache->folder().string() + ": " + fault);
-    cache.reset();
+    print_error(user.cache->folder().string() + ": " + fault);
+  } else {
+    return std::move(user.cache);
   }
-  return cache;
+  return std::nullopt;
 }
 
 ExitCode run_cache(bool clears, bool as_json) {

@@ -27,6 +27,7 @@
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/json/json_angle.h"
 #include "tools/json/json_request.h"
 #include "tools/support/client_request.h"
 #include "tools/support/watch_event_name.h"
@@ -48,11 +49,20 @@ struct WatchFlags {
   bool json = false;
 };
 
-/// Returns how far a path is from the one that was asked for.
-std::string deviation_text(const PathMeasures& measures) {
-  constexpr double kLeastTold_m = 1e-6;  // below, the two differ by rounding
-  if (measures.largest_deviation_m < kLeastTold_m) return "as it was asked for";
-  return fmt::format("at most {:.4g} m from the one asked for", measures.largest_deviation_m);
+/// Returns how near a path is to the one that was asked for. A path may turn and not move.
+std::string nearness_text(const PathMeasures& measures) {
+  constexpr double kLeastTold_m = 1e-6;  // below these, the two differ by rounding
+  constexpr double kLeastTold_rad = 1e-6;
+  if (measures.largest_deviation_m < kLeastTold_m && measures.largest_shift_rad < kLeastTold_rad) {
+    return "as it was asked for";
+  }
+  std::string text =
+      fmt::format("at most {:.4g} m from the one asked for", measures.largest_deviation_m);
+  if (measures.largest_shift_rad > 0.0) {  // keyframe insertion does not measure it
+    text += fmt::format(", from which the picture shifts by at most {:.3g}°",
+                        degrees(measures.largest_shift_rad));
+  }
+  return text;
 }
 
 std::string text_of(const WatchEvent& event) {
@@ -82,7 +92,7 @@ std::string text_of(const WatchEvent& event) {
     case WatchEvent::Kind::kBetter:
       return fmt::format("revision {}: a better path is on offer, {:.4g} m long and {}",
                          event.scene_revision, event.answer->measures->length_m,
-                         deviation_text(*event.answer->measures));
+                         nearness_text(*event.answer->measures));
     case WatchEvent::Kind::kWithdrawn:
       return fmt::format(
           "revision {}: a change broke the better path, which is not on offer any more",
@@ -105,6 +115,8 @@ OrderedJson json_of(const WatchEvent& event) {
     if (const std::optional<PathMeasures>& measures = event.answer->measures) {
       json["length_m"] = measures->length_m;
       json["largest_deviation_m"] = measures->largest_deviation_m;
+      json["largest_shift_deg"] = degrees(measures->largest_shift_rad);
+      json["mean_shift_deg"] = degrees(measures->mean_shift_rad);
     }
   }
   if (event.kind == WatchEvent::Kind::kBroken) {

@@ -8,7 +8,7 @@ namespace camway {
 
 /// The quantity that corrections optimise. The path stays proved free of collision.
 enum class Objective {
-  kClosest,    ///< least deviation from the path as interpolated
+  kClosest,    ///< near to the shot as interpolated: the picture shifts least, and gently
   kShortest,   ///< least length of the eye's way
   kSmoothest,  ///< least bending energy
   kSafest,     ///< largest distance from the scene

@@ -52,7 +52,7 @@ struct PathMeasures {
   /// slowed, it is compared with the interpolated path under the same slow-down.
   double largest_deviation_m = 0.0;
   /// Shift of the picture from the path as interpolated: the angle by which a point moves in the
-  /// picture that lies at the viewing distance. Before slowing.
+  /// picture that lies at the viewing distance. Before slowing; 0 for "keyframe_insertion".
   double largest_shift_rad = 0.0;
   double mean_shift_rad = 0.0;
   double bending_energy_m2_per_s3 = 0.0;  ///< integral of the squared acceleration

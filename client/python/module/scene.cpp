@@ -73,7 +73,8 @@ LoadedScene load(const std::string& file, double scale, const std::string& up,
   options.import.unknown = choice<scene::UnknownSpace>(unknown, "unknown");
   options.import.voxel_m = voxel_m;
   options.bounds = bounds_of(body_bounds);
-  std::optional<scene::SceneCache> cache = use_cache ? scene::cache_of_environment() : std::nullopt;
+  std::optional<scene::SceneCache> cache =
+      use_cache ? scene::cache_of_environment().cache : std::nullopt;
   if (cache && !cache->fault().empty()) cache.reset();
   const auto read = [&](const std::stop_token& stop) {
     return scene::load_snapshot(file, file, options, stop, cache ? &*cache : nullptr);

@@ -100,9 +100,12 @@ Problem CorrectedPath::part_about(std::size_t leg, const motion::TimeOrigin& ori
   return part;
 }
 
+bool CorrectedPath::fits(const Candidate& candidate) const {
+  return count_with(candidate) <= static_cast<std::size_t>(limits_.max_inserted_keyframes);
+}
+
 bool CorrectedPath::take(const Candidate& candidate) {
-  const auto most = static_cast<std::size_t>(limits_.max_inserted_keyframes);
-  if (count_with(candidate) > most) return false;
+  if (!fits(candidate)) return false;
   path_.replace(candidate.path);
   const auto [begin_s, end_s] = range_of(candidate);
   add_changed({begin_s, end_s, turns(candidate)});

@@ -57,6 +57,8 @@ class CorrectedPath {
   [[nodiscard]] Problem part_about(std::size_t leg, const motion::TimeOrigin& origin,
                                    double ball_radius_m) const;
 
+  /// Returns whether `candidate` inserts no more keyframes than the limit allows.
+  [[nodiscard]] bool fits(const Candidate& candidate) const;
   /// Replaces a part of the path by `candidate` and returns true; returns false if that would
   /// exceed the limit of inserted keyframes.
   bool take(const Candidate& candidate);

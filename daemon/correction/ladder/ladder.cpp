@@ -90,18 +90,27 @@ class Ladder {
       const ListedCollision& collision = collisions_[i];
       if (!collision.is_open() || collision.is_beyond_limit) continue;
       if (prover_.has_proof()) return;
-      if (search == Search::kWithRoom && (rungs_.move_away(i) || collision.is_beyond_limit))
-        continue;
-      const std::size_t leg = collision.leg;
-      // A detour replaces the whole interval between keyframes: do not search it twice.
-      if (is_cut_off(leg)) has_no_way[leg] = true;
-      if (search == Search::kWithRoom) {
-        turn_or_replace(i, has_no_way);
-      } else if (!has_no_way[leg]) {
-        has_no_way[leg] = shut_in_.is_worthless(leg) || !replace_leg(i, search);
-        shut_in_.mark_searched(leg);
-      }
+      correct(i, search, has_no_way);
+      if (!collision.is_open()) report_progress();
     }
+  }
+
+  void correct(std::size_t index, Search search, std::vector<bool>& has_no_way) {
+    const bool is_moved = search == Search::kWithRoom && rungs_.move_away(index);
+    if (is_moved || collisions_[index].is_beyond_limit) return;
+    const std::size_t leg = collisions_[index].leg;
+    // A detour replaces the whole interval between keyframes: do not search it twice.
+    if (is_cut_off(leg)) has_no_way[leg] = true;
+    if (search == Search::kWithRoom) {
+      turn_or_replace(index, has_no_way);
+    } else if (!has_no_way[leg]) {
+      has_no_way[leg] = shut_in_.is_worthless(leg) || !replace_leg(index, search);
+      shut_in_.mark_searched(leg);
+    }
+  }
+
+  void report_progress() const {
+    deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
   }
 
   // Turns the camera, or takes a detour that keeps its orientation, whichever costs less.

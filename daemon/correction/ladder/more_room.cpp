@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,7 +26,7 @@ using motion::CubicPath;
 constexpr double kKeptShare = 0.95;   // share of the keyframes' gap that is asked for first
 constexpr double kWorth = 1.05;       // least growth of the least gap
 constexpr double kMostShift = 2.0;    // times the shift of the corrections and of `kComfort`
-constexpr int kAttempts = 4;          // with different clearances, for each range
+constexpr int kAttempts = 5;          // with different clearances, for each range
 constexpr double kLeastShare = 0.01;  // of the gap that failed: the least that is tried
 
 /// Intervals between keyframes that no changed part joins to others.
@@ -55,7 +56,8 @@ class RoomMaker {
       LegRange legs = range_about(collisions_[i].leg);
       legs.shift_rad = shift_rad(corrected_, legs);
       // A new correction may have reached over from an earlier range.
-      if (legs.first_keyframe >= done && widen(legs)) gains = true;
+      const bool is_new = legs.first_keyframe >= done;
+      if (is_new && !has_open_collision(legs) && widen(legs)) gains = true;
       done = legs.last_keyframe;
     }
     return gains;
@@ -88,26 +90,35 @@ class RoomMaker {
     return legs.first_keyframe < before.first_keyframe || legs.last_keyframe > before.last_keyframe;
   }
 
+  [[nodiscard]] bool has_open_collision(const LegRange& legs) const {
+    for (std::size_t leg = legs.first_keyframe; leg < legs.last_keyframe; ++leg) {
+      if (!collisions_.open_in(leg).empty()) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] bool overlaps(const ChangedPart& part, const LegRange& legs) const {
     return part.begin_s < keyframes_s_[legs.last_keyframe] &&
            part.end_s > keyframes_s_[legs.first_keyframe];
   }
 
-  /// Bisects the clearance, on a logarithmic scale, between the least gap that is known and one
-  /// that failed.
+  /// Asks for the largest gap first. Then bisects between the least gap that is known and one that
+  /// failed, on a logarithmic scale until an attempt succeeds.
   bool widen(const LegRange& legs) {
     double kept_m = least_gap_m(corrected_, legs);
     double tried_m = most_gap_m(legs);
     double failed_m = tried_m;
     bool gains = false;
     for (int i = 0; i < kAttempts && failed_m > kWorth * kept_m && !deadline().passed(); ++i) {
-      if (attempt(legs, tried_m, kept_m)) {
-        gains = true;
-        if (tried_m == failed_m) break;
-      } else {
+      if (!attempt(legs, tried_m, kept_m)) {
         failed_m = tried_m;
+      } else if (i == 0) {
+        return true;
+      } else {
+        gains = true;
       }
-      tried_m = std::sqrt(std::max(kept_m, kLeastShare * failed_m) * failed_m);
+      tried_m = gains ? std::midpoint(kept_m, failed_m)
+                      : std::sqrt(std::max(kept_m, kLeastShare * failed_m) * failed_m);
     }
     return gains;
   }
@@ -147,32 +158,43 @@ class RoomMaker {
     return shift_rad(path, legs) > kMostShift * (legs.shift_rad + comfort_rad);
   }
 
-  /// Corrects the legs with a required gap. Raises `kept_m` if the result replaces the path.
+  /// Moves the corrected path, or else corrects the path as interpolated anew, so that the legs
+  /// have a gap. Raises `kept_m` if the result replaces the path.
   bool attempt(const LegRange& legs, double gap_m, double& kept_m) {
-    const double begin_s = keyframes_s_[legs.first_keyframe];
-    const double end_s = keyframes_s_[legs.last_keyframe];
     collision::Query query = space_.query();
     query.options.clearance_m += gap_m;
     OrientationPolicy policy = space_.policy();
     if (!legs.turns) policy.max_turn_rad = 0.0;
     FreeSpace roomy(query, policy, space_.closeness());
-    CorrectedPath path = corrected_;
-    path.restore(legs.first_keyframe, legs.last_keyframe);
-    const std::size_t others = path.changed_parts().size();
+    CorrectedPath anew = corrected_;
+    anew.restore(legs.first_keyframe, legs.last_keyframe);
+    return attempt_on(corrected_, Method::kMoves, legs, roomy, kept_m) ||
+           attempt_on(std::move(anew), Method::kAllRungs, legs, roomy, kept_m);
+  }
+
+  enum class Method { kMoves, kAllRungs };
+
+  bool attempt_on(CorrectedPath path, Method method, const LegRange& legs, FreeSpace& roomy,
+                  double& kept_m) {
+    const std::size_t others = path.changed_parts().size() - parts_of(path, legs).size();
+    const double begin_s = keyframes_s_[legs.first_keyframe];
+    const double end_s = keyframes_s_[legs.last_keyframe];
     const std::optional<std::vector<CollisionInterval>> found = collision::detect_collisions(
-        query, path.path().around(begin_s, end_s).path(), begin_s, end_s, deadline());
+        roomy.query(), path.path().around(begin_s, end_s).path(), begin_s, end_s, deadline());
     if (!found || found->empty()) return false;
     CollisionList list(*found, keyframes_s_);
     // Narrow places, where the body must turn, are found by a costlier search alone.
     const Search search = legs.turns ? Search::kWithRoom : Search::kQuick;
-    if (!correct(search, roomy, path, list)) return false;
+    const bool is_corrected = method == Method::kMoves ? moves_away(roomy, path, list)
+                                                       : correct(search, roomy, path, list);
+    if (!is_corrected) return false;
     const std::vector<ChangedPart> parts = parts_of(path, legs);
     if (path.changed_parts().size() != others + parts.size()) return false;
     redraw(parts, origin_, roomy, path, list);
     const double least_m = least_gap_m(path, legs);
     if (least_m < kWorth * kept_m || leads_too_far(path, legs)) return false;
     kept_m = least_m;
-    take(legs, std::move(path), list);
+    take(method, legs, std::move(path), list);
     return true;
   }
 
@@ -182,6 +204,15 @@ class RoomMaker {
     std::ranges::copy_if(path.changed_parts(), std::back_inserter(parts),
                          [&](const ChangedPart& part) { return overlaps(part, legs); });
     return parts;
+  }
+
+  /// Moves the body away at all collisions of the list; returns false if one is left.
+  bool moves_away(FreeSpace& space, CorrectedPath& path, CollisionList& list) const {
+    Rungs rungs(space, path, list, origin_, seed_);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (list[i].is_open() && !rungs.move_away(i)) return false;
+    }
+    return true;
   }
 
   /// Corrects all collisions of the list; returns false if one is left.
@@ -199,21 +230,24 @@ class RoomMaker {
     return list.count_open() == 0;
   }
 
-  /// Takes the path over. Each collision has the correction of the one that contains it: a larger
+  /// Takes the path over. Corrections are as long as the changed parts that hold them. After
+  /// `kAllRungs`, they are of the kind of the collision in `list` that holds theirs: a larger
   /// clearance only lengthens collisions.
-  void take(const LegRange& legs, CorrectedPath&& path, const CollisionList& list) {
+  void take(Method method, const LegRange& legs, CorrectedPath&& path, const CollisionList& list) {
     corrected_.adopt(std::move(path));
-    std::size_t k = 0;
+    const std::vector<ChangedPart> parts = parts_of(corrected_, legs);
+    auto part = parts.begin();
+    std::size_t wider = 0;
     for (std::size_t i = 0; i < collisions_.size(); ++i) {
       const std::size_t leg = collisions_[i].leg;
-      if (collisions_[i].is_open() || leg < legs.first_keyframe || leg >= legs.last_keyframe) {
-        continue;
-      }
+      if (leg < legs.first_keyframe || leg >= legs.last_keyframe) continue;
       Correction& correction = collisions_[i].correction;
       const double middle_s = 0.5 * (correction.interval.t_begin_s + correction.interval.t_end_s);
-      while (k + 1 < list.size() && list[k].correction.interval.t_end_s < middle_s) ++k;
-      const Correction& wider = list[k].correction;
-      correction = {correction.interval, wider.kind, wider.t_begin_s, wider.t_end_s};
+      while (part + 1 != parts.end() && part->end_s < middle_s) ++part;
+      while (wider + 1 < list.size() && list[wider].correction.interval.t_end_s < middle_s) ++wider;
+      const bool is_new = method == Method::kAllRungs;
+      correction = {correction.interval, is_new ? list[wider].correction.kind : correction.kind,
+                    part->begin_s, part->end_s};
     }
   }
 

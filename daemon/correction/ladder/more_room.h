@@ -10,14 +10,17 @@
 
 namespace camway::correction {
 
-/// Corrects intervals between keyframes anew, with more distance from the scene, for `kSafest`.
-/// Relaxation alone finds no other way than the one that it starts from.
+/// Corrects intervals between keyframes with more distance from the scene, for `kSafest`. `polish`
+/// alone lessens the danger on the whole, and may leave the narrowest place as it is.
 ///
-/// Each interval with corrections is corrected with a required clearance that its two keyframes
-/// keep, and that suffices for `kSafest`; where that fails, with less, a limited number of times.
-/// Intervals that share a changed part are corrected together. A result replaces the corrections
-/// if its least gap is larger by enough. It turns the body only where the corrections do that it
-/// replaces. Returns whether any was replaced.
+/// Each interval with corrections is corrected with a larger clearance: the least that suffices for
+/// `kSafest` or that its keyframes have; where that fails, with less, a limited number of times.
+/// Collisions with that clearance are corrected by moves on top of the corrected path, or else from
+/// the path as interpolated. Intervals that share a changed part are corrected together.
+///
+/// A result replaces the corrections if its least gap is larger by enough and it does not lead much
+/// farther off. It turns the body only where the corrections do that it replaces. Intervals with
+/// open collisions stay as they are. Returns whether any correction was replaced.
 ///
 /// Requires `space` to be that of the corrections. Sets the ranges of `collisions`. `origin`:
 /// origin of all times. `seed`: random seed of searches for detours. Ends at

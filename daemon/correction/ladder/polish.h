@@ -10,10 +10,9 @@
 namespace camway::correction {
 
 /// Improves the corrected intervals of a path under an objective other than `kClosest`. Each step
-/// is proved free. Every objective starts from the closest path and accepts only steps that are
-/// better by its own measure. So by that measure the result is never worse than the closest path.
-/// Returns whether any step was better. Changes nothing for `kClosest`, which every correction
-/// optimises itself.
+/// is proved free, and only steps are accepted that are better by the objective's own measure. So
+/// by that measure the result is never worse than the path was. Returns whether any step was
+/// better. Changes nothing for `kClosest`, which every correction optimises itself.
 ///
 /// The number of steps is limited; they also end at `corrected.deadline()`. Extends the ranges of
 /// corrections in `collisions` by the changed parts. `origin`: origin of all times.

@@ -25,7 +25,7 @@ constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
 constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
 constexpr int kStepsOfRelaxation = 8;    // of the first, and of all that follow
 constexpr int kStepsOfRoom = 12;         // of the relaxation that makes room
-constexpr std::size_t kMostKnots = 128;  // of a part: relaxation takes cubic time
+constexpr std::size_t kMostKnots = 400;  // of a part
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
 constexpr std::array<double, 2> kScales = {1.0, 1.15};
 

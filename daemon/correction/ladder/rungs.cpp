@@ -15,6 +15,9 @@ using collision::CollisionInterval;
 constexpr int kStepsPerLeg = 48;  // steps of relaxation per interval with a collision
 /// Collisions that are nearer than so many spacings of knots get one row of bumps.
 constexpr double kNearSpacings = 2.0;
+/// A move that shifts the picture by more, on average between two keyframes, is compared with a way
+/// round. [Units: radians]
+constexpr double kDearMove_rad = 0.08;
 /// A turn costs so much more than a move that shifts the picture as far: it changes what is seen.
 constexpr double kTurnPenalty = 3.0;
 
@@ -32,11 +35,34 @@ Rungs::Rungs(FreeSpace& space, CorrectedPath& corrected, CollisionList& collisio
 bool Rungs::move_away(std::size_t index) {
   const double near_s = kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
   const std::vector<std::size_t> group = collisions_.open_near(index, near_s);
-  if (group.size() > 1 && accept(group, CorrectionKind::kMove, nudged(group, NudgeKind::kMove))) {
-    return true;
-  }
+  if (group.size() > 1 && take_move(group, nudged(group, NudgeKind::kMove))) return true;
   const std::span<const std::size_t> first(group.data(), 1);
-  return accept(first, CorrectionKind::kMove, nudged(first, NudgeKind::kMove));
+  return take_move(first, nudged(first, NudgeKind::kMove));
+}
+
+// Takes the move, or a way round that replaces it for less.
+bool Rungs::take_move(std::span<const std::size_t> group, const std::optional<Candidate>& moved) {
+  if (!moved) return false;
+  const std::optional<Candidate> round = way_instead_of(*moved, group);
+  if (round && corrected_.fits(*round)) return accept(group, CorrectionKind::kGoRound, round);
+  return accept(group, CorrectionKind::kMove, moved);
+}
+
+// A way round costs a search, so it is looked for only where the move is dear, and where it
+// replaces no correction of other collisions.
+std::optional<Candidate> Rungs::way_instead_of(const Candidate& moved,
+                                               std::span<const std::size_t> group) {
+  if (collisions_.open_in(collisions_[group.front()].leg).size() > group.size())
+    return std::nullopt;
+  const Problem problem = this->problem(group);
+  const double moved_cost = cost(group.front(), moved);
+  if (moved_cost <= kDearMove_rad * (problem.leg_end_s() - problem.leg_begin_s())) {
+    return std::nullopt;
+  }
+  DetourResult round = go_round(problem, Search::kQuick, budget_, space_, seed_, {}, deadline());
+  for (const std::size_t i : group) collisions_[i].correction.tried += round.effort;
+  if (!round.candidate || cost(group.front(), *round.candidate) >= moved_cost) return std::nullopt;
+  return std::move(round.candidate);
 }
 
 std::optional<Candidate> Rungs::turned(std::size_t index) {
@@ -101,9 +127,7 @@ bool Rungs::accept(std::span<const std::size_t> group, CorrectionKind kind,
     Correction& correction = collisions_[i].correction;
     if (is_taken) correction = {correction.interval, kind, begin_s, end_s};
   }
-  if (!is_taken) return false;
-  deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
-  return true;
+  return is_taken;
 }
 
 }  // namespace camway::correction

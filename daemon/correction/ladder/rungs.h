@@ -33,7 +33,8 @@ class Rungs {
         const motion::TimeOrigin& origin, std::uint64_t seed);
 
   /// Moves the camera aside for the group of collisions that begins with `index`, or else for the
-  /// first of them. Returns whether that corrected it.
+  /// first of them. A move that is dear is compared with a way round, which replaces everything
+  /// between two keyframes. Returns whether that corrected it.
   bool move_away(std::size_t index);
 
   /// Returns the cheapest turn that corrects the collision; nothing if none does, or the
@@ -61,6 +62,9 @@ class Rungs {
   [[nodiscard]] double cost(std::size_t index, const Candidate& candidate) const;
   [[nodiscard]] Problem problem(std::span<const std::size_t> group) const;
   std::optional<Candidate> nudged(std::span<const std::size_t> group, NudgeKind nudge_kind);
+  bool take_move(std::span<const std::size_t> group, const std::optional<Candidate>& moved);
+  std::optional<Candidate> way_instead_of(const Candidate& moved,
+                                          std::span<const std::size_t> group);
   bool accept(std::span<const std::size_t> group, CorrectionKind kind,
               const std::optional<Candidate>& candidate);
   [[nodiscard]] const base::Deadline& deadline() const { return corrected_.deadline(); }

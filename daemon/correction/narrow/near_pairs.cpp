@@ -115,8 +115,8 @@ NearTriangles near_triangles(FreeSpace& space, const motion::Pose& pose, double 
     return near.is_complete;
   });
   std::ranges::sort(near.pairs);
-  const auto repeated = std::ranges::unique(near.pairs);
-  near.pairs.erase(repeated.begin(), repeated.end());
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  near.pairs.erase(std::unique(near.pairs.begin(), near.pairs.end()), near.pairs.end());
   return near;
 }
 

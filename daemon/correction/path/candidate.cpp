@@ -120,6 +120,29 @@ std::optional<std::pair<Candidate, Span>> with_rows(const Problem& problem,
   return std::pair{std::move(candidate), *changed};
 }
 
+/// Does what `new_collision` does, for the clearance of `query`.
+std::optional<CollisionInterval> new_collision_of(const collision::Query& query,
+                                                  const motion::CubicPath& path, const Span& span,
+                                                  const Problem& problem,
+                                                  const base::Deadline& deadline) {
+  const motion::Path segments = path.around(span.begin_s, span.end_s).path();
+  const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
+    if (!(from_s < to_s)) return std::nullopt;
+    const collision::FirstCollision found =
+        collision::any_collision(query, segments, from_s, to_s, deadline);
+    if (!found.decided) return CollisionInterval{from_s, to_s};
+    return found.interval;
+  };
+  double from_s = span.begin_s;
+  for (const CollisionInterval& other : problem.foreign_collisions) {
+    if (other.t_end_s <= from_s) continue;
+    if (other.t_begin_s >= span.end_s) break;
+    if (auto found = search(from_s, other.t_begin_s)) return found;
+    from_s = other.t_end_s;
+  }
+  return search(from_s, span.end_s);
+}
+
 /// Returns a collision in the range that was changed or that has to become free: rows may reach
 /// less far than the problem's interval. The middle of the interval is checked first: there a
 /// collision is the likeliest to remain.
@@ -142,22 +165,17 @@ std::optional<CollisionInterval> new_collision(const motion::CubicPath& path, do
                                                double t_end_s, const Problem& problem,
                                                const FreeSpace& space,
                                                const base::Deadline& deadline) {
-  const motion::Path segments = path.around(t_begin_s, t_end_s).path();
-  const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
-    if (!(from_s < to_s)) return std::nullopt;
-    const collision::FirstCollision found =
-        collision::any_collision(space.query(), segments, from_s, to_s, deadline);
-    if (!found.decided) return CollisionInterval{from_s, to_s};
-    return found.interval;
-  };
-  double from_s = t_begin_s;
-  for (const CollisionInterval& other : problem.foreign_collisions) {
-    if (other.t_end_s <= from_s) continue;
-    if (other.t_begin_s >= t_end_s) break;
-    if (auto found = search(from_s, other.t_begin_s)) return found;
-    from_s = other.t_end_s;
-  }
-  return search(from_s, t_end_s);
+  return new_collision_of(space.query(), path, {t_begin_s, t_end_s}, problem, deadline);
+}
+
+std::optional<CollisionInterval> tight_place(const Candidate& candidate, double gap_m,
+                                             const Problem& problem, const FreeSpace& space,
+                                             const base::Deadline& deadline) {
+  const std::optional<Span> changed = span_of(candidate.rows, problem);
+  if (!changed) return std::nullopt;
+  collision::Query query = space.query();
+  query.options.clearance_m += gap_m;
+  return new_collision_of(query, candidate.path, *changed, problem, deadline);
 }
 
 std::optional<Candidate> free_candidate(const Problem& problem, std::vector<motion::BumpRow> rows,

@@ -55,6 +55,14 @@ std::optional<collision::CollisionInterval> new_collision(const motion::CubicPat
                                                           const FreeSpace& space,
                                                           const base::Deadline& deadline);
 
+/// Returns a short time range of what `candidate` changed in which the body is nearer to the scene
+/// than `gap_m` beyond the required clearance, outside of `problem.foreign_collisions`; nothing if
+/// there is none. The bounds do not count.
+std::optional<collision::CollisionInterval> tight_place(const Candidate& candidate, double gap_m,
+                                                        const Problem& problem,
+                                                        const FreeSpace& space,
+                                                        const base::Deadline& deadline);
+
 /// Adds `rows` to `problem.path`. Returns a candidate if each step between knots has enough times
 /// that are exact in the sender's clock (`KnotRow::fits`), all keyframes are still met, and
 /// `problem.interval` and everything that `rows` change is proved free, and proved to meet the

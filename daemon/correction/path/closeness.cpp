@@ -96,20 +96,25 @@ double simpson_weight(int i, int steps) {
 /// The shift of a piece, which takes the place of the piece `before` of the original path.
 class PieceShift {
  public:
-  PieceShift(const CubicPiece& now, const CubicPiece& before, const Closeness& closeness)
+  /// `reference`: that of both paths.
+  PieceShift(const CubicPiece& now, const CubicPiece& before, const Vec4& reference,
+             const Closeness& closeness)
       : now_(now),
         before_(before),
+        reference_(reference),
         closeness_(closeness),
         change_(now, before),
-        turns_(now.image != before.image) {}
+        turns_(now.image != before.image),
+        swings_(turns_ && !closeness.center_C.isZero(0.0)) {}
 
   /// Returns the shift at u. [Units: radians]
   [[nodiscard]] double at(double u) const {
     using motion::bezier::value_at;
-    const double moved_m = value_at(change_.moved_m, u).norm();
+    Vec3 moved_m = value_at(change_.moved_m, u);
+    if (swings_) moved_m += center_at(now_, u) - center_at(before_, u);
     const double turned_rad =
         turns_ ? turn_rad(value_at(now_.image, u), value_at(before_.image, u)) : 0.0;
-    return (moved_m + closeness_.turn_lever_m * turned_rad) / closeness_.viewing_distance_m;
+    return (moved_m.norm() + closeness_.turn_lever_m * turned_rad) / closeness_.viewing_distance_m;
   }
 
   /// Returns ∫ shift dt. [Units: radian seconds]
@@ -131,11 +136,19 @@ class PieceShift {
   }
 
  private:
+  /// Returns the way from the eye to the centre, in the world frame.
+  [[nodiscard]] Vec3 center_at(const CubicPiece& piece, double u) const {
+    const Vec4 image = motion::bezier::value_at(piece.image, u);
+    return motion::pose_of(reference_, {Vec3::Zero(), image}).orientation * closeness_.center_C;
+  }
+
   const CubicPiece& now_;
   const CubicPiece& before_;
+  const Vec4& reference_;
   const Closeness& closeness_;
   const Change change_;
   const bool turns_;
+  const bool swings_;  ///< turning moves the centre relative to the eye
 };
 
 }  // namespace
@@ -148,7 +161,7 @@ double Closeness::best_spacing_s(double height_m) const {
 Shift shift_of(const CubicPath& path, const CubicPath& original, const Closeness& closeness) {
   Shift shift;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    const PieceShift piece(now, before, closeness);
+    const PieceShift piece(now, before, path.reference, closeness);
     shift.mean_rad += piece.integral();
     shift.largest_rad = std::max(shift.largest_rad, piece.largest());
   });
@@ -161,7 +174,7 @@ double closeness_cost(const CubicPath& path, const CubicPath& original,
   double cost = 0.0;
   const double a = closeness.acceleration_m_per_s2;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    cost += PieceShift(now, before, closeness).integral();
+    cost += PieceShift(now, before, path.reference, closeness).integral();
     // The offset's second derivative is linear: Simpson's rule is exact for its square.
     const Change change(now, before);
     const double squares = change.squared_acceleration(0.0, closeness) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "daemon/geometry/types.h"
 #include "daemon/motion/spline/cubic_path.h"
 
 namespace camway::correction {
@@ -8,11 +9,12 @@ namespace camway::correction {
 /// The scale on which changes of a path are compared.
 ///
 /// The *shift* of a pose from the interpolated pose at the same time is the angle by which a point
-/// moves in the picture that lies at the viewing distance D: turn + move / D, to first order. For a
-/// body that is no camera, a turn counts by the motion of the body's points.
+/// moves in the picture that lies at the viewing distance D: turn + move / D, to first order, with
+/// the move of the eye. For a body that is no camera it is a bound of the motion of the body's
+/// points, divided by D: the move of the body's centre + its radius · turn.
 ///
 /// The *cost* of a corrected path is ∫ shift dt + `kAccelerationWeight_rad` · ∫ (c/a)² dt, where c
-/// is the second derivative of the offset from the interpolated path and a the reference
+/// is the second derivative of the offset of the eye from the interpolated path and a the reference
 /// acceleration. The first term makes corrections small and short, the second makes them gentle.
 /// A bump of height h on knots s apart costs least at s⁴ = 12 · `kAccelerationWeight_rad` · h · D /
 /// a² (`best_spacing_s`), so larger corrections are longer.
@@ -22,6 +24,9 @@ struct Closeness {
   /// the radius of the body for another body. [Units: metres]
   double turn_lever_m = 3.0;
   double acceleration_m_per_s2 = 1.0;  ///< a: reference acceleration of the interpolated path
+  /// The point whose move counts, in the camera frame: the eye of a camera, the centre of another
+  /// body.
+  geometry::Vec3 center_C = geometry::Vec3::Zero();
 
   /// The spacing of the knots of a bump of this height that costs least. [Limit: 0 < height_m]
   [[nodiscard]] double best_spacing_s(double height_m) const;
@@ -40,12 +45,13 @@ struct Shift {
 };
 
 /// Compares `path` with `original`, by samples and a search beside the largest. Requires `original`
-/// to cover the time of `path`.
+/// to cover the time of `path`, with the same reference.
 Shift shift_of(const motion::CubicPath& path, const motion::CubicPath& original,
                const Closeness& closeness);
 
 /// The cost of `path`, by samples of the shift; the second term is exact for positions. Requires
-/// `original` to cover the time of `path`, and each knot of `original` there to be one of `path`.
+/// `original` to cover the time of `path`, with the same reference, and each knot of `original`
+/// there to be one of `path`.
 /// [Units: radian seconds]
 double closeness_cost(const motion::CubicPath& path, const motion::CubicPath& original,
                       const Closeness& closeness);

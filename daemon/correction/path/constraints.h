@@ -11,7 +11,7 @@ namespace camway::correction {
 
 /// The quantity that a corrected path is improved for while it stays proved free.
 enum class Objective : std::uint8_t {
-  kClosest,    ///< distance from the interpolated path
+  kClosest,    ///< shift from the interpolated path, and acceleration (`closeness_cost`)
   kShortest,   ///< length of the curve of the eye
   kSmoothest,  ///< bending energy
   kSafest,     ///< least distance to the scene

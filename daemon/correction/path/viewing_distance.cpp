@@ -41,8 +41,9 @@ Closeness closeness_of(const motion::CubicPath& interpolated, const FreeSpace& s
   closeness.viewing_distance_m = viewing_distance_m > 0.0
                                      ? viewing_distance_m
                                      : correction::viewing_distance_m(interpolated, space);
-  closeness.turn_lever_m =
-      space.body().is_camera() ? closeness.viewing_distance_m : space.ball_radius_m();
+  const bool is_camera = space.body().is_camera();
+  closeness.turn_lever_m = is_camera ? closeness.viewing_distance_m : space.ball_radius_m();
+  if (!is_camera) closeness.center_C = space.center_C();
   closeness.acceleration_m_per_s2 =
       reference_acceleration_m_per_s2(interpolated, closeness.viewing_distance_m);
   return closeness;

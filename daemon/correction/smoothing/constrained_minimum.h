@@ -21,6 +21,8 @@ class ConstrainedMinimum {
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return bounds_.wanted_m(); }
+  /// A gap that is next to nothing. [Units: metres]
+  [[nodiscard]] double little_m() const { return bounds_.little_m(); }
   /// Sets the least gap that `kSafest` must keep. [Units: metres]
   void keep(double least_gap_m) { bounds_.keep(least_gap_m); }
 

@@ -26,6 +26,8 @@ ContactBounds::ContactBounds(Objective objective, double ball_radius_m, double v
                            : std::min(kWanted * ball_radius_m, kWantedShift * viewing_distance_m)),
       hard_reach_m_(kHardReach * ball_radius_m) {}
 
+double ContactBounds::little_m() const { return kLittle * wanted_m_; }
+
 void ContactBounds::clear() {
   bounds_.clear();
   forces_.clear();
@@ -64,7 +66,7 @@ void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, doub
   const double offset_m = row.direction.dot(moved) - row.room_m;
   const bool has_room = row.room_m >= wanted_m_;
   add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
-  const double urgency = 1.0 + kMoreWorth * std::max(0.0, 1.0 - row.room_m / (kLittle * wanted_m_));
+  const double urgency = 1.0 + kMoreWorth * std::max(0.0, 1.0 - row.room_m / little_m());
   const double stiffness = urgency * price_of_room_ * response * row.direction.squaredNorm();
   if (has_room || !(stiffness > 0.0)) {
     contact.soft_multiplier = 0.0;

@@ -31,6 +31,8 @@ class ContactBounds {
 
   /// Returns the gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
+  /// Returns a gap that is next to nothing, which costs more than others. [Units: metres]
+  [[nodiscard]] double little_m() const;
   /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
   /// Sets what half a square metre of a missing gap costs, in units of the form that is minimised;

@@ -21,7 +21,6 @@ constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
 constexpr double kTightGap = 0.02;      // in radii of the ball: enough for all but `kSafest`
-constexpr double kSameGap = 1.0;       // share of the least gap: samples miss more than the rest
 constexpr double kWorthAChange = 1e-3;  // share of the cost: less is within the error of samples
 
 template <class Use>
@@ -122,8 +121,7 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
 }
 
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before) {
-  return now.value < (1.0 - kWorthAChange) * before.value &&
-         now.least_gap_m >= kSameGap * before.least_gap_m;
+  return now.value < (1.0 - kWorthAChange) * before.value && now.least_gap_m >= before.least_gap_m;
 }
 
 }  // namespace camway::correction

@@ -36,8 +36,7 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
 /// Integral of the squared acceleration of the eye over time. [Units: m²/s³]
 double bending_energy(const motion::CubicPath& path);
 
-/// Whether `now` is better by enough to be worth a change and its least gap is no smaller, up to
-/// sampling and rounding.
+/// Whether `now` is better by enough to be worth a change and its least gap is no smaller.
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before);
 
 }  // namespace camway::correction

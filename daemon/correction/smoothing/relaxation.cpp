@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -38,7 +39,9 @@ constexpr int kMostCuts = 3;           // attempts at a step, each with more con
 constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
 constexpr int kStepsAgain = 4;         // of each round but the first, at least
 constexpr double kRetreat = 0.6;
-constexpr int kRetreats = 3;  // moves back towards the initial correction
+constexpr double kAffordable = 0.5;  // share of what is left of the price of room
+constexpr int kLooks = 2;            // closer looks: the whole step, and what of it is affordable
+constexpr int kRetreats = 3;         // moves back towards the initial correction
 
 double horizon_m(Objective objective, double radius_m) {
   return (objective == Objective::kSafest ? kComfort + kHorizon : kHorizon) * radius_m;
@@ -83,6 +86,7 @@ class Relaxation {
               variables_),
         minimum_(form_, limited(improvement, space), radius_m_,
                  space.closeness().viewing_distance_m),
+        space_(space),
         probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)) {
     for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
       add_samples(problem, offsets.knots.knot_s(k), offsets.knots.knot_s(k + 1));
@@ -115,6 +119,14 @@ class Relaxation {
     return std::min(kRetreat, (most_growth() - 1.0) * old / (cost(now) - old));
   }
 
+  /// The share of the way from `found` to the dearer `wider` that may cost `kAffordable` of what is
+  /// left of the price of room. The cost is convex.
+  [[nodiscard]] double affordable_share(const Relaxed& wider, const Relaxed& found,
+                                        const Relaxed& before) const {
+    const double now = cost(found);
+    return kAffordable * (most_growth() * cost(before) - now) / (cost(wider) - now);
+  }
+
   /// Takes steps until the budget is spent, or a step gains little.
   void run(base::Budget& budget, const base::Deadline& deadline) {
     double trust_m = kFirstTrust * radius_m_;
@@ -140,18 +152,22 @@ class Relaxation {
   /// samples free.
   void watch(const collision::CollisionInterval& collision, const Offsets& free) {
     const StackedPoints known = free_.variables_of(free, lever_m_);
-    const StackedPoints moved = variables_;
-    const std::size_t old = samples_.size();
-    variables_ = known;
-    for (const double share : {0.0, 0.5, 1.0}) {
-      add_sample(std::lerp(collision.t_begin_s, collision.t_end_s, share));
-    }
-    variables_ = moved;
-    // Adds contacts for the obstacles of the new samples.
-    for (std::size_t i = old; i < samples_.size(); ++i) {
-      probe_.check(samples_[i], samples_[i].at(variables_));
-    }
+    add_samples_in(collision, known);
     take_back(known, 0.5 * (collision.t_begin_s + collision.t_end_s));
+    for (PathSample& sample : samples_) sample.has_rows = false;
+  }
+
+  /// Where the path passes the scene with next to no gap, if the relaxation makes room: the least
+  /// gap lies between two samples.
+  [[nodiscard]] std::optional<collision::CollisionInterval> tight_place(
+      const Candidate& candidate, const base::Deadline& deadline) const {
+    if (!makes_room_ || is_safest_) return std::nullopt;
+    return correction::tight_place(candidate, minimum_.little_m(), problem_, space_, deadline);
+  }
+
+  /// Adds samples in `range`, where the path is free.
+  void look_closer(const collision::CollisionInterval& range) {
+    add_samples_in(range, variables_);
     for (PathSample& sample : samples_) sample.has_rows = false;
   }
 
@@ -172,6 +188,20 @@ class Relaxation {
   void add_sample(double time_s) {
     std::optional<PathSample> sample = probe_.sample_at(time_s, free_, variables_);
     if (sample) samples_.push_back(std::move(*sample));
+  }
+
+  /// Adds samples that are known to be free for the variables `known`, with their contacts.
+  void add_samples_in(const collision::CollisionInterval& range, const StackedPoints& known) {
+    const StackedPoints now = variables_;
+    const std::size_t old = samples_.size();
+    variables_ = known;
+    for (const double share : {0.0, 0.5, 1.0}) {
+      add_sample(std::lerp(range.t_begin_s, range.t_end_s, share));
+    }
+    variables_ = now;
+    for (std::size_t i = old; i < samples_.size(); ++i) {
+      probe_.check(samples_[i], samples_[i].at(variables_));
+    }
   }
 
   void add_samples(const Problem& problem, double begin_s, double end_s) {
@@ -294,6 +324,7 @@ class Relaxation {
   StackedPoints variables_;
   SmoothingForm form_;
   ConstrainedMinimum minimum_;
+  const FreeSpace& space_;
   SampleProbe probe_;
   std::vector<PathSample> samples_;
 };
@@ -309,6 +340,33 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
   return result;
 }
 
+/// Makes room once more where `found` has next to none, as far as that is free and not too dear.
+Relaxed with_closer_look(const Problem& problem, Relaxation& relaxation, Relaxed found,
+                         const Relaxed& free, Ends ends, FreeSpace& space,
+                         const base::Deadline& deadline) {
+  const std::optional<collision::CollisionInterval> tight =
+      relaxation.tight_place(found.candidate, deadline);
+  if (!tight) return found;
+  const double tight_s = std::midpoint(tight->t_begin_s, tight->t_end_s);
+  const auto gap_m = [&](const Relaxed& at) {
+    return space.gap_m(at.candidate.path.pose(tight_s), space.ball_radius_m());
+  };
+  relaxation.look_closer(*tight);
+  base::Budget steps(kStepsAgain);
+  relaxation.run(steps, deadline);
+  Offsets offsets = relaxation.offsets();
+  for (int i = 0; i < kLooks; ++i) {
+    std::optional<Candidate> tried =
+        free_candidate(problem, {bumps_for(offsets, ends)}, space, deadline);
+    ++found.paths;
+    if (!tried) break;
+    Relaxed wider{offsets, *std::move(tried), found.paths};
+    if (relaxation.is_no_worse(wider, free)) return gap_m(wider) > gap_m(found) ? wider : found;
+    offsets = mixed(found.offsets, offsets, relaxation.affordable_share(wider, found, free));
+  }
+  return found;
+}
+
 Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
                base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   Offsets better = free.offsets;
@@ -322,7 +380,9 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     ++free.paths;
     if (tried.candidate) {
       Relaxed found{better, std::move(*tried.candidate), free.paths};
-      if (relaxation.is_no_worse(found, free)) return found;
+      if (relaxation.is_no_worse(found, free)) {
+        return with_closer_look(problem, relaxation, std::move(found), free, ends, space, deadline);
+      }
       share = relaxation.first_share(found, free);
       break;
     }

@@ -29,8 +29,8 @@ struct Relaxed {
 ///
 /// The result is proved. If the path collides between the samples, samples are added there, the
 /// change is reverted as far as needed, and a few more steps are taken, beside those of `budget`.
-/// Returns `free` if no proof succeeds or the objective became worse. Exception: with `kClosest` and
-/// `makes_room` the cost may grow by a quarter.
+/// Returns `free` if no proof succeeds or the objective became worse. Exception: with `kClosest`
+/// and `makes_room` the cost may grow by a quarter.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 

@@ -40,11 +40,18 @@ std::vector<Edge> edges_of(const MeshShape& mesh) {
   return edges;
 }
 
-/// The fault of an edge with these triangles, if there is one.
-std::optional<std::string> fault_of_edge(std::span<const Edge> same) {
+std::string place_text(const geometry::Vec3& point) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", point.x(), point.y(), point.z());
+}
+
+/// The fault of an edge with these triangles, if there is one. Readers of files number vertices in
+/// their own way, so the places are told, too.
+std::optional<std::string> fault_of_edge(std::span<const Edge> same, const MeshShape& mesh) {
   if (same.size() == 2 && same[0].is_upwards != same[1].is_upwards) return std::nullopt;
   const std::string edge =
-      fmt::format("the edge between vertices {} and {}", same.front().low, same.front().high);
+      fmt::format("the edge between vertices {} and {}, from {} to {},", same.front().low,
+                  same.front().high, place_text(mesh.vertices_C[same.front().low]),
+                  place_text(mesh.vertices_C[same.front().high]));
   if (same.size() == 2) {
     return fmt::format(
         "{} has two triangles that run through it in the same direction: one of "
@@ -81,7 +88,7 @@ std::optional<std::string> fault_of_surface(const MeshShape& mesh) {
     std::size_t end = begin + 1;
     while (end < edges.size() && edges[end].is_same_as(edges[begin])) ++end;
     if (std::optional<std::string> fault =
-            fault_of_edge(std::span(edges).subspan(begin, end - begin))) {
+            fault_of_edge(std::span(edges).subspan(begin, end - begin), mesh)) {
       return fault;
     }
     begin = end;

@@ -125,6 +125,9 @@ struct PlanResult {
   /// Measures of the path as interpolated, and of `path`; nothing where they were not computed.
   std::optional<motion::PathMeasures> measures_before;
   std::optional<motion::PathMeasures> measures;
+  /// Viewing distance of the shifts in `corrections` and `measures`; nothing where no correction
+  /// was found by shifts. Files have it, messages do not.
+  std::optional<double> viewing_distance_m;
   /// Near distance that the proof is for, as a share of the requested one; below 1 only if
   /// `PlanOptions::max_shrink` allows it.
   double near_scale = 1.0;
@@ -134,8 +137,8 @@ struct PlanResult {
   /// part or all the way (`planning/stages/slowing.h`); every time of the result is a slowed one.
   double time_scale = 1.0;
   std::vector<SlowedStretch> slowed;  ///< in order of time; times between them are only shifted
-  /// Proved clearance of all of `path` by stretches, at most `collision::kMostProfileStretches`; the
-  /// least is that of `certificate`. Empty unless the request asks for it, and without a path.
+  /// Proved clearance of all of `path` by stretches, at most `collision::kMostProfileStretches`;
+  /// the least is that of `certificate`. Empty unless the request asks for it, and without a path.
   std::vector<collision::ClearanceStretch> clearance_profile;
   std::vector<KeyframeFault> keyframe_faults;  ///< faults with kInvalid; else the repaired ones
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible

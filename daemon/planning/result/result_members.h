@@ -96,7 +96,8 @@ void members(Io& io, Is<NamedCollision> auto& collision, Wire&... wire) {
   io.optional(on_line(5, "witness"), collision.interval.witness, list, wire.has_witness...);
 }
 
-/// Files have the effort only of a collision that was not corrected.
+/// Files have the effort only of a collision that was not corrected. Those of earlier versions lack
+/// the shift, here and in measures.
 template <class Io, class... Wire>
 void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire) {
   io("t_begin", correction.interval.t_begin_s, wire.t_begin_s...);
@@ -106,8 +107,8 @@ void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire)
      std::tie(wire.changed_t_begin_s, wire.changed_t_end_s)...);
   io("moved_m", correction.moved_m, wire.moved_m...);
   io("turned_deg", correction.turned_rad, wire.turned_rad...);
-  io("largest_shift_deg", correction.shift.largest_rad, wire.largest_shift_rad...);
-  io("mean_shift_deg", correction.shift.mean_rad, wire.mean_shift_rad...);
+  io(may_lack("largest_shift_deg"), correction.shift.largest_rad, wire.largest_shift_rad...);
+  io(may_lack("mean_shift_deg"), correction.shift.mean_rad, wire.mean_shift_rad...);
   const bool is_said = correction.kind == correction::CorrectionKind::kNone;
   io.group(on_line(5, may_lack("tried", is_said)), -1, [&](auto& object) {
     object("directions", correction.tried.directions, wire.tried_directions...);
@@ -121,8 +122,8 @@ template <class Io, class... Wire>
 void members(Io& io, Is<motion::PathMeasures> auto& measures, Wire&... wire) {
   io("length_m", measures.length_m, wire.length_m...);
   io("largest_deviation_m", measures.largest_deviation_m, wire.largest_deviation_m...);
-  io("largest_shift_deg", measures.largest_shift_rad, wire.largest_shift_rad...);
-  io("mean_shift_deg", measures.mean_shift_rad, wire.mean_shift_rad...);
+  io(may_lack("largest_shift_deg"), measures.largest_shift_rad, wire.largest_shift_rad...);
+  io(may_lack("mean_shift_deg"), measures.mean_shift_rad, wire.mean_shift_rad...);
   io("bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3,
      wire.bending_energy_m2_per_s3...);
   io("largest_speed_m_per_s", measures.largest_speed_m_per_s, wire.largest_speed_m_per_s...);
@@ -238,6 +239,10 @@ void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   io(may_lack("corrections"), result.corrections, wire.corrections...);
   io.group(may_lack("measures", result.measures_before || result.measures), 4,
            [&](auto& object) { measures_members(object, result, wire...); });
+  if constexpr (sizeof...(Wire) == 0) {
+    io(may_lack("viewing_distance_m", result.viewing_distance_m.has_value()),
+       result.viewing_distance_m);
+  }
   io(may_lack("bounds", result.bounds.any()), result.bounds, wire.bounds...);
   io(may_lack("near_scale", result.near_scale != 1.0), result.near_scale, wire.near_scale...);
   io(may_lack("time_scale", result.time_scale != 1.0), result.time_scale, wire.time_scale...);

@@ -114,9 +114,11 @@ std::string note_of_effort(const std::vector<Correction>& corrections) {
 
 std::string note_of_shut_in(const std::vector<ShutIn>& shut_in, bool is_bounded) {
   std::vector<ShutIn> complete = shut_in;
-  const auto others = std::ranges::stable_partition(complete, &ShutIn::is_complete);
-  const std::vector<ShutIn> not_left(others.begin(), others.end());
-  complete.erase(others.begin(), others.end());
+  // Not std::ranges::stable_partition: Clang 14 cannot compile that of GCC 12's library.
+  const auto others = std::stable_partition(complete.begin(), complete.end(),
+                                            [](const ShutIn& shut) { return shut.is_complete; });
+  const std::vector<ShutIn> not_left(others, complete.end());
+  complete.erase(others, complete.end());
   return note_of_complete(complete, is_bounded) + note_of_not_left(not_left);
 }
 

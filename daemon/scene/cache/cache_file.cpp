@@ -18,6 +18,7 @@
 #include "daemon/scene/cache/cache_layout.h"
 #include "daemon/scene/cache/file_bytes.h"
 #include "daemon/scene/cache/mesh_check.h"
+#include "daemon/scene/import/record/import_words.h"
 
 namespace camway::scene {
 namespace {
@@ -114,6 +115,8 @@ class Sections {
 
   void fill_metadata(const PreparedScene& prepared, std::uint32_t depth) {
     const ImportReport& report = prepared.report;
+    metadata_.scale = report.scale;
+    metadata_.up = static_cast<std::uint64_t>(report.up);
     metadata_.degenerate_triangles = report.degenerate_triangles;
     metadata_.dropped_nonfinite = report.dropped_nonfinite;
     metadata_.dropped_bad_index = report.dropped_bad_index;
@@ -416,6 +419,9 @@ base::Result<PreparedMetadata> read_prepared_metadata(int fd) {
     return Failure{"the facts are damaged"};
   }
   PreparedMetadata metadata;
+  metadata.scale = content->metadata().scale;
+  metadata.up = static_cast<UpAxis>(content->metadata().up);
+  if (content->metadata().up >= names_of(UpAxis{}).size()) return Failure{"the facts are wrong"};
   if (!TextReader(content->text()).take(content->metadata().file_bytes, metadata.scene_file)) {
     return Failure{"the texts are wrong"};
   }

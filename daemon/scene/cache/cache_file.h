@@ -33,6 +33,8 @@ base::Result<PreparedScene> read_prepared(int fd, const SceneKey& key,
 /// The metadata of a file of the cache, for lists.
 struct PreparedMetadata {
   std::string scene_file;  ///< in printable ASCII
+  double scale = 1.0;      ///< as `ImportOptions` has it
+  UpAxis up = UpAxis::kAsInFile;
   std::uint64_t triangles = 0;
   std::string build;  ///< `scene_build` of the program that wrote it
 };

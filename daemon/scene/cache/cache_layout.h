@@ -54,6 +54,9 @@ struct Metadata {
   std::uint64_t digest_bytes = 0;
   std::uint64_t format_bytes = 0;
   std::uint64_t why_no_field_bytes = 0;
+  // How the file was read, for lists: `ImportOptions`.
+  double scale = 1.0;
+  std::uint64_t up = 0;
   // `ImportReport`; what is not here follows from the mesh and the options.
   std::uint64_t degenerate_triangles = 0;
   std::uint64_t dropped_nonfinite = 0;
@@ -80,6 +83,6 @@ struct Object {
 
 // No padding, so that every byte of a file has a value.
 static_assert(sizeof(Section) == 32 && sizeof(Header) == 72 + 32 * kSectionCount);
-static_assert(sizeof(Metadata) == 28 * sizeof(double));
+static_assert(sizeof(Metadata) == 30 * sizeof(double));
 
 }  // namespace camway::scene::cache_layout

@@ -2,6 +2,7 @@
 #include "daemon/scene/cache/scene_cache.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -69,6 +70,15 @@ FileDescriptor make_folder(const fs::path& folder) {
     if (mkdir(made.c_str(), S_IRWXU) != 0 && errno != EEXIST) break;
   }
   return open_folder(folder);
+}
+
+/// Why a folder that is not there cannot be made; empty if it can.
+std::string fault_of_missing(const fs::path& folder) {
+  std::error_code error;
+  fs::path above = fs::absolute(folder, error).parent_path();
+  while (!fs::exists(above, error) && above.has_relative_path()) above = above.parent_path();
+  if (faccessat(AT_FDCWD, above.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return {};
+  return "cannot be made: " + std::generic_category().message(errno);
 }
 
 /// Opens a file of the cache; none if somebody else can have written it.
@@ -146,8 +156,8 @@ const char* variable(const char* name) {
 
 std::string SceneCache::fault() const {
   std::string fault;
-  open_folder(folder_, fault);
-  return fault;
+  const FileDescriptor folder = open_folder(folder_, fault);
+  return folder.is_open() || !fault.empty() ? fault : fault_of_missing(folder_);
 }
 
 std::optional<PreparedScene> SceneCache::find(const SceneKey& key,
@@ -207,6 +217,8 @@ std::vector<CachedScene> SceneCache::scenes() const {
     CachedScene& scene = scenes.emplace_back();
     scene.key = found.name.substr(0, found.name.size() - kSuffix.size());
     scene.scene_file = std::move(metadata->scene_file);
+    scene.scale = metadata->scale;
+    scene.up = metadata->up;
     scene.triangles = metadata->triangles;
     scene.bytes = found.bytes;
     scene.last_used = std::chrono::system_clock::from_time_t(found.last_used_s);
@@ -236,17 +248,31 @@ fs::path cache_folder_of_environment() {
   return {};
 }
 
-std::optional<SceneCache> cache_of_environment() {
-  fs::path folder = cache_folder_of_environment();
+UserCache cache_of_environment() {
+  UserCache user;
   SceneCacheLimits limits;
   if (const char* bytes = variable("CAMWAY_CACHE_BYTES")) {
     const std::string_view text = bytes;
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc{} && end == text.data() + text.size()) limits.bytes = value;
+    if (error == std::errc{} && end == text.data() + text.size()) {
+      limits.bytes = value;
+    } else {
+      user.fault =
+          fmt::format("CAMWAY_CACHE_BYTES is '{}'; it must be a whole number of bytes", text);
+    }
   }
-  if (folder.empty() || limits.bytes == 0) return std::nullopt;
-  return SceneCache(std::move(folder), limits);
+  fs::path folder = cache_folder_of_environment();
+  if (folder.empty()) {
+    user.absence = variable("CAMWAY_CACHE_DIR") != nullptr
+                       ? "CAMWAY_CACHE_DIR is empty"
+                       : "none of CAMWAY_CACHE_DIR, XDG_CACHE_HOME and HOME names a folder";
+  } else if (limits.bytes == 0) {
+    user.absence = "CAMWAY_CACHE_BYTES is 0";
+  } else {
+    user.cache.emplace(std::move(folder), limits);
+  }
+  return user;
 }
 
 }  // namespace camway::scene

@@ -26,6 +26,8 @@ struct SceneCacheLimits {
 struct CachedScene {
   std::string key;         ///< `SceneKey` as text
   std::string scene_file;  ///< file that it was read from, in printable ASCII
+  double scale = 1.0;      ///< with which it was read, as `ImportOptions` has it
+  UpAxis up = UpAxis::kAsInFile;
   std::uint64_t triangles = 0;
   std::uint64_t bytes = 0;
   std::chrono::system_clock::time_point last_used;
@@ -46,7 +48,7 @@ class SceneCache {
       : folder_(std::move(folder)), limits_(limits) {}
 
   /// Returns why the folder is not used, in words that follow its name: "belongs to another user".
-  /// Empty if it can be used or is not there yet.
+  /// Empty if it can be used, or is not there yet and can be made.
   [[nodiscard]] std::string fault() const;
 
   /// Returns the scene of this key, or nothing. The options are those that the key was made with.
@@ -76,8 +78,16 @@ class SceneCache {
 /// ~/.cache/camway. Empty, for no cache, if the first is set and empty, or none of them is set.
 std::filesystem::path cache_folder_of_environment();
 
-/// Returns the cache of this user, whose size $CAMWAY_CACHE_BYTES limits if it is a number; nothing
-/// if there is none, or its limit is 0.
-std::optional<SceneCache> cache_of_environment();
+/// The cache of this user, or why there is none.
+struct UserCache {
+  std::optional<SceneCache> cache;
+  std::string absence;  ///< set if there is no cache: "CAMWAY_CACHE_BYTES is 0"
+  /// Set if $CAMWAY_CACHE_BYTES is no whole number; the limit is the default then.
+  std::string fault;
+};
+
+/// Returns the cache in `cache_folder_of_environment`, whose size $CAMWAY_CACHE_BYTES limits. There
+/// is none without a folder, or if the limit is 0.
+UserCache cache_of_environment();
 
 }  // namespace camway::scene

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/log/source_blobs.h"
 
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -107,7 +106,9 @@ base::Result<std::shared_ptr<const ObjectSource>> SourceBlobs::read(const BlobId
   std::shared_ptr<const ObjectSource> source = next ? read.at(*next) : nullptr;
   const std::optional<Known> known = source ? find(source) : std::nullopt;
   int differences = known ? known->differences : -1;
-  for (const auto& [part, bytes] : std::views::reverse(chain)) {
+  // Not std::views::reverse: Clang 14 cannot compile that of GCC 12's library.
+  for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
+    const auto& [part, bytes] = *link;
     base::Result<std::shared_ptr<const ObjectSource>> made = source_from(bytes, source, options);
     if (!made) return base::Failure{std::move(made.error)};
     remember(*made, {*made, part, ++differences, source});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <camway/plan_request_t.hpp>
 
@@ -18,8 +19,23 @@ int compare(double now, double before, double least, bool more_is_better) {
   return gain < -margin ? -1 : 0;
 }
 
-QualityGain gain_of(const path_measures_t& now, const path_measures_t& before,
-                    std::int8_t objective) {
+/// Returns what decides by the mean shift. Exchanging the two reverses the sign.
+QualityGain shift_gain(const path_measures_t& now, const path_measures_t& before) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const path_measures_t& larger = now.mean_shift_rad > before.mean_shift_rad ? now : before;
+  // About the share of the path that the correction takes.
+  const double share =
+      larger.largest_shift_rad > 0.0 ? larger.mean_shift_rad / larger.largest_shift_rad : 0.0;
+  const int sign =
+      compare(now.mean_shift_rad, before.mean_shift_rad, kBetterShift_rad * share, false);
+  return {sign, "mean shift", "°", kDegrees * before.mean_shift_rad, kDegrees * now.mean_shift_rad,
+          true};
+}
+
+QualityGain objective_gain(const AnswerQuality& now_quality, const AnswerQuality& before_quality,
+                           std::int8_t objective) {
+  const path_measures_t& now = now_quality.measures;
+  const path_measures_t& before = before_quality.measures;
   const auto less = [&](std::string_view what, std::string_view unit,
                         double path_measures_t::*measure, double least) {
     const int sign = compare(now.*measure, before.*measure, least, false);
@@ -40,7 +56,17 @@ QualityGain gain_of(const path_measures_t& now, const path_measures_t& before,
     default:
       break;
   }
+  if (now_quality.tells_shift && before_quality.tells_shift) return shift_gain(now, before);
   return less("deviation", " m", &path_measures_t::largest_deviation_m, kBetterLength_m);
+}
+
+/// Whether the shift of an answer is measured, or is 0 because nothing was changed that counts.
+bool tells_shift(const plan_response_t& answer) {
+  if (answer.measures.largest_shift_rad > 0.0) return true;
+  if (answer.measures.largest_deviation_m > kBetterLength_m) return false;
+  return std::ranges::none_of(answer.corrections, [](const correction_t& correction) {
+    return correction.moved_m > kBetterLength_m || correction.turned_rad > kBetterShift_rad;
+  });
 }
 
 }  // namespace
@@ -52,6 +78,7 @@ AnswerQuality AnswerQuality::of(const plan_response_t& answer) {
   quality.near_scale = answer.near_scale;
   quality.time_scale = answer.time_scale;
   quality.measures = answer.measures;
+  quality.tells_shift = service::tells_shift(answer);
   return quality;
 }
 
@@ -66,7 +93,7 @@ QualityGain gain_of(const AnswerQuality& now, const AnswerQuality& before, std::
     return {larger, "share of the near distance", "", before.near_scale, now.near_scale};
   const int faster = compare(now.time_scale, before.time_scale, 0.0, false);
   if (faster != 0) return {faster, "slowing", " times", before.time_scale, now.time_scale};
-  return gain_of(now.measures, before.measures, objective);
+  return objective_gain(now, before, objective);
 }
 
 bool is_better(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
@@ -67,6 +68,26 @@ TEST_F(CorrectedPathTest, CountsNoGivenKeyframe) {
   CorrectedPath corrected = with_limit(4);
   EXPECT_TRUE(corrected.take(bump(corrected, 12.0, 0.5)));
   EXPECT_EQ(corrected.inserted_s(), (std::vector<double>{11, 12, 13, 14}));
+}
+
+TEST_F(CorrectedPathTest, RestoresBetweenKeyframesBitForBit) {
+  CorrectedPath corrected = with_limit(20);
+  ASSERT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
+  ASSERT_TRUE(corrected.take(bump(corrected, 15.0, 0.5)));
+  const CorrectedPath both = corrected;
+  corrected.restore(1, 2);
+  ASSERT_EQ(corrected.changed_parts().size(), 1u);
+  EXPECT_EQ(corrected.changed_parts()[0].end_s, 7.0);
+  EXPECT_EQ(corrected.inserted_s(), (std::vector<double>{3, 4, 5, 6, 7}));
+  for (const motion::CubicPiece& piece : interpolated_.around(10.0, 20.0).pieces) {
+    const CubicPath is = corrected.path().around(piece.t0_s, piece.t1_s);
+    ASSERT_EQ(is.pieces.size(), 1u);
+    EXPECT_EQ(is.pieces[0].position, piece.position);
+  }
+  CorrectedPath copy = both;
+  corrected.adopt(std::move(copy));
+  EXPECT_EQ(corrected.changed_parts().size(), 2u);
+  EXPECT_EQ(corrected.inserted_s(), both.inserted_s());
 }
 
 TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {

@@ -13,7 +13,7 @@
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/smoothing/objective_cost.h"
-#include "daemon/motion/spline/interpolate.h"
+#include "tests/correction/ladder_case.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -27,40 +27,6 @@ using geometry::Vec3;
 using motion::CubicPath;
 using motion::Keyframe;
 using scene::Mesh;
-
-struct LadderCase {
-  Mesh mesh;
-  scene::SceneIndex index;
-  motion::Body body{testing::small_camera()};
-  std::vector<Keyframe> keyframes;
-  collision::DetectOptions detect;
-  LadderOptions options;
-
-  [[nodiscard]] collision::Query query() const {
-    return {collision::Obstacles(index), body, detect};
-  }
-  [[nodiscard]] CubicPath path() const { return motion::interpolate_cubic(keyframes); }
-  [[nodiscard]] std::vector<CollisionInterval> collisions(const CubicPath& path) const {
-    return collision::detect_collisions(query(), path.path(), path.begin_s(), path.end_s(),
-                                        Deadline::never())
-        .value();
-  }
-  [[nodiscard]] LadderResult corrected() const {
-    const CubicPath before = path();
-    return correct_by_ladder(std::make_shared<const Mesh>(mesh), query(), keyframes, before,
-                             collisions(before), options, Deadline::never());
-  }
-};
-
-LadderCase case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
-  LadderCase c;
-  c.mesh = mesh;
-  c.index = scene::SceneIndex::build(mesh);
-  c.keyframes = std::move(keyframes);
-  return c;
-}
-
-Keyframe at(double time_s, const Vec3& position) { return {time_s, {position, Quat::Identity()}}; }
 
 // Returns a path past a column that stands a little in the way.
 LadderCase column() {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "daemon/collision/detect.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/motion/spline/interpolate.h"
@@ -292,6 +295,34 @@ TEST(NewCollision, IsOutsideOfForeignOnes) {
   // Between the plates there is no collision.
   EXPECT_FALSE(new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem, space,
                              Deadline::never()));
+}
+
+// The least distance of the changed part is sampled. Bounds and unchanged parts do not count.
+TEST(TightPlace, IsFoundWhereTheBodyIsNearerThanTheGap) {
+  testing::Random random(3461);
+  int near = 0;
+  for (int run = 0; run < 50; ++run) {
+    scene::Mesh mesh;
+    add_plate(mesh, 1.0);
+    add_plate(mesh, 3.0);  // beside the unchanged part
+    const SearchScene scene(std::move(mesh));
+    const FreeSpace space = scene.space();
+    const Problem problem = middle_problem();
+    const Candidate candidate =
+        attempt(problem, {single({random.uniform(0.15, 0.4), 0, 0})}, space, Deadline::never())
+            .candidate.value();
+    const double least_m = least_distance_m(scene, candidate.path, 2.0, 4.0);
+    const double gap_m = random.uniform(0.3, 1.7) * least_m;
+    const auto found = tight_place(candidate, gap_m, problem, space, Deadline::never());
+    // Samples and decisions at the tolerance.
+    if (std::abs(gap_m - least_m) < 0.02 * least_m) continue;
+    ASSERT_EQ(found.has_value(), least_m < gap_m) << run;
+    if (!found) continue;
+    ++near;
+    const double middle_s = std::midpoint(found->t_begin_s, found->t_end_s);
+    EXPECT_LT(scene.distance_m(candidate.path.pose(middle_s)), 1.02 * gap_m) << run;
+  }
+  EXPECT_GT(near, 10);
 }
 
 }  // namespace

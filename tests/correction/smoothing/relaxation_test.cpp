@@ -14,6 +14,7 @@
 #include "daemon/correction/smoothing/contact_bounds.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 #include "daemon/motion/path/measures.h"
+#include "tests/correction/relaxation_case.h"
 #include "tests/support/gap_problems.h"
 #include "tests/support/sanitizer.h"
 
@@ -27,83 +28,13 @@ using motion::CubicPath;
 using motion::Keyframe;
 using testing::Draw;
 
-constexpr int kEnoughSteps = 100;  // steps
 constexpr int kKnots = 12;
 constexpr std::array kRelaxedObjectives = {Objective::kClosest, Objective::kShortest,
                                            Objective::kSmoothest, Objective::kSafest};
 
-Keyframe at(double time_s, const Vec3& position, const Quat& orientation = Quat::Identity()) {
-  return {time_s, {position, orientation}};
-}
-
-/// A scene, a camera and an interval between keyframes in it.
-struct RelaxationCase {
-  scene::Mesh mesh;
-  scene::SceneIndex index;
-  motion::Body body{testing::small_camera()};
-  collision::DetectOptions detect;
-  OrientationPolicy policy;
-  Problem problem;
-
-  void build() { index = scene::SceneIndex::build(mesh); }
-  [[nodiscard]] FreeSpace space() const {
-    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
-  }
-  /// Returns the value of the objective.
-  [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
-    const Closeness closeness = space().closeness();
-    if (objective == Objective::kClosest) {
-      const motion::BumpRow row = bumps_for(offsets, ends);
-      return closeness_cost(motion::with_bumps(problem.path, std::vector{row}), problem.original,
-                            closeness);
-    }
-    const double lever_m = 4.0 * space().ball_radius_m();
-    const FreeCoefficients free(problem, offsets.knots, ends);
-    const StackedPoints variables = free.variables_of(offsets, lever_m);
-    return SmoothingForm(problem, free, objective, lever_m, closeness, variables).value(variables);
-  }
-};
-
-/// Returns the least distance of the near quadrilateral over equidistant times, by all triangles.
-double least_gap_m(const RelaxationCase& c, const CubicPath& path, double begin_s, double end_s,
-                   int samples) {
-  const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
-  constexpr double kFar_m = 10.0;
-  double least_m = kFar_m;
-  for (int i = 0; i <= samples; ++i) {
-    const double time_s = std::lerp(begin_s, end_s, static_cast<double>(i) / samples);
-    least_m = std::min(
-        least_m,
-        collision::clearance_m(c.index, corners_C, path.pose(time_s), kFar_m).value_or(kFar_m));
-  }
-  return least_m;
-}
-
 double length_m(const CubicPath& path) {
   const motion::Path segments = path.path();
   return motion::measure(segments, segments).length_m;
-}
-
-std::optional<Relaxed> correction_with(const RelaxationCase& c, const Offsets& offsets, Ends ends) {
-  FreeSpace space = c.space();
-  Attempt tried = attempt(c.problem, {bumps_for(offsets, ends)}, space, Deadline::never());
-  if (!tried.candidate) return std::nullopt;
-  return Relaxed{offsets, std::move(*tried.candidate)};
-}
-
-Relaxed relaxed_fully(const RelaxationCase& c, const Relaxed& free, Ends ends, Objective objective,
-                      int steps = kEnoughSteps) {
-  FreeSpace space = c.space();
-  const Improvement improvement{objective};
-  base::Budget budget(steps);
-  return relaxed(c.problem, free, ends, improvement, budget, space, Deadline::never());
-}
-
-/// Returns equal inner coefficients.
-Offsets lifted(const Problem& problem, int count, const Vec3& by) {
-  Offsets offsets{{problem.leg_begin_s(), problem.leg_end_s(), count}, 1, {}};
-  for (int k = 1; k < count; ++k) offsets.at.push_back({by, geometry::Vec4::Zero()});
-  return offsets;
 }
 
 void expect_keyframes_kept(const RelaxationCase& c, const CubicPath& path) {
@@ -465,98 +396,6 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   };
   EXPECT_LT(gap_m(result), gap_m(*free) - 0.1 * radius_m);
   EXPECT_GT(gap_m(result), 0.02 * radius_m);
-}
-
-/// A path along z over a cuboid, and a correction that lifts it over it.
-struct Hurdle {
-  RelaxationCase c;
-  std::optional<Relaxed> free;
-};
-
-/// `height_m`: how far the cuboid reaches into the way.
-Hurdle hurdle(double height_m) {
-  Hurdle hurdle;
-  RelaxationCase& c = hurdle.c;
-  c.policy.rule = OrientationRule::kKeep;
-  testing::add_plate_across(c.mesh, height_m, 0.6);
-  c.build();
-  c.problem = testing::problem_along_z();
-  hurdle.free = correction_with(c, lifted(c.problem, 8, {0, 1.5 * height_m, 0}), Ends::kFixed);
-  return hurdle;
-}
-
-double cost(const RelaxationCase& c, const Relaxed& of) {
-  return closeness_cost(of.candidate.path, c.problem.original, c.space().closeness());
-}
-
-double least_gap_m(const RelaxationCase& c, const Relaxed& of) {
-  return least_gap_m(c, of.candidate.path, 0.0, 8.0, 4000);
-}
-
-Relaxed with_room(const RelaxationCase& c, const Relaxed& tight) {
-  FreeSpace space = c.space();
-  base::Budget budget(kEnoughSteps);
-  return relaxed(c.problem, tight, Ends::kFixed, {.makes_room = true}, budget, space,
-                 Deadline::never());
-}
-
-/// Relaxes until the path all but touches what it passes.
-Relaxed tightened(const Hurdle& hurdle) {
-  Relaxed tight = *hurdle.free;
-  for (int i = 0; i < 4; ++i) {
-    tight = relaxed_fully(hurdle.c, tight, Ends::kFixed, Objective::kClosest);
-  }
-  return tight;
-}
-
-double wanted_m(const RelaxationCase& c) {
-  return ContactBounds(Objective::kClosest, c.space().ball_radius_m(),
-                       c.space().closeness().viewing_distance_m)
-      .wanted_m();
-}
-
-TEST(Relaxation, LowersTheCostAndMakesNoRoomUnlessAsked) {
-  const Hurdle low = hurdle(0.01);
-  ASSERT_TRUE(low.free);
-  const Relaxed tight = relaxed_fully(low.c, *low.free, Ends::kFixed, Objective::kClosest);
-  EXPECT_LT(cost(low.c, tight), 0.9 * cost(low.c, *low.free));
-  EXPECT_GT(least_gap_m(low.c, tight), 0.0);
-  EXPECT_LT(least_gap_m(low.c, tight), 0.2 * wanted_m(low.c));
-}
-
-// Over what is high, room is cheap.
-TEST(Relaxation, MakesMostOfTheRoomThatIsAimedAtWhereItIsCheap) {
-  for (const double height_m : {0.2, 0.5}) {
-    const Hurdle high = hurdle(height_m);
-    ASSERT_TRUE(high.free);
-    const Relaxed tight = tightened(high);
-    const Relaxed roomy = with_room(high.c, tight);
-    EXPECT_LT(least_gap_m(high.c, tight), 0.35 * wanted_m(high.c)) << height_m;
-    EXPECT_GT(least_gap_m(high.c, roomy), 0.6 * wanted_m(high.c)) << height_m;
-    EXPECT_LE(cost(high.c, roomy), 1.2 * cost(high.c, tight)) << height_m;
-  }
-}
-
-// Over a plate that is just touched, all of the room that is aimed at would cost a multiple.
-TEST(Relaxation, LeavesRoomThatIsTooDear) {
-  const Hurdle low = hurdle(0.01);
-  ASSERT_TRUE(low.free);
-  const Relaxed tight = tightened(low);
-  const Relaxed roomy = with_room(low.c, tight);
-  EXPECT_LE(cost(low.c, roomy), 1.05 * cost(low.c, tight));
-  EXPECT_GT(least_gap_m(low.c, roomy), 0.8 * least_gap_m(low.c, tight));
-  EXPECT_LT(least_gap_m(low.c, roomy), 0.1 * wanted_m(low.c));
-}
-
-TEST(Relaxation, MakesMoreRoomOverWhatIsHigher) {
-  double before_m = 0.0;
-  for (const double height_m : {0.01, 0.03, 0.06, 0.1, 0.2}) {
-    const Hurdle next = hurdle(height_m);
-    ASSERT_TRUE(next.free);
-    const Relaxed roomy = with_room(next.c, tightened(next));
-    EXPECT_GT(least_gap_m(next.c, roomy), before_m) << height_m;
-    before_m = least_gap_m(next.c, roomy);
-  }
 }
 
 // The next keyframe is so close that the coefficients which keep the one before would reach it.

@@ -23,7 +23,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 // Bound on the rounding of some hundred sums and products of numbers up to 10.
 constexpr double kFormRounding = 1e-12;
 constexpr double kFormLever_m = 0.4;
-constexpr Closeness kCloseness{
+const Closeness kCloseness{
     .viewing_distance_m = 2.0, .turn_lever_m = kFormLever_m / 4.0, .acceleration_m_per_s2 = 0.8};
 
 /// An interval of a random tour: at its beginning, at its end, between others, or alone.

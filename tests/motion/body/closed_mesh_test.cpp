@@ -49,19 +49,22 @@ TEST(ClosedMesh, JoinsVerticesAtTheSamePlace) {
 TEST(ClosedMesh, NamesTheEdgeThatIsWrong) {
   MeshShape open = tetrahedron();
   open.triangles.pop_back();
-  EXPECT_THAT(fault_of_surface(open).value_or(""),
-              HasSubstr("the edge between vertices 0 and 2 has one triangle"));
+  EXPECT_THAT(
+      fault_of_surface(open).value_or(""),
+      HasSubstr(
+          "the edge between vertices 0 and 2, from [0, 0, 0] to [0, 1, 0], has one triangle"));
   MeshShape turned = tetrahedron();
   std::swap(turned.triangles[2][0], turned.triangles[2][1]);
-  EXPECT_THAT(
-      fault_of_surface(turned).value_or(""),
-      HasSubstr("the edge between vertices 1 and 2 has two triangles that run through it in "
-                "the same direction"));
+  EXPECT_THAT(fault_of_surface(turned).value_or(""),
+              HasSubstr("the edge between vertices 1 and 2, from [1, 0, 0] to [0, 1, 0], has two "
+                        "triangles that run through it in "
+                        "the same direction"));
   MeshShape fin = tetrahedron();
   fin.vertices_C.emplace_back(1, 1, 1);
   fin.triangles.push_back({0, 1, 4});
-  EXPECT_THAT(fault_of_surface(fin).value_or(""),
-              HasSubstr("the edge between vertices 0 and 1 has 3 triangles"));
+  EXPECT_THAT(
+      fault_of_surface(fin).value_or(""),
+      HasSubstr("the edge between vertices 0 and 1, from [0, 0, 0] to [1, 0, 0], has 3 triangles"));
   EXPECT_TRUE(fault_of_surface({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}, true}));
 }
 

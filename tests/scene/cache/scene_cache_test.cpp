@@ -136,6 +136,29 @@ TEST_F(SceneCacheTest, DoesWithoutAFolderThatCannotBeWritten) {
   fs::permissions(folder(), fs::perms::owner_all);
 }
 
+TEST_F(SceneCacheTest, TellsWhetherAFolderThatIsNotThereCanBeMade) {
+  const SceneCache deep(parent_.path() / "a/b", kAll);
+  EXPECT_EQ(deep.fault(), "");
+  EXPECT_FALSE(fs::exists(parent_.path() / "a"));
+  constexpr auto kNobodyMayWrite = fs::perms{0555};
+  fs::permissions(parent_.path(), kNobodyMayWrite);
+  {
+    const WithoutRights without_rights;  // root can make any folder
+    EXPECT_EQ(deep.fault(), "cannot be made: Permission denied");
+  }
+  fs::permissions(parent_.path(), fs::perms::owner_all);
+}
+
+TEST_F(SceneCacheTest, ListsHowAFileWasRead) {
+  prepared_.report.scale = 0.0254;
+  prepared_.report.up = UpAxis::kZToY;
+  ASSERT_TRUE(store(cache(), kSampleKey));
+  const std::vector<CachedScene> scenes = cache().scenes();
+  ASSERT_EQ(scenes.size(), 1u);
+  EXPECT_EQ(scenes[0].scale, 0.0254);
+  EXPECT_EQ(scenes[0].up, UpAxis::kZToY);
+}
+
 TEST_F(SceneCacheTest, RemovesADamagedFile) {
   ASSERT_TRUE(store(cache(), kSampleKey));
   fs::resize_file(file(kSampleKey), 5000);
@@ -264,23 +287,31 @@ TEST(SceneCacheFolder, IsWhereTheEnvironmentSays) {
     EXPECT_EQ(cache_folder_of_environment(), "/var/caches/camway");
     const Variable nowhere("XDG_CACHE_HOME", nullptr);
     const Variable homeless("HOME", nullptr);
-    EXPECT_FALSE(cache_of_environment());
+    EXPECT_FALSE(cache_of_environment().cache);
+    EXPECT_THAT(cache_of_environment().absence, HasSubstr("HOME names a folder"));
   }
   const Variable own("CAMWAY_CACHE_DIR", "mine");
   EXPECT_EQ(cache_folder_of_environment(), "mine");
   const Variable off("CAMWAY_CACHE_DIR", "");
-  EXPECT_FALSE(cache_of_environment());
+  EXPECT_FALSE(cache_of_environment().cache);
+  EXPECT_EQ(cache_of_environment().absence, "CAMWAY_CACHE_DIR is empty");
 }
 
 TEST(SceneCacheFolder, HasTheLimitThatTheEnvironmentSays) {
   const Variable own("CAMWAY_CACHE_DIR", "mine");
-  EXPECT_EQ(cache_of_environment()->limits().bytes, SceneCacheLimits{}.bytes);
+  EXPECT_EQ(cache_of_environment().cache->limits().bytes, SceneCacheLimits{}.bytes);
   const Variable number("CAMWAY_CACHE_BYTES", "5000");
-  EXPECT_EQ(cache_of_environment()->limits().bytes, 5000U);
-  const Variable word("CAMWAY_CACHE_BYTES", "5 GB");
-  EXPECT_EQ(cache_of_environment()->limits().bytes, SceneCacheLimits{}.bytes);
+  EXPECT_EQ(cache_of_environment().cache->limits().bytes, 5000U);
+  EXPECT_EQ(cache_of_environment().fault, "");
+  for (const char* const wrong : {"5 GB", "-1", "2GiB", "abc", ""}) {
+    const Variable word("CAMWAY_CACHE_BYTES", wrong);
+    EXPECT_EQ(cache_of_environment().cache->limits().bytes, SceneCacheLimits{}.bytes);
+    EXPECT_EQ(cache_of_environment().fault, std::string("CAMWAY_CACHE_BYTES is '") + wrong +
+                                                "'; it must be a whole number of bytes");
+  }
   const Variable zero("CAMWAY_CACHE_BYTES", "0");
-  EXPECT_FALSE(cache_of_environment());
+  EXPECT_FALSE(cache_of_environment().cache);
+  EXPECT_EQ(cache_of_environment().absence, "CAMWAY_CACHE_BYTES is 0");
 }
 
 }  // namespace

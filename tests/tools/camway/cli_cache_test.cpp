@@ -94,12 +94,37 @@ TEST_F(CliCache, WarnsOfAFolderThatOthersMayWriteTo) {
   EXPECT_EQ(run_camway({"cache"}).exit_code, 2);
 }
 
+TEST_F(CliCache, ListsReadingsOfAFileApart) {
+  plan();
+  plan({"--scale", "0.5", "--up", "z-to-y"});
+  const CliRun run = run_camway({"cache"});
+  EXPECT_THAT(run.out, HasSubstr("wall.obj\n"));
+  EXPECT_THAT(run.out, HasSubstr("wall.obj (scale 0.5, z-to-y)\n"));
+  const nlohmann::json scenes = listed()["scenes"];
+  ASSERT_EQ(scenes.size(), 2u);
+  EXPECT_NE(scenes[0]["up"], scenes[1]["up"]);
+}
+
+TEST_F(CliCache, ASizeThatIsNoNumberIsNamed) {
+  setenv("CAMWAY_CACHE_BYTES", "2GiB", 1);
+  const CliRun planned = run_camway({"plan", "--request", request_});
+  EXPECT_EQ(planned.exit_code, 0);
+  EXPECT_THAT(
+      planned.err,
+      HasSubstr("warning: CAMWAY_CACHE_BYTES is '2GiB'; it must be a whole number of bytes, "
+                "so the cache of scenes may take 2147483648"));
+  const CliRun run = run_camway({"cache"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("CAMWAY_CACHE_BYTES is '2GiB'"));
+  unsetenv("CAMWAY_CACHE_BYTES");
+}
+
 TEST_F(CliCache, CanBeTurnedOff) {
   setenv("CAMWAY_CACHE_DIR", "", 1);
   plan();
   const CliRun run = run_camway({"cache"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("CAMWAY_CACHE_DIR"));
+  EXPECT_THAT(run.err, HasSubstr("there is no cache: CAMWAY_CACHE_DIR is empty\n"));
 }
 
 }  // namespace

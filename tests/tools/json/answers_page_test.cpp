@@ -90,6 +90,7 @@ std::set<std::string> names_in_answers() {
   for (int trial = 0; trial < 50; ++trial) {
     planning::PlanResult result = testing::sample_result(3, random);
     result.keyframe = 1;
+    result.viewing_distance_m = 4.5;
     const auto text =
         write_plan_response(result, {.scene = "room",
                                      .scene_digest = "0",

@@ -76,6 +76,7 @@ void add_any_report(planning::PlanResult& result, testing::Random& random) {
   }
   if (random() % 2 == 0) result.measures_before = any_measures(random);
   if (random() % 2 == 0) result.measures = any_measures(random);
+  if (random() % 2 == 0) result.viewing_distance_m = number();
   if (random() % 2 == 0) result.near_scale = number();
   if (random() % 2 == 0) result.time_scale = number();
   result.slowed.resize(random() % 3);
@@ -325,6 +326,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.measures_before = measures;
   measures.length_m = 5.0;
   result.measures = measures;
+  result.viewing_distance_m = 4.5;
   result.near_scale = 0.75;
   result.time_scale = 1.5;
   result.deadline_reached = true;
@@ -336,7 +338,8 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   "measures": {
     "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "largest_shift_deg": 0.0, "mean_shift_deg": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
     "after": {"length_m": 5.0,)"));
-  EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
+  EXPECT_THAT(text, HasSubstr(R"("viewing_distance_m": 4.5,
+  "near_scale": 0.75,
   "time_scale": 1.5,
   "deadline_reached": true,
   "slowed": [
@@ -346,6 +349,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
   EXPECT_EQ(read.value->measures, result.measures);
+  EXPECT_EQ(read.value->viewing_distance_m, 4.5);
   EXPECT_TRUE(read.value->deadline_reached);
   EXPECT_EQ(read.value->slowed, result.slowed);
 }
@@ -435,6 +439,25 @@ TEST(JsonResponse, OfEarlierVersionsHasOldNames) {
             *write_plan_response(*parse_as<planning::PlanResult>(text, "P.json").value).value);
 }
 
+TEST(JsonResponse, OfEarlierVersionsLacksShifts) {
+  planning::PlanResult result;
+  result.corrections.resize(1);
+  result.corrections[0].moved_m = 0.25;
+  result.measures.emplace().largest_deviation_m = 0.25;
+  result.measures_before = motion::PathMeasures{};
+  std::string text = *write_plan_response(result).value;
+  const std::string shifts = R"(, "largest_shift_deg": 0.0, "mean_shift_deg": 0.0)";
+  for (std::size_t at = 0; (at = text.find(shifts)) != std::string::npos;) {
+    text.erase(at, shifts.size());
+  }
+  ASSERT_EQ(text.find("shift"), std::string::npos) << text;
+  const auto read = parse_as<planning::PlanResult>(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->corrections.at(0).moved_m, 0.25);
+  EXPECT_EQ(read.value->corrections[0].shift, correction::Shift{});
+  EXPECT_EQ(read.value->measures, result.measures);
+}
+
 TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
   const char* const expected[] = {
       "P.json: collisions[0].witness: has both depth_m and depth, its old name; leave one out",
@@ -451,8 +474,8 @@ TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
 
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
-  for (const char* key : {"measures", "near_scale", "time_scale", "deadline_reached", "slowed",
-                          "keyframe_faults", "infeasibility"}) {
+  for (const char* key : {"measures", "viewing_distance_m", "near_scale", "time_scale",
+                          "deadline_reached", "slowed", "keyframe_faults", "infeasibility"}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }

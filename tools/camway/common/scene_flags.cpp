@@ -91,11 +91,15 @@ std::string_view to_string(scene::UpAxis up) { return base::name_of(up); }
 
 std::optional<scene::SceneCache> user_cache(const SceneFlags& flags) {
   if (flags.no_cache) return std::nullopt;
-  std::optional<scene::SceneCache> cache = scene::cache_of_environment();
-  if (!cache) return std::nullopt;
-  const std::string fault = cache->fault();
-  if (fault.empty()) return cache;
-  print_error("warning: " + cache->folder().string() + ": " + fault +
+  scene::UserCache user = scene::cache_of_environment();
+  if (!user.cache) return std::nullopt;
+  if (!user.fault.empty()) {
+    print_error(fmt::format("warning: {}, so the cache of scenes may take {}", user.fault,
+                            user.cache->limits().bytes));
+  }
+  const std::string fault = user.cache->fault();
+  if (fault.empty()) return std::move(user.cache);
+  print_error("warning: " + user.cache->folder().string() + ": " + fault +
               ", so it is not used as the cache of scenes");
   return std::nullopt;
 }

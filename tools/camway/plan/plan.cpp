@@ -327,12 +327,13 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "for comment and those that begin with '_'. Each collision of the response has a witness: "
       "time, object, triangle, feature of the body, depth_m, point; corrections say what became of "
       "it, "
-      "and how hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
+      "and how hard that was tried where nothing helped. Keyframes that were repaired are marked. "
+      "To edit a path, plan the keyframes of its response again, with its frame as the request's "
+      "frame.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "With --daemon a running daemon plans, and the response is the same, except that it has the "
-      "name of\nthe daemon's scene, and neither scene_reading, the warnings of its import nor the "
-      "time of "
-      "loading it.\n"
+      "name of\nthe daemon's scene, and neither scene_reading, viewing_distance_m, the warnings of "
+      "its import nor the time of loading it.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }

@@ -97,10 +97,12 @@ std::string meetings(const PlanResult& result, const std::vector<std::size_t>& c
   return names.size() > kMostObjects ? text + ", ..." : text;
 }
 
-/// Returns whether one change of the path corrected both collisions.
+/// Returns whether one change of the path corrected both collisions. Corrections of several kinds
+/// that touch are drawn as one change.
 bool is_same_change(const Correction& a, const Correction& b) {
-  return a.kind != CorrectionKind::kNone && a.kind == b.kind && a.t_begin_s == b.t_begin_s &&
-         a.t_end_s == b.t_end_s && a.moved_m == b.moved_m && a.turned_rad == b.turned_rad;
+  return a.kind != CorrectionKind::kNone && b.kind != CorrectionKind::kNone &&
+         a.t_begin_s == b.t_begin_s && a.t_end_s == b.t_end_s && a.moved_m == b.moved_m &&
+         a.turned_rad == b.turned_rad;
 }
 
 /// Groups the collisions by the change of the path that corrected them, in order.
@@ -122,7 +124,8 @@ std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& cor
 /// Returns "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved up to 1.3
 /// m".
 std::string change_line(const PlanResult& result, const std::vector<std::size_t>& change) {
-  const Correction& correction = result.corrections[change.front()];
+  const auto kind = [&](std::size_t i) { return result.corrections[i].kind; };
+  const Correction& correction = result.corrections[*std::ranges::max_element(change, {}, kind)];
   std::string line =
       spans(result, change) + ": " + meetings(result, change) + "; " + deed(correction);
   const std::string effort = planning::effort_text(correction.tried);
@@ -135,6 +138,13 @@ void add_corrections(const PlanResult& result, std::vector<std::string>& lines) 
   const std::size_t shown = std::min(all.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) lines.push_back(change_line(result, all[i]));
   if (shown < all.size()) lines.push_back(fmt::format("and {} more", all.size() - shown));
+}
+
+void add_shift(const PlanResult& result, std::vector<std::string>& lines) {
+  if (!result.measures || !result.viewing_distance_m) return;
+  const double shift_deg = degrees(result.measures->largest_shift_rad);
+  lines.push_back("shifted up to " + two_digits(shift_deg) + " degrees at a viewing distance of " +
+                  two_digits(*result.viewing_distance_m) + " m");
 }
 
 void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lines) {
@@ -231,6 +241,7 @@ std::size_t inserted_count(const PlanResult& result) {
 std::string plan_summary(const PlanResult& result, const scene::Mesh* mesh) {
   std::vector<std::string> lines;
   add_corrections(result, lines);
+  add_shift(result, lines);
   add_keyframe_faults(result, lines);
   add_slowed(result, lines);
   add_proof(result, mesh, lines);

@@ -60,8 +60,10 @@ class HoleJoiner {
     Ring hole = indices(begin, end);
     if (hole.size() < 3) return false;
     // The corner at the right end is convex, so its turn is that of the hole.
-    std::ranges::rotate(
-        hole, std::ranges::max_element(hole, {}, [&](Index corner) { return points_[corner]; }));
+    // Not std::ranges::rotate: Clang 14 cannot compile that of GCC 12's library.
+    const auto right_end =
+        std::ranges::max_element(hole, {}, [&](Index corner) { return points_[corner]; });
+    std::rotate(hole.begin(), right_end, hole.end());
     const double turn = orientation(points_[hole.back()], points_[hole[0]], points_[hole[1]]);
     if (turn == 0.0) return false;
     if (turn > 0.0) std::reverse(hole.begin() + 1, hole.end());

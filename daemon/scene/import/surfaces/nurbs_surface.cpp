@@ -52,8 +52,7 @@ class Facets {
  public:
   Facets(const NurbsSurface& surface, std::size_t u_degree, std::size_t v_degree,
          const GridSize& least)
-      : surface_(surface),
-        p_(u_degree),
+      : p_(u_degree),
         q_(v_degree),
         u_spans_(spans_of(surface.u_knots, u_degree)),
         v_spans_(spans_of(surface.v_knots, v_degree)) {
@@ -244,7 +243,6 @@ class Facets {
     return result;
   }
 
-  const NurbsSurface& surface_;
   const std::size_t p_;
   const std::size_t q_;
   std::vector<Span> u_spans_;

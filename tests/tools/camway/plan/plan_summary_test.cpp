@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/camway/replay/log_builder.h"
+#include "tools/json/json_angle.h"
 
 namespace camway::tools {
 namespace {
@@ -40,6 +41,18 @@ PlanResult result_with(std::vector<Correction> corrections) {
   return result;
 }
 
+// Corrections that touch are drawn as one change, of which the dearest kind is told.
+TEST(PlanSummary, TellsOnceWhatCorrectedCollisionsInSeveralWays) {
+  const PlanResult result = result_with({corrected(1, 2, CorrectionKind::kGoRound, 2.0, 0.0),
+                                         corrected(3, 3.01, CorrectionKind::kMove, 2.0, 0.0),
+                                         corrected(4, 5, CorrectionKind::kMove, 0.1, 0.0),
+                                         corrected(6, 7, CorrectionKind::kNone, 2.0, 0.0)});
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("\n  1.00-2.00, 3.00-3.01 s: collides; goes another way, moved up to 2 m\n"
+                       "  4.00-5.00 s: collides; moved up to 0.1 m\n"
+                       "  6.00-7.00 s: collides; not corrected"));
+}
+
 TEST(PlanSummary, SaysWhatEachCorrectionDid) {
   PlanResult result = result_with({corrected(2.314, 2.649, CorrectionKind::kMove, 0.1234, 0.0),
                                    corrected(3, 4, CorrectionKind::kTurn, 0.0, 0.0698),
@@ -71,6 +84,16 @@ TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
           "  1.00-2.00 s: collides; moved up to 0.046 m\n"
           "  3.00-4.00 s: collides; goes another way, moved up to 123 m, turned up to 120 degrees\n"
           "  5.00 s: collides; turned"));
+}
+
+TEST(PlanSummary, SaysAtWhichViewingDistanceThePictureShifts) {
+  PlanResult result = result_with({corrected(1, 2, CorrectionKind::kMove, 0.1, 0.0)});
+  result.measures.emplace().largest_shift_rad = radians(0.62);
+  EXPECT_THAT(plan_summary(result, nullptr), EndsWith("moved up to 0.1 m")) << "as of a daemon";
+  result.viewing_distance_m = 4.2187;
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("moved up to 0.1 m\n"
+                       "  shifted up to 0.62 degrees at a viewing distance of 4.2 m"));
 }
 
 TEST(PlanSummary, BeginsWithStatusMessageAndTimes) {

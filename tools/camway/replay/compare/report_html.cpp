@@ -106,7 +106,8 @@ std::string table_row(std::size_t index, const Row& row, const Shown& shown, Tim
       cell(row.client) + cell(fmt::format("{}", row.request)) + cell(row.scene) +
       fmt::format(R"(<td class="verdict v-{0}">{0}</td>)", verdict) + cell(status) +
       number_cell(row.path_m) + number_cell(row.shift_deg) + number_cell(row.clearance_m) +
-      number_cell(row.length_m) + number_cell(row.deviation_m) + number_cell(row.inserted);
+      number_cell(row.length_m) + number_cell(row.deviation_m) + number_cell(row.mean_shift_deg) +
+      number_cell(row.inserted);
   if (times == Times::kShown) out += number_cell(row.total_ms);
   return out + cell(row.explanation) + "</tr>\n";
 }
@@ -116,7 +117,7 @@ std::string table_of(const std::vector<Row>& rows, const Shown& shown, const Rep
   std::string out = "<table>\n<thead><tr>";
   for (const char* name :
        {"#", "view", "client", "request", "scene", "verdict", "status", "distance (m)", "shift (°)",
-        "clearance (m)", "length (m)", "deviation (m)", "inserted"}) {
+        "clearance (m)", "length (m)", "deviation (m)", "mean shift (°)", "inserted"}) {
     out += fmt::format("<th>{}</th>", name);
   }
   if (times == Times::kShown) out += "<th>time (ms)</th>";
@@ -154,11 +155,13 @@ std::string by_request(const std::string& title, const std::vector<Row>& rows,
 
 std::string plots_of(const ReportHead& head, const std::vector<Row>& rows) {
   const std::string pair = fmt::format(", {} against {}", head.now, head.then);
-  std::string out = by_request("Distance of the paths (m), by request", rows, &Row::path_m) +
-                    by_request("Shift of the picture (°), by request", rows, &Row::shift_deg) +
-                    then_now("Proved clearance (m)" + pair, rows, &Row::clearance_m) +
-                    then_now("Length (m)" + pair, rows, &Row::length_m) +
-                    then_now("Deviation (m)" + pair, rows, &Row::deviation_m);
+  std::string out =
+      by_request("Distance of the paths (m), by request", rows, &Row::path_m) +
+      by_request("Shift of the picture (°), by request", rows, &Row::shift_deg) +
+      then_now("Proved clearance (m)" + pair, rows, &Row::clearance_m) +
+      then_now("Length (m)" + pair, rows, &Row::length_m) +
+      then_now("Deviation (m)" + pair, rows, &Row::deviation_m) +
+      then_now("Mean shift from the path as interpolated (°)" + pair, rows, &Row::mean_shift_deg);
   if (head.times == Times::kShown) out += then_now("Time (ms)" + pair, rows, &Row::total_ms);
   return out;
 }

@@ -56,6 +56,7 @@ Json json_of(const ComparedRequest& compared, Times times) {
   add_both(item, "clearance", "_m", row.clearance_m);
   add_both(item, "length", "_m", row.length_m);
   add_both(item, "deviation", "_m", row.deviation_m);
+  add_both(item, "mean_shift", "_deg", row.mean_shift_deg);
   if (times == Times::kShown) add_both(item, "total", "_ms", row.total_ms);
   return item;
 }

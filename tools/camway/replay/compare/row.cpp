@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "daemon/service/watches/answer_quality.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -41,6 +42,12 @@ void set_measures(Row& row, const Message* then, const Message* now) {
   };
   measure(row.length_m, &path_measures_t::length_m);
   measure(row.deviation_m, &path_measures_t::largest_deviation_m);
+  set_both(row.mean_shift_deg, then, now, [](const Message& answer) -> std::optional<double> {
+    if (answer.has_measures == 0 || !service::AnswerQuality::of(answer).tells_shift) {
+      return std::nullopt;
+    }
+    return degrees(answer.measures.mean_shift_rad);
+  });
   set_both(row.total_ms, then, now,
            [](const Message& answer) -> std::optional<double> { return answer.total_ms; });
 }

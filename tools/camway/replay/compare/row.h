@@ -27,7 +27,8 @@ struct Row {
   ThenAndNow inserted;                      ///< number of inserted keyframes
   ThenAndNow clearance_m;                   ///< proved; nothing where nothing was proved
   ThenAndNow length_m, deviation_m;
-  ThenAndNow total_ms;  ///< time of planning
+  ThenAndNow mean_shift_deg;  ///< from the path as interpolated; nothing where it is not told
+  ThenAndNow total_ms;        ///< time of planning
 };
 
 Row row_of(const ComparedRequest& compared);

@@ -81,10 +81,21 @@ for (const name of kNames) {
 test('the viewing distance that was asked for is found again from the mean shift alone', kSkip, () => {
   for (const distance_m of [1.5, 4, 9]) {
     const request = requestOf('office-graze-slalom', { viewing_distance_m: distance_m });
-    const answer = planned(request);
+    const { viewing_distance_m: told, ...answer } = planned(request);
+    assert.equal(told, distance_m);
     const curves = new Curves(answer.segments, interpolated(request).segments, { ...request, options: {} }, answer);
     assert.ok(isNear(curves.scale.viewingDistance_m, distance_m, 0.02), `${curves.scale.viewingDistance_m} for ${distance_m}`);
   }
+});
+
+test('a body off the eye shifts in the page as in the answer', kSkip, () => {
+  const body = { type: 'box', center: [0, -1, 0], size: [0.5, 0.3, 0.2] };
+  const { camera: _, ...rest } = requestOf('gallery-wall-slot', { viewing_distance_m: 2 });
+  const request: PlanRequest = { ...rest, body };
+  const answer = planned(request);
+  assert.ok(answer.corrections?.some(({ turned_deg }) => turned_deg > 30));
+  const curve = new Curves(answer.segments, interpolated(request).segments, request, answer).curve('shift');
+  assert.ok(isNear(curve?.largest ?? 0, answer.measures?.after['largest_shift_deg'] as number, 0.02), `${curve?.largest}`);
 });
 
 test('an answer that is edited on plans to the same path', kSkip, () => {

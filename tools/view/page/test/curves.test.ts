@@ -2,11 +2,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Answer, Segment } from '../src/contract/answer.js';
-import type { Quat } from '../src/contract/request.js';
+import type { Quat, Vec3 } from '../src/contract/request.js';
 import { Curves, sampledAlong, valueAt } from '../src/model/curves.js';
 import type { Curve } from '../src/model/curves.js';
 import { beginOf, endOf, lengthOf, motionAt, motionIn } from '../src/model/path.js';
-import { bodyRadius } from '../src/model/shift.js';
+import { bodyBall, bodyRadius } from '../src/model/shift.js';
 import { Random } from './random.js';
 
 const kEmpty = { status: 'ok' as const, message: '', keyframes: [], collisions: [], remaining_collisions: [] };
@@ -86,13 +86,15 @@ function matrixOf([w, x, y, z]: Quat): number[][] {
   ];
 }
 
-function shiftByMatrices(before: Segment, after: Segment, u: number, distance_m: number, lever_m: number): number {
+function shiftByMatrices(before: Segment, after: Segment, u: number, distance_m: number, lever_m: number, center: Vec3): number {
   const [a, b] = [motionIn(before, u), motionIn(after, u)];
   const [m, n] = [matrixOf(a.orientation), matrixOf(b.orientation)];
   let trace = 0;
   for (let i = 0; i < 3; ++i) for (let k = 0; k < 3; ++k) trace += ((m[k] as number[])[i] as number) * ((n[k] as number[])[i] as number);
   const turn_rad = Math.acos(Math.min(1, Math.max(-1, (trace - 1) / 2)));
-  const move_m = Math.sqrt(a.position.reduce((sum, x, k) => sum + (x - (b.position[k] as number)) ** 2, 0));
+  const at = (position: Vec3, turn: number[][], k: number): number =>
+    (position[k] as number) + center.reduce((sum, x, i) => sum + x * ((turn[k] as number[])[i] as number), 0);
+  const move_m = Math.sqrt([0, 1, 2].reduce((sum, k) => sum + (at(a.position, m, k) - at(b.position, n, k)) ** 2, 0));
   return ((turn_rad * lever_m + move_m) / distance_m) * (180 / Math.PI);
 }
 
@@ -114,7 +116,8 @@ test('the shift is turn plus move over the viewing distance', () => {
     const [before, after] = changedPair(random);
     const distance_m = random.number(0.5, 20);
     const radius_m = random.number(0.1, 1);
-    const bodies = [undefined, { type: 'sphere', radius_m }];
+    const center = random.vector(2);
+    const bodies = [undefined, { type: 'sphere', radius_m }, { type: 'sphere', radius_m, center }];
     for (const body of bodies) {
       const request = { keyframes: [], options: { viewing_distance_m: distance_m }, ...(body ? { body } : {}) };
       const curves = new Curves(after, before, request, { ...kEmpty, segments: after });
@@ -122,7 +125,7 @@ test('the shift is turn plus move over the viewing distance', () => {
       const curve = curveOf(curves, 'shift');
       curve.times.forEach((time_s, i) => {
         const [a, b] = [before[0] as Segment, after[0] as Segment];
-        const expected = shiftByMatrices(a, b, (time_s - b.t0) / (b.t1 - b.t0), distance_m, body ? radius_m : distance_m);
+        const expected = shiftByMatrices(a, b, (time_s - b.t0) / (b.t1 - b.t0), distance_m, body ? radius_m : distance_m, body?.center ?? [0, 0, 0]);
         assert.ok(Math.abs((curve.values[i] as number) - expected) < 1e-5 * (1 + expected), `${curve.values[i]} and ${expected}`);
       });
     }
@@ -145,6 +148,13 @@ test('without the option, the viewing distance is the one that gives the mean sh
     assert.ok(Math.abs(fitted.scale.viewingDistance_m / distance_m - 1) < 0.05, `${fitted.scale.viewingDistance_m} for ${distance_m}`);
     assert.ok(Math.abs(curveOf(fitted, 'shift').largest / shift.largest - 1) < 0.05);
   }
+});
+
+test('without the option, the viewing distance is the one that the answer says', () => {
+  const [before, after] = changedPair(new Random('told'));
+  const answer: Answer = { ...kEmpty, segments: after, viewing_distance_m: 2.5 };
+  const { scale } = new Curves(after, before, { keyframes: [] }, answer);
+  assert.deepEqual([scale.viewingDistance_m, scale.turnLever_m, scale.source], [2.5, 2.5, 'answer']);
 });
 
 test('no shift is drawn without the path before', () => {
@@ -200,6 +210,16 @@ test('the radius of a body is that of the ball about the eye', () => {
   assert.equal(bodyRadius({ type: 'sphere', radius_m: 0.2, center: [0, 3, 4] }), 5.2);
   assert.equal(bodyRadius({ type: 'box', size: [2, 4, 4], center: [0, 0, 0] }), 3);
   assert.equal(bodyRadius({ type: 'convex', points: [[3, 4, 0], [1, 0, 0]] }), 5);
-  assert.equal(bodyRadius({ type: 'mesh', vertices: [[0, 0, 2]] }), 2);
+  assert.equal(bodyRadius({ type: 'mesh', vertices: [[0, 0, 2], [0, 0, 9]], triangles: [[0, 0, 0]] }), 2);
   assert.equal(bodyRadius({ type: 'mesh', file: 'a.obj' }), undefined);
+});
+
+test('the ball of a body is about the middle of its box', () => {
+  assert.equal(bodyBall(undefined), undefined);
+  assert.equal(bodyBall({ type: 'mesh', file: 'a.obj' }), undefined);
+  assert.deepEqual(bodyBall({ type: 'sphere', radius_m: 0.2, center: [0, 3, 4] }), { center: [0, 3, 4], radius_m: 0.2 });
+  assert.deepEqual(bodyBall({ type: 'box', size: [2, 4, 4], center: [0, 0, -2] }), { center: [0, 0, -2], radius_m: 3 });
+  assert.deepEqual(bodyBall({ type: 'convex', pieces: [[[3, 4, 0]], [[3, 0, 0]]] }), { center: [3, 2, 0], radius_m: 2 });
+  const vertices = [[0, 0, 2], [9, 9, 9], [0, 0, 4], [0, 0, 3]];
+  assert.deepEqual(bodyBall({ type: 'mesh', vertices, triangles: [[0, 2, 3]] }), { center: [0, 0, 3], radius_m: 1 });
 });

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -95,9 +96,19 @@ TEST_F(ReportTest, JsonHasTheDocumentedMembers) {
   EXPECT_EQ(item["clearance_then_m"], 0.5);
   EXPECT_TRUE(item["clearance_now_m"].is_null());
   EXPECT_EQ(item["length_now_m"], 2.0);
+  EXPECT_EQ(item["mean_shift_now_deg"], 0.0) << "nothing was changed";
   EXPECT_EQ(item["total_then_ms"], 8.0);
   head_.times = Times::kHidden;
   EXPECT_THAT(json_report(head_, compared_), Not(HasSubstr("_ms")));
+}
+
+TEST_F(ReportTest, TheMeanShiftIsMissingWhereAnAnswerDoesNotTellIt) {
+  recorded_.answer->result->measures.largest_deviation_m = 0.5;
+  path_measures_t& now = compared_[0].now->result->measures;
+  now.largest_shift_rad = now.mean_shift_rad = std::numbers::pi / 180.0;
+  const auto json = nlohmann::json::parse(json_report(head_, compared_));
+  EXPECT_TRUE(json["requests"][0]["mean_shift_then_deg"].is_null());
+  EXPECT_DOUBLE_EQ(json["requests"][0]["mean_shift_now_deg"].get<double>(), 1.0);
 }
 
 TEST_F(ReportTest, TextAndJsonHaveTheNoteOnChangedScenesAndWholeNumbers) {

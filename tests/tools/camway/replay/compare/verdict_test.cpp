@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "daemon/messages/plan.h"
@@ -85,11 +86,42 @@ TEST(ReplayVerdict, ComparesProvedPathsByTheObjective) {
   const Result then = proved_result();
   Result now = then;
   now.measures->length_m = 3.0;
-  now.measures->largest_deviation_m = 0.5;
+  now.measures->largest_shift_rad = 0.5;
+  now.measures->mean_shift_rad = 0.1;
   EXPECT_EQ(judged(then, now, {}, request_for(correction::Objective::kClosest)).verdict,
             Verdict::kWorse);
   now.near_scale = 0.5;
   EXPECT_EQ(judged(then, now).verdict, Verdict::kWorse) << "shrinking counts before the length";
+}
+
+// The default objective counts turns, which no distance of the eye tells of.
+TEST(ReplayVerdict, AnAnswerThatOnlyTurnsMoreIsWorse) {
+  Result then = proved_result();
+  then.measures->largest_shift_rad = 0.1;
+  then.measures->mean_shift_rad = std::numbers::pi / 180.0;
+  Result now = then;
+  now.measures->mean_shift_rad *= 1.5;
+  const RecordedRequest closest = request_for(correction::Objective::kClosest);
+  const Judgement worse = judged(then, now, {}, closest);
+  EXPECT_EQ(worse.verdict, Verdict::kWorse);
+  EXPECT_EQ(worse.note, "mean shift 1 -> 1.5° (closest)");
+  EXPECT_EQ(judged(now, then, {}, closest).verdict, Verdict::kBetter);
+  now.measures->mean_shift_rad = 1.009 * then.measures->mean_shift_rad;
+  EXPECT_EQ(judged(then, now, {}, closest).verdict, Verdict::kDifferent) << "within the margin";
+}
+
+TEST(ReplayVerdict, AnswersOfVersionsWithoutShiftsAreJudgedByTheirDeviation) {
+  Result then = proved_result();
+  then.measures->largest_deviation_m = 0.5;
+  Result now = then;
+  now.measures->largest_deviation_m = 0.4;
+  now.measures->largest_shift_rad = 0.2;
+  now.measures->mean_shift_rad = 0.1;
+  const RecordedRequest closest = request_for(correction::Objective::kClosest);
+  const Judgement better = judged(then, now, {}, closest);
+  EXPECT_EQ(better.verdict, Verdict::kBetter);
+  EXPECT_EQ(better.note, "deviation 0.5 -> 0.4 m (closest)");
+  EXPECT_EQ(judged(now, then, {}, closest).verdict, Verdict::kWorse);
 }
 
 TEST(ReplayVerdict, AWorseStatusIsARegression) {
@@ -173,11 +205,13 @@ TEST(ReplayVerdict, NamesTheMeasureThatDecides) {
   const Edit measures = [](Result& now) {
     now.measures->length_m = 3.0;
     now.measures->largest_deviation_m = 0.5;
+    now.measures->largest_shift_rad = 0.5;
+    now.measures->mean_shift_rad = std::numbers::pi / 90.0;
     now.measures->bending_energy_m2_per_s3 = 7.0;
     now.certificate.clearance_lower_bound_m = 0.75;
   };
   EXPECT_EQ(reason(measures, Objective::kShortest), "length 4 -> 3 m (shortest)");
-  EXPECT_EQ(reason(measures, Objective::kClosest), "deviation 0 -> 0.5 m (closest)");
+  EXPECT_EQ(reason(measures, Objective::kClosest), "mean shift 0 -> 2° (closest)");
   EXPECT_EQ(reason(measures, Objective::kSmoothest), "bending energy 0 -> 7 m^2/s^3 (smoothest)");
   EXPECT_EQ(reason([](Result& now) { now.near_scale = 0.5; }, Objective::kShortest),
             "share of the near distance 1 -> 0.5");

@@ -79,6 +79,7 @@ export interface Answer {
   clearance_profile?: ClearanceStretch[];
   bounds?: { min?: (number | null)[]; max?: (number | null)[] };
   keyframe?: number;
+  viewing_distance_m?: number;
   near_scale?: number;
   time_scale?: number;
   warnings?: string[];

@@ -125,7 +125,7 @@ export class Curves {
     const now = motionIn(segment, u);
     const shiftFrom = (time_s: number): number => {
       const then = poseAt(this.before, time_s);
-      return then ? shiftOf(changeBetween(then, now), this.scale) : 0;
+      return then ? shiftOf(changeBetween(then, now, this.scale.center), this.scale) : 0;
     };
     // The clock of a slowed part is not known inside of it: there the path is compared with the nearest place.
     return from_s === to_s ? shiftFrom(from_s) : leastOf(shiftFrom, from_s, to_s);

@@ -109,6 +109,12 @@ export function angleBetween(a: Quat, b: Quat): number {
   return 4 * Math.asin(Math.min(1, Math.min(minus, plus) / 2));
 }
 
+/** The vector turned by a unit quaternion: v + 2 w (q x v) + 2 q x (q x v). */
+export function turned([w, x, y, z]: Quat, [a, b, c]: Vec3): Vec3 {
+  const [i, j, k] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
+  return [a + w * i + y * k - z * j, b + w * j + z * i - x * k, c + w * k + x * j - y * i];
+}
+
 export function lengthOf(vector: readonly number[]): number {
   return Math.hypot(...vector);
 }

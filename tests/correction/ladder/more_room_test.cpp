@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/more_room.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "daemon/collision/clearance.h"
+#include "daemon/correction/smoothing/objective_cost.h"
+#include "tests/correction/ladder_case.h"
+#include "tests/support/random.h"
+
+namespace camway::correction {
+namespace {
+
+using base::Deadline;
+
+constexpr double kHalfWidth_m = 0.1;  // of the near quadrilateral of `small_camera()`
+
+double least_gap_m(const LadderCase& c, const motion::CubicPath& path) {
+  return collision::path_clearance(c.query().obstacles, path.path(), c.body, Deadline::never())
+      ->lower_bound_m;
+}
+
+LadderResult corrected_for(Objective objective, LadderCase c) {
+  c.options.objective = objective;
+  return c.corrected();
+}
+
+/// Adds a wall at z = 0 that is endless in x and y, but for a door.
+void add_wall_with_door(scene::Mesh& mesh, double door_begin_m, double door_end_m) {
+  testing::add_cuboid(mesh, {-60, -60, -0.05}, {door_begin_m, 60, 0.05});
+  testing::add_cuboid(mesh, {door_end_m, -60, -0.05}, {60, 60, 0.05});
+}
+
+// The camera keeps its orientation, so it has most room in the middle of the door.
+TEST(MoreRoom, GoesThroughTheMiddleOfADoor) {
+  testing::Random random(4531);
+  for (int run = 0; run < 30; ++run) {
+    const double room_m = random.uniform(0.1, 0.3);  // on either side of the camera
+    const double half_m = kHalfWidth_m + room_m;
+    const double middle_m = random.uniform(half_m - kHalfWidth_m, 1.0);
+    scene::Mesh mesh;
+    add_wall_with_door(mesh, middle_m - half_m, middle_m + half_m);
+    const LadderCase c = case_with(mesh, {at(0, {0, 0, 2}), at(5, {0, 0, -2})});
+    ASSERT_FALSE(c.collisions(c.path()).empty());
+    const double closest_m = least_gap_m(c, corrected_for(Objective::kClosest, c).path);
+    const LadderResult safest = corrected_for(Objective::kSafest, c);
+    const double safest_m = least_gap_m(c, safest.path);
+    EXPECT_TRUE(safest.is_polished);
+    // Bisection ends within a sixth of the largest gap that is tried, proofs within a tenth.
+    EXPECT_GT(safest_m, 0.75 * room_m) << run << ": door of " << 2.0 * half_m << " m";
+    EXPECT_LT(safest_m, (1.0 + 1e-9) * room_m) << run;
+    EXPECT_GT(safest_m, closest_m) << run;
+  }
+}
+
+// A way round is refused if it leads much farther off than the corrections and the sufficient gap.
+TEST(MoreRoom, StaysWithTheShot) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-60, -60, -0.05}, {-0.07, 60, 0.05});
+  testing::add_cuboid(mesh, {0.18, -60, -0.05}, {1.5, 60, 0.05});
+  testing::add_cuboid(mesh, {4, -60, -0.05}, {60, 60, 0.05});  // beside a wide gate
+  LadderCase c = case_with(mesh, {at(0, {0, 0, 2}), at(5, {0, 0, -2})});
+  c.options.viewing_distance_m = 3.0;
+  const LadderResult safest = corrected_for(Objective::kSafest, c);
+  EXPECT_TRUE(c.collisions(safest.path).empty());
+  EXPECT_LT(safest.corrections.at(0).moved_m, 1.0);
+}
+
+// The gap that suffices is a multiple of the body's size, and no path has more than its keyframes.
+TEST(MoreRoom, AsksForNoMoreThanSufficesOrTheKeyframesHave) {
+  testing::Random random(4532);
+  for (int run = 0; run < 10; ++run) {
+    const double keyframe_m = random.uniform(0.02, 0.2);
+    scene::Mesh mesh;
+    testing::add_cuboid(mesh, {-3, -3, -0.2}, {0.0, 3, 0.2});
+    // Behind the first keyframe, which looks along -z.
+    testing::add_cuboid(mesh, {-3, -3, 1.9 + keyframe_m}, {3, 3, 2.5});
+    const LadderCase c = case_with(mesh, {at(0, {0.05, 0, 2}), at(5, {0.05, 0, -2})});
+    const LadderResult safest = corrected_for(Objective::kSafest, c);
+    const double gap_m = least_gap_m(c, safest.path);
+    EXPECT_GT(gap_m, 0.8 * keyframe_m) << run;
+    const double sufficient_m = kComfort * FreeSpace(c.query()).ball_radius_m();
+    EXPECT_LT(safest.corrections.at(0).moved_m, 2.0 * sufficient_m) << run;
+  }
+}
+
+// With more clearance, the collisions with the two plates are one.
+TEST(MoreRoom, ProgressTellsOfTheCollisionsOfThePath) {
+  scene::Mesh mesh;
+  for (const double z_m : {-0.15, 0.15}) {
+    testing::add_cuboid(mesh, {-3, -3, z_m - 0.01}, {0.0, 3, z_m + 0.01});
+  }
+  LadderCase c = case_with(mesh, {at(0, {0.05, 0, 2}), at(5, {0.05, 0, -2})});
+  c.options.objective = Objective::kSafest;
+  const motion::CubicPath path = c.path();
+  const std::vector<collision::CollisionInterval> collisions = c.collisions(path);
+  ASSERT_EQ(collisions.size(), 2u);
+  const auto progress = std::make_shared<base::Progress>();
+  const LadderResult safest =
+      correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), c.query(), c.keyframes, path,
+                        collisions, c.options, Deadline::never().watched({}, progress));
+  EXPECT_TRUE(safest.is_polished);
+  EXPECT_EQ(progress->collisions, 2);
+  EXPECT_EQ(progress->corrected, 2);
+}
+
+// Attempts correct everything between two keyframes, so an open collision there would be lost.
+TEST(MoreRoom, LeavesIntervalsWithOpenCollisionsAsTheyAre) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-3, -3, 0.9}, {0.0, 3, 1.1});
+  testing::add_cuboid(mesh, {-3, -3, -2.6}, {0.0, 3, -2.4});
+  LadderCase c = case_with(mesh, {at(0, {0.05, 0, 2}), at(10, {0.05, 0, -4})});
+  ASSERT_EQ(c.collisions(c.path()).size(), 2u);
+  const auto is_open = [](const Correction& correction) {
+    return correction.kind == CorrectionKind::kNone;
+  };
+  for (int most = 1;; ++most) {
+    c.options.max_inserted_keyframes = most;
+    const LadderResult closest = corrected_for(Objective::kClosest, c);
+    const auto open = std::ranges::count_if(closest.corrections, is_open);
+    if (open == 2) continue;
+    ASSERT_EQ(open, 1);
+    const LadderResult safest = corrected_for(Objective::kSafest, c);
+    EXPECT_EQ(std::ranges::count_if(safest.corrections, is_open), 1);
+    EXPECT_EQ(c.collisions(safest.path).size(), 1u);
+    return;
+  }
+}
+
+}  // namespace
+}  // namespace camway::correction
