@@ -269,7 +269,8 @@ int run(const Options& options) {
     }
     std::ranges::move(outcomes, std::back_inserter(all));
   }
-  fmt::print("\np50 / p90 over requests with collisions, on the intervals that were changed\n\n");
+  fmt::print(
+      "\np50 / p90 over requests with collisions, on the intervals that corrections changed\n\n");
   const std::vector<Summary> list = summaries(all);
   print_table(summary_columns(), list);
   document["requests"] = to_json(outcome_columns(), all);
