@@ -241,10 +241,11 @@ std::vector<FloorLevel> take_landings(std::vector<FloorLevel>& levels) {
   double widest = 0.0;
   for (const FloorLevel& level : levels) widest = std::max(widest, level.extent);
   const double least = std::min(kLeastExtent, kLeastOfWidest * widest);
-  const auto landings = std::ranges::stable_partition(
-      levels, [&](const FloorLevel& level) { return level.extent >= least; });
-  std::vector<FloorLevel> taken(landings.begin(), landings.end());
-  levels.erase(landings.begin(), landings.end());
+  // Not std::ranges::stable_partition: Clang 14 cannot compile that of GCC 12's library.
+  const auto landings = std::stable_partition(
+      levels.begin(), levels.end(), [&](const FloorLevel& level) { return level.extent >= least; });
+  std::vector<FloorLevel> taken(landings, levels.end());
+  levels.erase(landings, levels.end());
   return taken;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/common/scene_flags.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 

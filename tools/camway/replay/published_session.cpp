@@ -69,8 +69,9 @@ class PublishedReader {
       if (change.made && !is_sent) unsent.insert(*change.made);
       if (!change.made && !is_sent && !change.is_refused) ++unanswered;
       if (is_sent && change.request.operation == scene_request_t::UNLOAD) {
+        const std::string& unloaded = change.request.scene;
         std::erase_if(unsent, [&](const Revision& each) {
-          return each.is_removal && each.scene == change.request.scene;
+          return each.is_removal && each.scene == unloaded;
         });
       }
     }
