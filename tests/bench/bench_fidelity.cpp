@@ -278,19 +278,12 @@ std::string as_degrees(const json& value) {
   return std::isfinite(degrees) ? fmt::format("{:.2f}", degrees) : "-";
 }
 
-/// "1.2 / 3.4"
-std::string as_quantiles(const json& value) {
-  return as_number(value[0]) + " / " + as_number(value[1]);
-}
 std::string as_degrees_both(const json& value) {
   return as_degrees(value[0]) + " / " + as_degrees(value[1]);
 }
-std::string as_durations(const json& value) {
-  return as_duration(value[0]) + " / " + as_duration(value[1]);
-}
 
 Column<Summary> quantiles_column(const std::string& name, const std::string& title,
-                                 std::string (*text)(const json&) = as_quantiles) {
+                                 std::string (*text)(const json&) = as_numbers) {
   const auto value = [name](const Summary& s) -> json {
     const Quantiles& quantiles = s.of.at(name);
     return {quantiles.p50, quantiles.p90};

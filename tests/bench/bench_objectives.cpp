@@ -188,8 +188,6 @@ std::vector<Summary> summaries(const std::vector<Outcome>& outcomes) {
   return list;
 }
 
-/// "1.2 / 3.4"
-std::string as_both(const json& value) { return as_number(value[0]) + " / " + as_number(value[1]); }
 /// In percent; "-" where nothing is known.
 std::string as_percent(const json& value) {
   const double share = value;
@@ -198,12 +196,9 @@ std::string as_percent(const json& value) {
 std::string as_shares(const json& value) {
   return as_percent(value[0]) + " / " + as_percent(value[1]);
 }
-std::string as_durations(const json& value) {
-  return as_duration(value[0]) + " / " + as_duration(value[1]);
-}
 
 Column<Summary> pair_column(const std::string& name, const std::string& title,
-                            std::string (*text)(const json&) = as_both) {
+                            std::string (*text)(const json&) = as_numbers) {
   const auto value = [name](const Summary& s) -> json {
     return {s.of.at(name).first, s.of.at(name).second};
   };

@@ -29,4 +29,12 @@ std::string as_share(const nlohmann::json& value) {
   return fmt::format("{:.0f} %", 100.0 * value.get<double>());
 }
 
+std::string as_numbers(const nlohmann::json& pair) {
+  return as_number(pair[0]) + " / " + as_number(pair[1]);
+}
+
+std::string as_durations(const nlohmann::json& pair) {
+  return as_duration(pair[0]) + " / " + as_duration(pair[1]);
+}
+
 }  // namespace camway::bench

@@ -17,6 +17,10 @@ std::string as_number(const nlohmann::json& value);
 std::string as_tenths(const nlohmann::json& value);
 std::string as_share(const nlohmann::json& value);  ///< in percent
 
+/// "1.2 / 3.4": two values, such as quantiles, in one column.
+std::string as_numbers(const nlohmann::json& pair);
+std::string as_durations(const nlohmann::json& pair);
+
 /// A column: one value of each `Item`, for the table and for JSON.
 template <class Item>
 struct Column {

@@ -77,11 +77,12 @@ void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes)
              static_cast<double>(cache.limits().bytes) / kBytesPerMb);
 }
 
-/// Returns the cache. On an error, prints it and returns nothing.
-std::optional<SceneCache> open_cache() {
+/// Returns the cache. On an error, prints it and returns nothing. Whoever clears the cache needs no
+/// limit of its size.
+std::optional<SceneCache> open_cache(bool needs_limit) {
   scene::UserCache user = scene::cache_of_environment();
   const std::string fault = user.cache ? user.cache->fault() : "";
-  if (!user.fault.empty()) {
+  if (needs_limit && !user.fault.empty()) {
     print_error(user.fault);
   } else if (!user.cache) {
     print_error("there is no cache: " + user.absence);
@@ -94,7 +95,7 @@ std::optional<SceneCache> open_cache() {
 }
 
 ExitCode run_cache(bool clears, bool as_json) {
-  const std::optional<SceneCache> cache = open_cache();
+  const std::optional<SceneCache> cache = open_cache(!clears);
   if (!cache) return ExitCode::kInvalidInput;
   if (clears) {
     const std::size_t removed = cache->clear();

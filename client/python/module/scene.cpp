@@ -62,6 +62,20 @@ LoadedScene made(Make make, std::optional<scene::ImportOptions> reading) {
                result.error};
 }
 
+void warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+/// Returns the user's cache, and warns of what is wrong with it.
+std::optional<scene::SceneCache> usable_cache() {
+  scene::UserCache user = scene::cache_of_environment();
+  if (!user.fault.empty()) warn(user.fault);
+  const std::string fault = user.cache ? user.cache->fault() : "";
+  if (fault.empty()) return std::move(user.cache);
+  warn(user.cache->folder().string() + ": " + fault + ", so it is not used as the cache of scenes");
+  return std::nullopt;
+}
+
 LoadedScene load(const std::string& file, double scale, const std::string& up,
                  const std::string& unknown, std::optional<double> voxel_m, py::handle body_bounds,
                  bool use_cache) {
@@ -73,9 +87,7 @@ LoadedScene load(const std::string& file, double scale, const std::string& up,
   options.import.unknown = choice<scene::UnknownSpace>(unknown, "unknown");
   options.import.voxel_m = voxel_m;
   options.bounds = bounds_of(body_bounds);
-  std::optional<scene::SceneCache> cache =
-      use_cache ? scene::cache_of_environment().cache : std::nullopt;
-  if (cache && !cache->fault().empty()) cache.reset();
+  const std::optional<scene::SceneCache> cache = use_cache ? usable_cache() : std::nullopt;
   const auto read = [&](const std::stop_token& stop) {
     return scene::load_snapshot(file, file, options, stop, cache ? &*cache : nullptr);
   };

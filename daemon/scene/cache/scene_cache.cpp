@@ -77,7 +77,6 @@ std::string fault_of_missing(const fs::path& folder) {
   std::error_code error;
   fs::path above = fs::absolute(folder, error).parent_path();
   while (!fs::exists(above, error) && above.has_relative_path()) above = above.parent_path();
-  if (!fs::is_directory(above, error)) return "cannot be made: " + above.string() + " is no folder";
   if (faccessat(AT_FDCWD, above.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return {};
   return "cannot be made: " + std::generic_category().message(errno);
 }
@@ -259,8 +258,8 @@ UserCache cache_of_environment() {
     if (error == std::errc{} && end == text.data() + text.size()) {
       limits.bytes = value;
     } else {
-      user.fault =
-          fmt::format("CAMWAY_CACHE_BYTES is '{}'; it must be a whole number of bytes", text);
+      user.fault = fmt::format(
+          "CAMWAY_CACHE_BYTES is '{}'; it must be a whole number of bytes below 2^64", text);
     }
   }
   fs::path folder = cache_folder_of_environment();

@@ -94,7 +94,7 @@ bool leads_too_far(const Shot& shot, const CubicPath& path, const CubicPath& clo
   return shift_rad(shot, path, range) > kFarther * (shift_rad(shot, closest, range) + gap_rad);
 }
 
-/// What is compared of a searched range.
+/// The compared ranges within a searched one.
 std::vector<TimeRange> compared_in(const Extent& extent, const TimeRange& range) {
   std::vector<TimeRange> within;
   std::ranges::copy_if(extent.compared, std::back_inserter(within),

@@ -12,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -105,6 +106,12 @@ class PlanTest(unittest.TestCase):
     def test_without_the_program_that_reads_scenes_it_says_where_it_looked(self):
         self.assertIn("camway-import is neither in /nowhere, beside this program nor on PATH",
                       self.load_in_another_process(CAMWAY_PROGRAMS="/nowhere"))
+
+    def test_a_cache_that_is_set_up_wrong_is_warned_of(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(
+                os.environ, CAMWAY_CACHE_DIR=os.path.join(folder, "cache"), CAMWAY_CACHE_BYTES="2GiB"):
+            with self.assertWarnsRegex(UserWarning, "^CAMWAY_CACHE_BYTES is '2GiB'; it must be a whole number"):
+                camway.Scene.load(str(support.SCENES / "office.obj"))
 
     def test_the_package_finds_the_programs_of_its_build(self):
         self.assertEqual(self.load_in_another_process(), "")

@@ -22,6 +22,9 @@ using geometry::Vec3;
 using motion::CubicPath;
 using motion::Keyframe;
 
+// Bound on the rounding of some sums of lengths up to 20 m, an arc sine and a division.
+constexpr double kAngleRounding_rad = 1e-12;
+
 CubicPath straight(double duration_s, double speed_m_per_s) {
   const std::vector<Keyframe> keyframes = {
       {0.0, {Vec3::Zero(), Quat::Identity()}},
@@ -40,7 +43,7 @@ TEST(Closeness, ShiftOfABumpIsItsHeightOverTheViewingDistance) {
   const CubicPath original = straight(20.0, 1.0);
   const Closeness closeness{.viewing_distance_m = 4.0, .turn_lever_m = 4.0};
   const Shift shift = shift_of(bumped(original, 10.0, 1.5, 0.2), original, closeness);
-  EXPECT_NEAR(shift.largest_rad, 0.2 / 4.0, 1e-12);
+  EXPECT_NEAR(shift.largest_rad, 0.2 / 4.0, kAngleRounding_rad);
   // The integral of a bump is its coefficient times the spacing.
   EXPECT_NEAR(shift.mean_rad, 0.2 / motion::kBumpPeak * 1.5 / 4.0 / 20.0, 1e-6);
   EXPECT_EQ(shift_of(original, original, closeness).largest_rad, 0.0);
@@ -49,8 +52,8 @@ TEST(Closeness, ShiftOfABumpIsItsHeightOverTheViewingDistance) {
 // A peak between samples counts, too: the tests of the page compare its curves with these measures.
 TEST(Closeness, TheLargestShiftIsThatOfAllInstants) {
   constexpr int kInstants = 20'000;
-  constexpr double kMost =
-      1e-5;  // a share: both miss the peak by less than a thousandth of a sample's distance
+  // A share: both miss the peak by less than a thousandth of the distance of two samples.
+  constexpr double kMost = 1e-5;
   testing::Random random(7306);
   const CubicPath original = straight(20.0, 1.0);
   const Closeness closeness{.viewing_distance_m = 4.0, .turn_lever_m = 4.0};
@@ -86,9 +89,9 @@ TEST(Closeness, TurnsCountByTheirAngleForCamerasAndByTheirLeverForBodies) {
     }
   }
   const Closeness camera{.viewing_distance_m = 2.0, .turn_lever_m = 2.0};
-  EXPECT_NEAR(shift_of(turned, original, camera).largest_rad, angle_rad, 1e-12);
+  EXPECT_NEAR(shift_of(turned, original, camera).largest_rad, angle_rad, kAngleRounding_rad);
   const Closeness body{.viewing_distance_m = 2.0, .turn_lever_m = 0.5};
-  EXPECT_NEAR(shift_of(turned, original, body).largest_rad, 0.25 * angle_rad, 1e-12);
+  EXPECT_NEAR(shift_of(turned, original, body).largest_rad, 0.25 * angle_rad, kAngleRounding_rad);
 }
 
 /// Returns a path through random poses, which turn by up to a radian from one to the next.
@@ -167,12 +170,13 @@ TEST(Closeness, TheMoveOfABodyIsThatOfItsCenter) {
   for (motion::CubicPiece& piece : swung.pieces) piece.image.fill(half_turn);
   const double chord_m = 2.0 * 2.0 * std::sin(0.5 * angle_rad);
   EXPECT_NEAR(shift_of(swung, original, closeness).largest_rad, (chord_m + 0.25 * angle_rad) / 2.0,
-              1e-12);
+              kAngleRounding_rad);
   CubicPath turned = swung;
   const Quat turn(Eigen::AngleAxisd(angle_rad, Vec3::UnitX()));
   for (motion::CubicPiece& piece : turned.pieces)
     piece.position.fill(closeness.center_C - turn * closeness.center_C);
-  EXPECT_NEAR(shift_of(turned, original, closeness).largest_rad, 0.25 * angle_rad / 2.0, 1e-12);
+  EXPECT_NEAR(shift_of(turned, original, closeness).largest_rad, 0.25 * angle_rad / 2.0,
+              kAngleRounding_rad);
 }
 
 // A turn accelerates by its lever, wherever the centre is.

@@ -303,11 +303,11 @@ TEST(SceneCacheFolder, HasTheLimitThatTheEnvironmentSays) {
   const Variable number("CAMWAY_CACHE_BYTES", "5000");
   EXPECT_EQ(cache_of_environment().cache->limits().bytes, 5000U);
   EXPECT_EQ(cache_of_environment().fault, "");
-  for (const char* const wrong : {"5 GB", "-1", "2GiB", "abc", ""}) {
+  for (const char* const wrong : {"5 GB", "-1", "2GiB", "abc", "", "99999999999999999999"}) {
     const Variable word("CAMWAY_CACHE_BYTES", wrong);
     EXPECT_EQ(cache_of_environment().cache->limits().bytes, SceneCacheLimits{}.bytes);
     EXPECT_EQ(cache_of_environment().fault, std::string("CAMWAY_CACHE_BYTES is '") + wrong +
-                                                "'; it must be a whole number of bytes");
+                                                "'; it must be a whole number of bytes below 2^64");
   }
   const Variable zero("CAMWAY_CACHE_BYTES", "0");
   EXPECT_FALSE(cache_of_environment().cache);

@@ -111,12 +111,25 @@ TEST_F(CliCache, ASizeThatIsNoNumberIsNamed) {
   EXPECT_EQ(planned.exit_code, 0);
   EXPECT_THAT(
       planned.err,
-      HasSubstr("warning: CAMWAY_CACHE_BYTES is '2GiB'; it must be a whole number of bytes, "
+      HasSubstr("warning: CAMWAY_CACHE_BYTES is '2GiB'; it must be a whole number of bytes below "
+                "2^64, "
                 "so the cache of scenes may take 2147483648"));
   const CliRun run = run_camway({"cache"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("CAMWAY_CACHE_BYTES is '2GiB'"));
+  EXPECT_EQ(run_camway({"cache", "clear"}).exit_code, 0) << "for which no size counts";
   unsetenv("CAMWAY_CACHE_BYTES");
+}
+
+TEST_F(CliCache, WarnsOnceOfAFolderThatCannotBeUsed) {
+  const std::string below_a_file = folder_.write("file", "") + "/cache";
+  setenv("CAMWAY_CACHE_DIR", below_a_file.c_str(), 1);
+  const CliRun run =
+      run_camway({"plan", "--request", request_, request_, "--response-dir", folder_.file("out")});
+  const std::string warning = "warning: " + below_a_file + ": cannot be opened: Not a directory";
+  const std::size_t first = run.err.find(warning);
+  ASSERT_NE(first, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find(warning, first + 1), std::string::npos) << run.err;
 }
 
 TEST_F(CliCache, CanBeTurnedOff) {
