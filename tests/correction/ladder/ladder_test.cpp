@@ -205,6 +205,32 @@ TEST(Ladder, IsLocal) {
   }
 }
 
+// The path weaves between plates from either side. Where it collides without one knot, others may
+// still be removed.
+TEST(Ladder, InsertsFewKeyframesAlongASlalom) {
+  testing::Random random(4711);
+  std::size_t plates = 0;
+  std::size_t inserted = 0;
+  for (int run = 0; run < 12; ++run) {
+    Mesh mesh;
+    const int count = random.integer(5, 9);
+    for (int i = 0; i < count; ++i) {
+      const double z = -2.0 * i - random.uniform(0.7, 1.3);
+      const double edge_m = random.uniform(-0.1, 0.3);
+      const bool is_left = i % 2 == 0;
+      testing::add_cuboid(mesh, {is_left ? -9 : -edge_m, -9, z},
+                          {is_left ? edge_m : 9, 9, z + 0.05});
+    }
+    const LadderCase c = case_with(mesh, {at(0, {0, 0, 1}), at(count, {0, 0, -1.0 * count}),
+                                          at(2 * count, {0, 0, -2.0 * count - 1})});
+    const LadderResult result = c.corrected();
+    EXPECT_TRUE(c.collisions(result.path).empty());
+    plates += static_cast<std::size_t>(count);
+    inserted += result.inserted_s.size();
+  }
+  EXPECT_LT(2 * inserted, 5 * plates);
+}
+
 TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
   LadderCase c = wall_with_door();
   c.options.max_inserted_keyframes = 2;
