@@ -24,6 +24,7 @@ using motion::CubicPath;
 // Chosen by measurement; none changes what is proved.
 constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
 constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
+constexpr double kDear_rad = 0.3;        // cost of a part, divided by its duration
 constexpr int kStepsOfRelaxation = 8;    // of the first, and of all that follow
 constexpr int kStepsOfRoom = 12;         // of the relaxation that makes room
 constexpr std::size_t kMostKnots = 400;  // of a part
@@ -137,13 +138,18 @@ class Redrawer {
     drawing.cost = cost(drawing.drawn.candidate.path);
   }
 
-  /// Lets the part become longer, where that is cheaper.
+  /// Lets the part become longer, where that is cheaper. A dear part that is as long as it may be,
+  /// such as a way round, is only relaxed.
   void extend(Drawing& best) const {
+    base::Budget budget(kStepsOfRelaxation);
     std::vector<double> knots_s = choice_.extended(best.knots_s, part_.begin_s, part_.end_s);
-    if (knots_s.size() == best.knots_s.size()) return;
+    if (knots_s.size() == best.knots_s.size()) {
+      const bool is_dear = best.cost > kDear_rad * (part_.end_s - part_.begin_s);
+      if (is_dear) relax(best, {.may_turn = part_.turns}, budget);
+      return;
+    }
     std::optional<Drawing> longer = drawing(std::move(knots_s), best.drawn.candidate.path);
     if (!longer) return;
-    base::Budget budget(kStepsOfRelaxation);
     relax(*longer, {.may_turn = part_.turns}, budget);
     if (longer->cost >= best.cost) return;
     best = *std::move(longer);
