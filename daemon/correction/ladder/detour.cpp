@@ -19,6 +19,7 @@
 #include "daemon/correction/search/cell_search.h"
 #include "daemon/correction/search/lattice_ways.h"
 #include "daemon/correction/search/other_side.h"
+#include "daemon/correction/search/shorter_way.h"
 #include "daemon/correction/search/small_ball_way.h"
 #include "daemon/correction/search/tree_search.h"
 
@@ -70,27 +71,25 @@ class Detour {
     return found;
   }
 
-  // Detours with room for every orientation: the cheaper one of two on different sides.
+  using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
+
+  // A way, and the path along it.
+  struct DrawnWay {
+    LatticeResult way;
+    Candidate path;
+  };
+
+  // Detours with room for every orientation: the cheapest one of several ways.
   std::optional<Candidate> with_ball(Lattices lattices) {
     const std::optional<SignedPose> begin = ball_escape(space_, from_, radius_m_);
     const std::optional<SignedPose> end = ball_escape(space_, to_, radius_m_);
     if (!begin || !end) return std::nullopt;
     const BallMotion ball{
         .radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
-    std::vector<Vec3> about_W;
-    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
-      about_W.push_back(space_.center_W(pose));
-    }
+    about_W_ = centers_as_interpolated();
     const Draw draw = [&](const LatticeResult& way) {
       // Any orientation fits in the ball, so the path keeps its own.
       return followed(oriented(way.way_W, *begin, *end), Turning::kAsPath);
-    };
-    LatticeResult way;
-    std::optional<Candidate> first;
-    const auto use = [&](const LatticeResult& found) {
-      way = found;
-      first = draw(found);
-      return first.has_value();
     };
     // A narrow place is found sooner by the way of a small ball than by a fine lattice.
     std::optional<Candidate> threaded;
@@ -103,36 +102,55 @@ class Detour {
       const bool is_shut_in = is_complete && !has_escaped;
       return threaded || is_shut_in || (!deadline_.passed() && proofs_.is_caged());
     };
-    search_ways(ball, lattices, about_W, {use, proofs_.is_separated, is_done});
-    if (!first) return threaded;
-    std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
-    const bool is_better = second && cost(*second) < cost(*first);
-    return std::move(is_better ? second : first);
+    std::optional<DrawnWay> best;
+    const auto use = [&](const LatticeResult& way) { return draw_way(way, draw, best); };
+    search_ways(ball, lattices, {use, proofs_.is_separated, is_done});
+    if (!best) return threaded;
+    take_if_cheaper(on_finer_lattice(ball, best->way, draw), *best);
+    take_if_cheaper(on_another_side(ball, best->way, draw), *best);
+    return std::move(best->path);
   }
 
   [[nodiscard]] bool has_complete_pocket() const {
     return result_.pocket && result_.pocket->is_complete;
   }
 
-  using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
+  // Draws a path along `way`; returns false if none is free.
+  static bool draw_way(const LatticeResult& way, const Draw& draw, std::optional<DrawnWay>& drawn) {
+    std::optional<Candidate> path = draw(way);
+    if (path) drawn = DrawnWay{way, *std::move(path)};
+    return drawn.has_value();
+  }
+
+  void take_if_cheaper(std::optional<DrawnWay> other, DrawnWay& best) const {
+    if (other && cost(other->path) < cost(best.path)) best = *std::move(other);
+  }
+
+  // A much shorter way than `first`, where that is long.
+  std::optional<DrawnWay> on_finer_lattice(const BallMotion& ball, const LatticeResult& first,
+                                           const Draw& draw) {
+    std::optional<DrawnWay> shorter;
+    const std::optional<BallMotion> limited = shorter_way(ball, first);
+    if (!limited) return std::nullopt;
+    const auto use = [&](const LatticeResult& way) { return draw_way(way, draw, shorter); };
+    search_ways(*limited, Lattices::kCoarse, {.use = use});
+    return shorter;
+  }
 
   // A way that avoids the apex of `first`; nothing if it leads much farther off.
-  std::optional<Candidate> on_another_side(const BallMotion& ball, const LatticeResult& first,
-                                           const std::vector<Vec3>& about_W, const Draw& draw) {
-    const OtherSide other_side(first, about_W);
-    std::optional<Candidate> second;
-    const auto use = [&](const LatticeResult& found) {
-      const bool is_too_far = other_side.is_too_far(found);
-      if (!is_too_far) second = draw(found);
-      return is_too_far || second.has_value();
+  std::optional<DrawnWay> on_another_side(const BallMotion& ball, const LatticeResult& first,
+                                          const Draw& draw) {
+    const OtherSide other_side(first, about_W_);
+    std::optional<DrawnWay> second;
+    const auto use = [&](const LatticeResult& way) {
+      return other_side.is_too_far(way) || draw_way(way, draw, second);
     };
-    search_ways(other_side.limited(ball), Lattices::kCoarse, about_W, {.use = use});
+    search_ways(other_side.limited(ball), Lattices::kCoarse, {.use = use});
     return second;
   }
 
-  void search_ways(const BallMotion& ball, Lattices lattices, const std::vector<Vec3>& about_W,
-                   const LatticeWayUse& use) {
-    count_points(for_each_lattice_way(space_, ball, lattices, about_W, use, deadline_));
+  void search_ways(const BallMotion& ball, Lattices lattices, const LatticeWayUse& use) {
+    count_points(for_each_lattice_way(space_, ball, lattices, about_W_, use, deadline_));
   }
 
   [[nodiscard]] double cost(const Candidate& candidate) const {
@@ -227,6 +245,14 @@ class Detour {
     return poses;
   }
 
+  [[nodiscard]] std::vector<Vec3> centers_as_interpolated() const {
+    std::vector<Vec3> centers_W;
+    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
+      centers_W.push_back(space_.center_W(pose));
+    }
+    return centers_W;
+  }
+
   CellResult way_of_small_ball(double share, std::size_t max_cells) {
     CellResult found = small_ball_way(space_, from_, to_, share, max_cells, deadline_);
     count_points(found.cells);
@@ -274,6 +300,7 @@ class Detour {
   const SignedPose from_;
   const SignedPose to_;
   const bool has_center_;          ///< whether the centre of the ball about the body is in the body
+  std::vector<Vec3> about_W_;      ///< the path as interpolated, which ways should follow
   std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
   DetourResult result_;
 };

@@ -14,6 +14,7 @@
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/smoothing/objective_cost.h"
 #include "tests/correction/ladder_case.h"
+#include "tests/support/gap_problems.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -134,6 +135,20 @@ TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
   testing::add_cuboid(mesh, {-8, -1.2, -0.1}, {7, 1.2, 0.1});
   expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}),
                    {CorrectionKind::kGoRound});
+}
+
+// The coarse lattice, with steps of a metre, finds the end of the wall first.
+TEST(Ladder, TakesAWindowNearbyRatherThanTheEndOfAWall) {
+  Mesh mesh;
+  testing::add_wall_with_window(mesh);
+  const LadderCase c = case_with(mesh, {at(0, {0, 0, 4}), at(8, {0, 0, -4})});
+  const LadderResult result = c.corrected();
+  EXPECT_TRUE(c.collisions(result.path).empty());
+  double farthest_m = 0.0;
+  for (int i = 0; i <= 100; ++i) {
+    farthest_m = std::max(farthest_m, result.path.pose(0.08 * i).position.head<2>().norm());
+  }
+  EXPECT_LT(farthest_m, 2.0);
 }
 
 TEST(Ladder, LeavesWhatItCannotCorrect) {
