@@ -35,6 +35,8 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
+constexpr int kFewSamples = 300;                       // of trees that turn less than those before
+constexpr std::array<double, 2> kSmallTurns_rad = {0.0, 0.35};  // limits of their turns
 constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
@@ -54,23 +56,13 @@ class Detour {
         has_center_(space.body().is_near(space.center_C(), kBallShares.front() * radius_m_)) {}
 
   DetourResult run(Search search) {
-    result_.candidate = search == Search::kQuick     ? with_ball(Lattices::kCoarse)
-                        : search == Search::kTurning ? with_turns()
-                        : space_.may_turn()          ? with_ball(Lattices::kAllButFinest)
-                                                     : without_turns();
+    result_.candidate = search == Search::kQuick    ? with_ball(Lattices::kCoarse)
+                        : search == Search::kNarrow ? through_narrow_places()
+                                                    : with_ball(Lattices::kAllButFinest);
     return std::move(result_);
   }
 
  private:
-  // Where there is none, looks whether an end is shut in.
-  std::optional<Candidate> without_turns() {
-    std::optional<Candidate> found = with_ball(Lattices::kAll);
-    if (!found && !deadline_.passed()) {
-      result_.pocket = way_of_small_ball(kBallShares.front(), kFewCells).pocket;
-    }
-    return found;
-  }
-
   using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
 
   // A way, and the path along it.
@@ -95,7 +87,7 @@ class Detour {
     std::optional<Candidate> threaded;
     const bool has_escaped = begin->position != from_.position || end->position != to_.position;
     const auto is_done = [&] {
-      if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
+      threaded = along_small_ball(kBallShares.front(), kFewCells);
       // The pocket is no proof, and other corrections may follow: it only ends this search.
       const bool is_complete = has_complete_pocket();
       if (is_complete) result_.pocket.reset();
@@ -157,9 +149,9 @@ class Detour {
     return closeness_cost(candidate.path, problem_.original, space_.closeness());
   }
 
-  // Detours on which the body must turn: narrow passages and trees along the way of a smaller ball.
+  // Detours where the ball does not fit: narrow passages and trees along the way of a smaller ball.
   // The smallest ball comes first: if it has no way, the others have none.
-  std::optional<Candidate> with_turns() {
+  std::optional<Candidate> through_narrow_places() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
       std::optional<Candidate> found = along_small_ball(share, kMostCells);
@@ -169,7 +161,7 @@ class Detour {
       if (found) return found;
     }
     if (std::optional<Candidate> found = between_ways_out()) return found;
-    // The finest lattice comes last: detours that need it mostly need turning as well.
+    // The finest lattice comes last: detours that need it mostly are narrow as well.
     return with_ball(Lattices::kFinest);
   }
 
@@ -219,8 +211,35 @@ class Detour {
     return std::move(found.candidate);
   }
   std::optional<Candidate> followed(const TreeResult& tree) {
+    std::optional<Candidate> found = followed(tree, space_);
+    if (found && space_.may_turn()) take_with_less_turning(*found);
+    return found;
+  }
+  std::optional<Candidate> followed(const TreeResult& tree, FreeSpace& space) {
     result_.effort.tree_samples += tree.samples;
-    return followed(tree.guide, Turning::kAsGuide);
+    const Turning turning = space.may_turn() ? Turning::kAsGuide : Turning::kAsPath;
+    Followed found = follow(problem_, tree.guide, turning, budget_, space, deadline_);
+    result_.effort.paths += found.paths;
+    return std::move(found.candidate);
+  }
+
+  // Trees turn as they like. Looks for a path along the same way of a small ball that turns less
+  // and costs less.
+  void take_with_less_turning(Candidate& found) {
+    OrientationPolicy policy = space_.policy();
+    for (const double most_rad : kSmallTurns_rad) {
+      if (small_way_W_.empty() || most_rad >= space_.policy().max_turn_rad || deadline_.passed())
+        return;
+      policy.max_turn_rad = most_rad;
+      FreeSpace space(space_.query(), policy, space_.closeness());
+      TreeOptions trees = tree_about(small_way_W_);
+      trees.max_samples = kFewSamples;
+      std::optional<Candidate> other =
+          followed(tree_way(space, from_, to_, trees, deadline_), space);
+      if (!other || cost(*other) >= cost(found)) continue;
+      found = *std::move(other);
+      return;
+    }
   }
 
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
