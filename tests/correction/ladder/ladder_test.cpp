@@ -65,6 +65,26 @@ void expect_corrected(const LadderCase& c, const std::vector<CorrectionKind>& ki
 
 TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {CorrectionKind::kMove}); }
 
+// Within the wall the near quadrilateral touches nothing. No small move leads there.
+TEST(Ladder, MovesPastAWallThatIsThickerThanTheCamera) {
+  testing::Random random(4713);
+  for (int run = 0; run < 20; ++run) {
+    Mesh mesh;
+    const double overlap_m = random.uniform(0.02, 0.2);
+    testing::add_cuboid(mesh, {-0.8, -3, -random.uniform(0.4, 1.0)}, {overlap_m, 3, 0});
+    const LadderCase c = case_with(mesh, {at(0, {0, 0, 4}), at(8, {0, 0, -4})});
+    const LadderResult result = c.corrected();
+    EXPECT_TRUE(c.collisions(result.path).empty());
+    for (const Correction& correction : result.corrections) {
+      EXPECT_EQ(correction.kind, CorrectionKind::kMove) << "overlap " << overlap_m;
+    }
+    for (double time_s = 0.0; time_s <= 8.0; time_s += 0.05) {
+      const double moved_m = result.path.pose(time_s).position.head<2>().norm();
+      EXPECT_LT(moved_m, overlap_m + 0.3) << time_s;
+    }
+  }
+}
+
 TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {CorrectionKind::kGoRound}); }
 
 // The near quadrilateral is 0.4 wide and 0.3 high; the gap is 0.34 wide and endless in y.
