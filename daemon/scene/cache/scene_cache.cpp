@@ -72,13 +72,22 @@ FileDescriptor make_folder(const fs::path& folder) {
   return open_folder(folder);
 }
 
-/// Why a folder that is not there cannot be made; empty if it can.
+/// Why a folder that is not there cannot be made; empty if it can. Tries it with the first part
+/// that is missing, which it removes again: permissions do not tell, as root has all of them in
+/// /proc, too.
 std::string fault_of_missing(const fs::path& folder) {
   std::error_code error;
-  fs::path above = fs::absolute(folder, error).parent_path();
-  while (!fs::exists(above, error) && above.has_relative_path()) above = above.parent_path();
-  if (faccessat(AT_FDCWD, above.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return {};
-  return "cannot be made: " + std::generic_category().message(errno);
+  fs::path missing = fs::absolute(folder, error);
+  while (missing.has_relative_path() && !fs::exists(missing.parent_path(), error)) {
+    missing = missing.parent_path();
+  }
+  if (mkdir(missing.c_str(), S_IRWXU) == 0) {
+    rmdir(missing.c_str());  // fails if another process has made its cache there by now
+    return {};
+  }
+  const int reason = errno;
+  if (reason == EEXIST && fs::is_directory(missing, error)) return {};
+  return "cannot be made: " + std::generic_category().message(reason);
 }
 
 /// Opens a file of the cache; none if somebody else can have written it.

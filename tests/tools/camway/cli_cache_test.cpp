@@ -132,6 +132,28 @@ TEST_F(CliCache, WarnsOnceOfAFolderThatCannotBeUsed) {
   EXPECT_EQ(run.err.find(warning, first + 1), std::string::npos) << run.err;
 }
 
+TEST_F(CliCache, WarnsOfAFolderThatCannotBeMade) {
+  const std::string dangling = folder_.file("dangling");
+  std::filesystem::create_symlink(folder_.file("nowhere/at/all"), dangling);
+  // Permissions let root write in /proc, but no folder can be made there.
+  for (const std::string& folder : {std::string("/proc/foo/bar"), dangling + "/cache"}) {
+    setenv("CAMWAY_CACHE_DIR", folder.c_str(), 1);
+    const CliRun run = run_camway({"plan", "--request", request_});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.err, HasSubstr("warning: " + folder + ": cannot be made: "));
+    EXPECT_EQ(run_camway({"cache"}).exit_code, 2);
+  }
+}
+
+TEST_F(CliCache, MakesNoFolderToListIt) {
+  const std::string folder = folder_.file("deep/below/cache");
+  setenv("CAMWAY_CACHE_DIR", folder.c_str(), 1);
+  EXPECT_EQ(run_camway({"cache"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("deep")));
+  plan();
+  EXPECT_THAT(listed()["scenes"], SizeIs(1));
+}
+
 TEST_F(CliCache, CanBeTurnedOff) {
   setenv("CAMWAY_CACHE_DIR", "", 1);
   plan();
