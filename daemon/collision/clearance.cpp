@@ -31,7 +31,7 @@ class ClearanceSearch {
     for (const Segment& segment : path.segments()) {
       if (!walk(segment)) return timed_out_ ? std::nullopt : std::optional(touch());
     }
-    return PathClearance{std::min(lower_m_, upper_m_), upper_m_};
+    return PathClearance{std::min(lower_m_, upper_m_), upper_m_, closest_s_};
   }
 
  private:
@@ -43,6 +43,7 @@ class ClearanceSearch {
   // path.
   void seed(const motion::Path& path) {
     Stretch closest;
+    double closest_s = path.begin_s();
     double least_m = std::numeric_limits<double>::infinity();
     for (const Segment& segment : path.segments()) {
       const SegmentMotion motion(segment);
@@ -53,10 +54,11 @@ class ClearanceSearch {
         if (distance_m < least_m) {
           least_m = distance_m;
           closest = place;
+          closest_s = motion::segment_time_s(segment, u);
         }
       }
     }
-    if (least_m < std::numeric_limits<double>::infinity()) look(closest);
+    if (least_m < std::numeric_limits<double>::infinity()) look(closest, closest_s);
   }
 
   // Returns false where no positive distance can be proved, or when the deadline struck.
@@ -74,7 +76,8 @@ class ClearanceSearch {
       const double reach_m = probe_.reach_m(stretch);
       const bool splittable = 0.5 * (u + end) > u && 0.5 * (u + end) < end;
       if (!is_too_long(reach_m, target_reach_m_) || !splittable) {
-        const Verdict verdict = settle(stretch, splittable);
+        const double middle_s = motion::segment_time_s(segment, 0.5 * (u + end));
+        const Verdict verdict = settle(stretch, middle_s, splittable);
         if (verdict == Verdict::kTouches) return false;
         if (verdict == Verdict::kSettled) u = end;
       }
@@ -85,8 +88,8 @@ class ClearanceSearch {
 
   enum class Verdict { kSettled, kTooLong, kTouches };
 
-  Verdict settle(const Stretch& stretch, bool splittable) {
-    const ProbeResult seen = look(stretch);
+  Verdict settle(const Stretch& stretch, double middle_s, bool splittable) {
+    const ProbeResult seen = look(stretch, middle_s);
     const double enough_m = enough();
     if (seen.free) {
       lower_m_ = std::min(lower_m_, asked_m_);
@@ -111,11 +114,14 @@ class ClearanceSearch {
   }
 
   // Checks whether the distance is at least `enough` all over the stretch.
-  ProbeResult look(const Stretch& stretch) {
+  ProbeResult look(const Stretch& stretch, double middle_s) {
     asked_m_ = enough();
     const ProbeResult seen = probe_.check_refined(stretch, asked_m_, kShare);
-    if (seen.is_measured)
-      upper_m_ = std::min(upper_m_, std::max(0.0, seen.gap_m) + seen.rounding_m);
+    const double at_middle_m = std::max(0.0, seen.gap_m) + seen.rounding_m;
+    if (seen.is_measured && at_middle_m < upper_m_) {
+      upper_m_ = at_middle_m;
+      closest_s_ = middle_s;
+    }
     return seen;
   }
 
@@ -123,7 +129,7 @@ class ClearanceSearch {
     return upper_m_ < kLargestClearance_m ? (1.0 - kClearanceTolerance) * upper_m_
                                           : kLargestClearance_m;
   }
-  [[nodiscard]] PathClearance touch() const { return {0.0, upper_m_}; }
+  [[nodiscard]] PathClearance touch() const { return {0.0, upper_m_, closest_s_}; }
 
   // Chosen by measurement: none changes what is proved.
   static constexpr double kShare = 0.96;  // the true distance is at least this share
@@ -139,6 +145,7 @@ class ClearanceSearch {
   bool timed_out_ = false;
   double lower_m_ = kLargestClearance_m;
   double upper_m_ = kLargestClearance_m;
+  double closest_s_ = 0.0;  ///< time of `upper_m_`
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ struct PathClearance {
   /// An upper bound: a distance that the body has at an instant of the path. `kLargestClearance_m`
   /// if no smaller distance was found.
   double upper_bound_m = 0.0;
+  double closest_s = 0.0;  ///< that instant; any if no distance was found
 };
 
 /// Largest value of (upper_bound_m - lower_bound_m) / upper_bound_m if `lower_bound_m` > 0, up to

@@ -8,6 +8,7 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/planning/stages/correct.h"
+#include "daemon/planning/stages/fixed_place.h"
 #include "daemon/planning/stages/meet_limits.h"
 #include "daemon/planning/stages/path_check.h"
 #include "daemon/planning/stages/path_outside_bounds.h"
@@ -27,6 +28,9 @@ using collision::CollisionInterval;
 
 // Share of the remaining time for the search of the whole path; the rest is for its changes alone.
 constexpr double kShareOfWholeSearch = 0.7;
+
+// Clearance in sizes of the body beyond which `kSafest` looks for no more.
+constexpr double kComfortInSizes = 1.5;
 
 double colliding_s(const std::vector<CollisionInterval>& intervals) {
   double sum_s = 0.0;
@@ -62,7 +66,9 @@ class Planner {
     slow();
     add_clearance();
     add_clearance_profile();
-    set_status({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_}, result_);
+    const std::optional<FixedPlace> limit = limit_of_safest();
+    set_status({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_, limit},
+               result_);
     return std::move(slowed_.law);
   }
 
@@ -171,6 +177,18 @@ class Planner {
         query_, result_.path, result_.remaining_collisions,
         result_.certificate.clearance_lower_bound_m, deadline_.not_before_s(kLeastBudget_s));
     result_.timing.certify_ms += lap_ms();
+  }
+
+  // Finds what keeps the safest path from more room. A slowed path has other times than its
+  // corrections.
+  std::optional<FixedPlace> limit_of_safest() {
+    const bool is_safest = request_.options.objective == correction::Objective::kSafest;
+    if (!is_safest || !corrected_.path || !result_.certificate.certified || slowed_.law) return {};
+    const double comfort_m = kComfortInSizes * body_size_m(prepared_.body);
+    if (result_.certificate.clearance_lower_bound_m >= comfort_m) return {};
+    std::optional<FixedPlace> place = limiting_place(query_, result_, deadline_);
+    result_.timing.certify_ms += lap_ms();
+    return place;
   }
 
   // Time for the stages after the final check.

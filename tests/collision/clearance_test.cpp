@@ -50,6 +50,7 @@ TEST(PathClearance, OfAPassBesideAWallIsKnown) {
 
 // The oracle is dense sampling, with the distance by brute force over all triangles.
 TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
+  constexpr double kComputed_m = 1e-9;
   testing::Random random(77);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
@@ -70,6 +71,10 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
       sampled_m = gap_m.value_or(sampled_m);
     }
     EXPECT_LE(found.lower_bound_m, sampled_m) << "run " << run;
+    EXPECT_NEAR(clearance_m(index, corners_C, path.pose(found.closest_s), kLargestClearance_m)
+                    .value_or(kLargestClearance_m),
+                found.upper_bound_m, kComputed_m)
+        << "run " << run;
     const bool free = detect_free(index, path, corners_C);
     EXPECT_EQ(found.lower_bound_m > 0.0, free) << "run " << run;
     if (!free) continue;

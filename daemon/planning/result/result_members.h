@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <string_view>
 #include <tuple>
@@ -118,12 +119,16 @@ void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire)
   });
 }
 
+/// Files leave out a shift that was not measured; messages have 0 then.
 template <class Io, class... Wire>
-void members(Io& io, Is<motion::PathMeasures> auto& measures, Wire&... wire) {
+void path_measures_members(Io& io, Is<motion::PathMeasures> auto& measures, bool is_shift_measured,
+                           Wire&... wire) {
   io("length_m", measures.length_m, wire.length_m...);
   io("largest_deviation_m", measures.largest_deviation_m, wire.largest_deviation_m...);
-  io(may_lack("largest_shift_deg"), measures.largest_shift_rad, wire.largest_shift_rad...);
-  io(may_lack("mean_shift_deg"), measures.mean_shift_rad, wire.mean_shift_rad...);
+  io(may_lack("largest_shift_deg", is_shift_measured), measures.largest_shift_rad,
+     wire.largest_shift_rad...);
+  io(may_lack("mean_shift_deg", is_shift_measured), measures.mean_shift_rad,
+     wire.mean_shift_rad...);
   io("bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3,
      wire.bending_energy_m2_per_s3...);
   io("largest_speed_m_per_s", measures.largest_speed_m_per_s, wire.largest_speed_m_per_s...);
@@ -212,14 +217,24 @@ void head_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   io(may_lack("keyframe", result.keyframe.has_value()), result.keyframe, wire.keyframe...);
 }
 
+/// Whether the shift of the returned path is known. The method `keyframe_insertion` measures none:
+/// a shift of 0 is one only with a viewing distance, or of a path that nothing was inserted into.
+inline bool has_measured_shift(const PlanResult& result, const motion::PathMeasures& measures) {
+  const auto is_inserted = [](const motion::Keyframe& keyframe) {
+    return keyframe.origin == motion::KeyframeOrigin::kInserted;
+  };
+  return result.viewing_distance_m || measures.largest_shift_rad > 0.0 ||
+         measures.mean_shift_rad > 0.0 || std::ranges::none_of(result.keyframes, is_inserted);
+}
+
 template <class Io, class... Wire>
 void measures_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   const auto before = [&](auto& object, auto& measures) {
-    members(object, measures, wire.measures_before...);
+    path_measures_members(object, measures, /*is_shift_measured=*/true, wire.measures_before...);
   };
   io.optional("before", result.measures_before, before, wire.has_measures_before...);
   const auto after = [&](auto& object, auto& measures) {
-    members(object, measures, wire.measures...);
+    path_measures_members(object, measures, has_measured_shift(result, measures), wire.measures...);
   };
   io.optional("after", result.measures, after, wire.has_measures...);
 }

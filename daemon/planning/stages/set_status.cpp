@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "daemon/planning/stages/keyframe_times.h"
 #include "daemon/planning/stages/sentences.h"
 
 namespace camway::planning {
@@ -39,6 +40,17 @@ std::string note_of_objective(const PlanRequest& request, const CorrectedPlan& c
   return {};
 }
 
+/// Says why the path keeps no more room, where that is known.
+std::string note_of_limit(const Outcomes& plan) {
+  if (!plan.limit) return {};
+  if (plan.limit->keyframe) {
+    return fmt::format("; no path keeps more than the {:.3g} m of keyframe {}, which stays",
+                       plan.limit->distance_m, *plan.limit->keyframe);
+  }
+  return fmt::format("; the path is nearest to the scene at {} s, where no correction changes it",
+                     time_text(plan.origin.sent_s(plan.limit->time_s)));
+}
+
 void set_status_of_free(const Outcomes& plan, PlanResult& result) {
   if (plan.slowed.breach) {
     // It is proved free, and the certificate says so; it is not what was asked for.
@@ -55,7 +67,7 @@ void set_status_of_free(const Outcomes& plan, PlanResult& result) {
         fmt::format("{}; the path is proved free of collision{}{}", what_was_done(result),
                     note_of_clearance(result.certificate.clearance_lower_bound_m),
                     plan.query.obstacles.bounds.any() ? ", and within bounds" : "") +
-        note_of_objective(plan.request, plan.corrected) +
+        note_of_objective(plan.request, plan.corrected) + note_of_limit(plan) +
         note_of_times(result, plan.slowed.is_everywhere) + notes(plan, result);
   }
 }

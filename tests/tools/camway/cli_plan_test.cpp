@@ -55,6 +55,18 @@ TEST_F(CliPlan, SaysThatNothingBetterThanTheClosestPathWasFound) {
               HasSubstr("; none was found that is shorter than the closest one"));
 }
 
+// The fin is nearer to the last keyframe than the safest path has to come anywhere else.
+TEST_F(CliPlan, SaysWhatKeepsTheSafestPathFromMoreRoom) {
+  const auto message_with_last = [&](double x) {
+    const std::string request = folder_.write(
+        "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(x, 0, -0.3)}));
+    return run_camway({"plan", "--scene", scene_, "--request", request, "--objective", "safest"})
+        .err;
+  };
+  EXPECT_THAT(message_with_last(2.05), HasSubstr("m of keyframe 1, which stays"));
+  EXPECT_THAT(message_with_last(4.0), Not(HasSubstr("which stays")));
+}
+
 TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
   const std::string request = folder_.write(
       "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
@@ -69,6 +81,23 @@ TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
   EXPECT_FALSE(response->collisions.empty());
   EXPECT_GT(response->keyframes.size(), 2U);
   EXPECT_TRUE(response->remaining_collisions.empty());
+}
+
+TEST_F(CliPlan, ReportsNoShiftThatWasNotMeasured) {
+  const std::string request = folder_.write(
+      "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
+  const auto measures_of = [&](const std::string& method) {
+    const CliRun run = run_camway({"plan", "--scene", scene_, "--request", request, "--method",
+                                   method, "--deadline-s", "20"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(run.out)["measures"];
+  };
+  const nlohmann::json inserted = measures_of("keyframe_insertion");
+  EXPECT_GT(inserted["after"]["largest_deviation_m"], 0.01);
+  EXPECT_FALSE(inserted["after"].contains("largest_shift_deg"));
+  EXPECT_FALSE(inserted["after"].contains("mean_shift_deg"));
+  EXPECT_EQ(inserted["before"]["largest_shift_deg"], 0.0);
+  EXPECT_GT(measures_of("ladder")["after"]["largest_shift_deg"], 0.0);
 }
 
 TEST_F(CliPlan, ReadsTheMeshOfTheBodyFromAFileBesideTheRequest) {
