@@ -143,7 +143,7 @@ ExitCode draw_response(const DrawFlags& flags) {
   if (is_page(flags.picture)) {
     return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
   }
-  draw::FloorPlan plan = draw::plan_of_answer(request->camera, *response, *snapshot.mesh.share());
+  draw::FloorPlan plan = draw::plan_of_answer(*request, *response, *snapshot.mesh.share());
   plan.title = std::filesystem::path(flags.response).stem().string();
   plan.up = flags.vertical ? *flags.vertical
             : response->vertical_axis

@@ -43,7 +43,11 @@ struct FloorPlan {
   std::string subtitle;
   scene::Mesh mesh;
   SceneUp up = SceneUp::kY;
-  motion::Corners corners_C{};                           ///< corners of the near quadrilateral
+  motion::Corners corners_C{};  ///< corners of the near quadrilateral
+  /// What moves in place of the near quadrilateral: points whose convex hull is drawn, each
+  /// thickened by a ball. Empty: a camera.
+  std::vector<geometry::Vec3> body_C = {};
+  double body_ball_m = 0.0;
   std::vector<motion::Keyframe> keyframes;               ///< given and inserted keyframes
   SampledPath before;                                    ///< interpolated path; may be empty
   SampledPath after;                                     ///< corrected path; may be empty
@@ -69,6 +73,7 @@ struct PictureFiles {
 /// Draws the plan from above, like Figure 7 of Ptacek & Johnstone (2006): for each storey that the
 /// path visits, its section, keyframes with their near quadrilaterals, path and corner curves
 /// before and after the correction, and collision intervals with the quadrilaterals at their ends;
+/// in place of quadrilaterals and corner curves the outlines of a body that is no camera;
 /// the section of the barrier, with the keyframes inside and outside of it named;
 /// an enlarged detail of each place of collision, three at most; and the heights along the path.
 /// Keyframes have the numbers that messages give them: the given ones, from 0. Returns an error

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "tools/drawing/labels.h"
 
@@ -43,13 +45,45 @@ void trace(cairo_t* cr, const View& view, const std::vector<PlanPoint>& points) 
 
 double cross(const PlanPoint& a, const PlanPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& pose) {
+/// Returns the convex hull of points, closed: its first point comes again at the end. Andrew's
+/// monotone chain (1979).
+std::vector<PlanPoint> hull_of(std::vector<PlanPoint> points) {
+  std::ranges::sort(points, [](const PlanPoint& a, const PlanPoint& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  std::vector<PlanPoint> hull;
+  const auto add_chain = [&] {
+    const std::size_t begin = hull.size();
+    for (const PlanPoint& p : points) {
+      while (hull.size() >= begin + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) {
+        hull.pop_back();
+      }
+      hull.push_back(p);
+    }
+    hull.pop_back();  // the first point of the other chain
+  };
+  add_chain();
+  std::ranges::reverse(points);
+  add_chain();
+  if (hull.empty()) hull = {points.front()};
+  hull.push_back(hull.front());
+  return hull;
+}
+
+/// Returns the outline of the body's convex hull, closed.
+std::vector<PlanPoint> body_on_paper(const FloorPlan& plan, const motion::Pose& pose) {
+  constexpr int kCirclePoints = 32;
   std::vector<PlanPoint> points;
-  for (const geometry::Vec3& corner : motion::corners_W(plan.corners_C, pose)) {
-    points.push_back(to_plan(corner, plan.up));
+  for (const geometry::Vec3& point_C : plan.body_C) {
+    const PlanPoint at = to_plan(pose.position + pose.orientation * point_C, plan.up);
+    points.push_back(at);
+    for (int i = 0; i < kCirclePoints && plan.body_ball_m > 0.0; ++i) {
+      const double angle_rad = 2.0 * std::numbers::pi * i / kCirclePoints;
+      points.push_back(at + plan.body_ball_m * PlanPoint(std::cos(angle_rad), std::sin(angle_rad)));
+    }
   }
-  points.push_back(points.front());
-  return points;
+  return hull_of(std::move(points));
 }
 
 std::vector<PlanPoint> line_of(const SampledPath& path, SceneUp up) {
@@ -58,9 +92,10 @@ std::vector<PlanPoint> line_of(const SampledPath& path, SceneUp up) {
   return line;
 }
 
-/// Traces the curves of the four corners.
+/// Traces the curves of the four corners of a near quadrilateral.
 void trace_corners(cairo_t* cr, const View& view, const FloorPlan& plan,
                    const std::vector<SampledPath>& pieces) {
+  if (!plan.body_C.empty()) return;
   for (const SampledPath& piece : pieces) {
     for (const geometry::Vec3& corner_C : plan.corners_C) {
       std::vector<PlanPoint> curve;
@@ -114,7 +149,7 @@ void draw_collisions(cairo_t* cr, const View& view, const FloorPlan& plan, const
     trace(cr, view, line_of(collision.path, plan.up));
     stroke_collision(cr);
     for (const PathSample* end : {&collision.path.front(), &collision.path.back()}) {
-      trace(cr, view, quad_on_paper(plan, end->pose));
+      trace(cr, view, outline_on_paper(plan, end->pose));
       stroke(cr, palette::kCollision, 1.5);
     }
     draw_collision_mark(cr, view.to_px(middle_of(collision, plan.up)), collision.remains);
@@ -129,7 +164,7 @@ PlanPoint direction_on_paper(const motion::Pose& pose, SceneUp up) {
 
 void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan, const Panel& panel) {
   for (const PanelKeyframe& keyframe : panel.keyframes) {
-    trace(cr, view, quad_on_paper(plan, keyframe.pose));
+    trace(cr, view, outline_on_paper(plan, keyframe.pose));
     stroke(cr, keyframe.is_inserted ? palette::kInserted : palette::kGiven, 1.6);
     const PlanPoint forward = direction_on_paper(keyframe.pose, plan.up);
     draw_view_wedge(cr, view.to_px(to_plan(keyframe.pose.position, plan.up)),
@@ -173,6 +208,16 @@ void draw_keyframe_labels(cairo_t* cr, const View& view, const FloorPlan& plan, 
 }
 
 }  // namespace
+
+std::vector<PlanPoint> outline_on_paper(const FloorPlan& plan, const motion::Pose& pose) {
+  if (!plan.body_C.empty()) return body_on_paper(plan, pose);
+  std::vector<PlanPoint> points;
+  for (const geometry::Vec3& corner : motion::corners_W(plan.corners_C, pose)) {
+    points.push_back(to_plan(corner, plan.up));
+  }
+  points.push_back(points.front());
+  return points;
+}
 
 void draw_section(cairo_t* cr, const View& view, const FloorSection& section) {
   cairo_save(cr);

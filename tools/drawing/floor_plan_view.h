@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/drawing/axes.h"
 #include "tools/drawing/floor_plan.h"
@@ -30,6 +31,10 @@ PlanBox bounds_on_paper(const scene::Mesh& mesh, SceneUp up);
 
 /// Returns the view of the whole `box`, as large as `frame` allows.
 View fitted(const Frame& frame, const PlanBox& box);
+
+/// Returns the outline of the near quadrilateral at a pose, or of the convex hull of the body in
+/// place of it. Its first point comes again at the end.
+std::vector<PlanPoint> outline_on_paper(const FloorPlan& plan, const motion::Pose& pose);
 
 /// Draws the section of a scene, without a border.
 void draw_section(cairo_t* cr, const View& view, const FloorSection& section);

@@ -77,11 +77,11 @@ std::vector<LegendEntry> legend_of(const FloorPlan& plan, bool has_several_store
   std::vector<LegendEntry> entries{
       keyframe_entry(false, std::string(names::kGiven) + ", from 0"),
       keyframe_entry(true, std::string(names::kInserted)),
-      quad_entry(palette::kGiven, "near quadrilateral"),
+      quad_entry(palette::kGiven, plan.body_C.empty() ? "near quadrilateral" : "body"),
       line_entry(&stroke_before, plan.path_names.before),
       line_entry(&stroke_after, plan.path_names.after),
-      corner_entry(),
   };
+  if (plan.body_C.empty()) entries.push_back(corner_entry());
   if (!plan.corrected.empty()) {
     entries.push_back(line_entry(&stroke_corrected, std::string(names::kCorrected)));
   }

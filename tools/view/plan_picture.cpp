@@ -9,8 +9,8 @@
 namespace camway::view {
 
 std::string plan_picture(const LastPlan& last) {
-  draw::FloorPlan plan = draw::plan_of_answer(last.request.camera, last.result,
-                                              last.mesh ? *last.mesh : scene::Mesh());
+  draw::FloorPlan plan =
+      draw::plan_of_answer(last.request, last.result, last.mesh ? *last.mesh : scene::Mesh());
   plan.title = last.request.scene;
   plan.up = tools::vertical_axis(std::nullopt, last.request);
   return draw::floor_plan_svg(plan);

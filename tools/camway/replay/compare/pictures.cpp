@@ -9,6 +9,7 @@
 
 #include "lcmtypes/wire/channels.h"
 #include "tools/answers/scene_record.h"
+#include "tools/drawing/answer_plan.h"
 #include "tools/drawing/floor_plan.h"
 
 namespace camway::tools {
@@ -55,7 +56,7 @@ std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
   plan.path_names = {head.then, head.now};
   if (recorded.request) {
     plan.up = vertical_axis(std::nullopt, *recorded.request);
-    plan.corners_C = motion::near_corners_C(recorded.request->camera);
+    draw::set_body(*recorded.request, plan);
   }
   if (!then.path.empty()) plan.before = draw::sample(then.path, kPictureSamples);
   if (!now.path.empty()) plan.after = draw::sample(now.path, kPictureSamples);
