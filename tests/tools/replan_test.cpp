@@ -157,5 +157,70 @@ TEST(Replan, ASlowedPathHasNoFrame) {
     EXPECT_EQ(keyframe.image, geometry::Vec4::Zero());
 }
 
+// docs/requests.md tells this way to edit a slowed answer.
+TEST(Replan, AnAnswerThatIsSlowedLaterGivesTheSlowedPath) {
+  constexpr double kSameTime = 1e-12;  // relative: the law is computed anew
+  for (const char* const name : {"office-graze-column", "office-graze-door"}) {
+    SCOPED_TRACE(name);
+    json request =
+        document(fs::path(CAMWAY_SCENES_FOLDER) / "requests" / (std::string(name) + ".json"));
+    request["options"]["limits"] = {{"speed_m_per_s", 0.9}, {"acceleration_m_per_s2", 0.8}};
+    const RequestFile asked = parsed(request);
+    const scene::Snapshot& scene = scene_of(asked.scene);
+    const PlanResult fast = planning::plan(scene, asked);
+    EXPECT_EQ(fast.status, planning::Status::kPartial) << fast.message;
+    EXPECT_TRUE(fast.certificate.certified);
+    request["options"]["limits"]["retime"] = true;
+    const PlanResult slowed = planning::plan(scene, parsed(request));
+    EXPECT_GT(slowed.time_scale, 1.0);
+    const PlanResult later =
+        planning::plan(scene, parsed(again(request, json::parse(*write_plan_response(fast)))));
+    ASSERT_EQ(later.status, planning::Status::kOk) << later.message;
+    EXPECT_NEAR(later.time_scale, slowed.time_scale, kSameTime * slowed.time_scale);
+    for (int i = 0; i <= kSamples; ++i) {
+      const double share = static_cast<double>(i) / kSamples;
+      const motion::Pose one = slowed.path.pose(share * slowed.path.end_s());
+      const motion::Pose other = later.path.pose(share * later.path.end_s());
+      ASSERT_LE((one.position - other.position).norm(), kSamePath) << share;
+      const geometry::Quat turn = one.orientation.conjugate() * other.orientation;
+      ASSERT_LE(2.0 * turn.vec().norm(), kSamePath) << share;
+    }
+  }
+}
+
+// Where a correction begins within a segment, the rest of it is another Bezier curve.
+TEST(Replan, OutsideOfCorrectionsThePathIsAsInterpolated) {
+  constexpr double kRounding = 1e-12;
+  int whole = 0;
+  int cut = 0;
+  for (const fs::path& file : own_requests()) {
+    SCOPED_TRACE(file.filename());
+    json request = document(file);
+    const RequestFile asked = parsed(request);
+    const scene::Snapshot& scene = scene_of(asked.scene);
+    const PlanResult corrected = planning::plan(scene, asked);
+    if (!corrected.frame) continue;
+    request["options"]["max_inserted_keyframes"] = 0;
+    const PlanResult before = planning::plan(scene, parsed(request));
+    for (const motion::Segment& segment : corrected.path.segments()) {
+      const double middle_s = 0.5 * (segment.t0_s + segment.t1_s);
+      const bool is_changed = std::ranges::any_of(corrected.corrections, [&](const auto& each) {
+        return each.t_begin_s < middle_s && middle_s < each.t_end_s;
+      });
+      if (is_changed) continue;
+      const motion::Segment& other = before.path.segments()[before.path.segment_index(middle_s)];
+      const bool is_whole = segment.t0_s == other.t0_s && segment.t1_s == other.t1_s;
+      ++(is_whole ? whole : cut);
+      EXPECT_EQ(segment.position == other.position, is_whole);
+      const motion::Pose pose = corrected.path.pose(middle_s);
+      const motion::Pose old = before.path.pose(middle_s);
+      EXPECT_LE((pose.position - old.position).norm(), kRounding);
+      EXPECT_LE(2.0 * (pose.orientation.conjugate() * old.orientation).vec().norm(), kRounding);
+    }
+  }
+  EXPECT_GE(whole, 5);
+  EXPECT_GE(cut, 2);
+}
+
 }  // namespace
 }  // namespace camway::tools

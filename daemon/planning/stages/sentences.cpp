@@ -265,6 +265,9 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
                            are_all && !are_too_many ? "" : "at least ", faults.size());
   }
   if (are_too_many && may_repair) message += ", too many to be repaired";
+  if (request.frame) {
+    message += "; note: keyframes of an answer are surely free only if its path is certified";
+  }
   return message;
 }
 

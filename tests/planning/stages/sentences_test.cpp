@@ -16,6 +16,7 @@ namespace camway::planning {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A lower bound must remain one when it is rounded.
 TEST(EffortText, LowerBoundsAreRoundedDown) {
@@ -108,6 +109,16 @@ TEST(WhyRefused, CountsTheFaultsThatAreKnown) {
               HasSubstr("is nearer to the scene than the 0.002 m of error of its smooth surfaces"));
   EXPECT_THAT(why_refused(many, request, 0.0, false, true),
               HasSubstr("; at least 100 keyframes are"));
+}
+
+TEST(WhyRefused, SaysWhichAnswersHaveFreeKeyframes) {
+  const std::vector<KeyframeFault> faults(1);
+  PlanRequest request;
+  EXPECT_THAT(why_refused(faults, request, 0.0, false, true), Not(HasSubstr("certified")));
+  request.frame.emplace();
+  EXPECT_THAT(why_refused(faults, request, 0.0, false, true),
+              HasSubstr("; note: keyframes of an answer are surely free only if its path is "
+                        "certified"));
 }
 
 }  // namespace
