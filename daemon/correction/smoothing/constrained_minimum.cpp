@@ -11,6 +11,7 @@ namespace {
 // Chosen by measurement.
 constexpr double kForceSettled = 1e-3;  // in radii of the ball
 constexpr double kWorthOfRoom = 0.6;    // of all missing gaps together, relative to the form
+constexpr int kSweepsOfCurve = 40;      // a curve that hugs what it passes has many tight bounds
 
 }  // namespace
 
@@ -19,6 +20,7 @@ ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvem
     : form_(form),
       bounds_(improvement.objective, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
+      most_sweeps_(measures_curve(improvement.objective) ? kSweepsOfCurve : kFewSweeps),
       may_turn_(improvement.may_turn),
       has_no_price_(improvement.makes_room) {}
 
@@ -38,7 +40,7 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
     bounds_.add(i, combined(sample.terms, variables), response_(place, place), sample.rows);
   }
   const std::span<BoundConstraint> bounds = bounds_.bounds();
-  solve_qp(bounds, unforced, response_, settled_m_);
+  solve_qp(bounds, unforced, response_, settled_m_, most_sweeps_);
   StackedPoints forces = StackedPoints::Zero(result.rows(), 7);
   for (const BoundConstraint& bound : bounds) {
     if (bound.multiplier == 0.0) continue;

@@ -12,8 +12,6 @@ namespace camway::correction {
 
 namespace {
 
-constexpr int kMostSweeps = 10;  // chosen by measurement
-
 /// Stacked points, one per row, with an eighth number: processors handle two or four at a time.
 using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>;
 
@@ -114,9 +112,9 @@ class QpSolver {
 }  // namespace
 
 void solve_qp(std::span<BoundConstraint> bounds, const StackedPoints& unforced,
-              const Eigen::MatrixXd& response, double settled_m) {
+              const Eigen::MatrixXd& response, double settled_m, int most_sweeps) {
   QpSolver solver(bounds, unforced, response);
-  for (int i = 0; i < kMostSweeps && solver.sweep() >= settled_m; ++i) {
+  for (int i = 0; i < most_sweeps && solver.sweep() >= settled_m; ++i) {
   }
 }
 

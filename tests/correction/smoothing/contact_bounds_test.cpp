@@ -112,6 +112,14 @@ TEST(ContactBounds, WantAShareOfTheRadiusWhereThatShiftsThePictureLittle) {
   EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, 1.0, 2.0).wanted_m(), 0.04);
 }
 
+// A measure of the curve alone is the better, the less room is kept.
+TEST(ContactBounds, WantLittleForAMeasureOfTheCurveAlone) {
+  for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
+    EXPECT_DOUBLE_EQ(ContactBounds(objective, 0.1, 100.0).wanted_m(), 0.003);
+    EXPECT_DOUBLE_EQ(ContactBounds(objective, 1.0, 1.0).wanted_m(), 0.02);
+  }
+}
+
 TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   Draw draw(6202);
   ContactBounds bounds(Objective::kSafest, kBallRadius_m, kViewingDistance_m);

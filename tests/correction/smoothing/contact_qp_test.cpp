@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Dense>
@@ -173,6 +174,24 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
     const double after = dual_of(c, forces_of(c));
     EXPECT_GE(after, before - 1e-12 * (1.0 + std::abs(before))) << run;
     EXPECT_GE(forces_of(c).minCoeff(), 0.0);
+  }
+}
+
+TEST(ContactForces, AreNearerToTheOptimumAfterMoreSweeps) {
+  Draw draw(4206);
+  for (int run = 0; run < 50; ++run) {
+    const ProgramCase c = random_program(draw, 20, 2, 1.0);
+    double last = -std::numeric_limits<double>::infinity();
+    for (const int sweeps : {1, 3, 10, 40}) {
+      ProgramCase swept = c;
+      solve_qp(swept.bounds, swept.unforced, swept.response, 0.0, sweeps);
+      const double dual = dual_of(swept, forces_of(swept));
+      EXPECT_GE(dual, last - 1e-12 * (1.0 + std::abs(dual))) << run;
+      if (sweeps == 3) {
+        EXPECT_GT(dual, last) << run;
+      }
+      last = dual;
+    }
   }
 }
 
