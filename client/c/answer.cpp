@@ -63,6 +63,7 @@ camway_answer_summary summary_of(const PlanResponse& from) {
   summary.near_scale = from.near_scale;
   summary.time_scale = from.time_scale;
   summary.elapsed_s = from.elapsed_s;
+  summary.viewing_distance_m = from.viewing_distance_m;
   return summary;
 }
 

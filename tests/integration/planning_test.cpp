@@ -174,8 +174,10 @@ TEST_F(PlanningTest, OptionsOfCorrectionArriveAndAnswersSayWhatWasDone) {
   PlanRequest request = request_of("office-graze-column", "office");
   request.objective = Objective::kShortest;
   request.seed = 5;
+  request.viewing_distance_m = 2.5;
   const PlanResponse response = client.plan(request);
   ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.viewing_distance_m, 2.5);
   ASSERT_FALSE(response.collisions.empty());
   ASSERT_EQ(response.corrections.size(), response.collisions.size());
   for (std::size_t i = 0; i < response.corrections.size(); ++i) {

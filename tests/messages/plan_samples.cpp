@@ -115,8 +115,8 @@ struct OptionFiller {
 };
 
 motion::PathMeasures measures(Random& random) {
-  return {number(random), number(random), number(random), number(random),
-          number(random), number(random), number(random), number(random)};
+  return {number(random), number(random), number(random), number(random), number(random),
+          number(random), number(random), number(random), number(random), number(random)};
 }
 
 correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
@@ -127,6 +127,7 @@ correction::Correction corrected(const collision::CollisionInterval& interval, R
   correction.t_end_s = number(random);
   correction.moved_m = number(random);
   correction.turned_rad = number(random);
+  correction.shift = {number(random), number(random)};
   const auto count = [&] { return static_cast<std::int32_t>(below(random, 100'000)); };
   correction.tried = {count(), count(), count(), count()};
   return correction;
@@ -138,6 +139,7 @@ void add_report(planning::PlanResult& result, Random& random) {
   }
   if (below(random, 2) == 0) result.measures_before = measures(random);
   if (below(random, 2) == 0) result.measures = measures(random);
+  if (below(random, 2) == 0) result.viewing_distance_m = random.uniform(1.0, 10.0);
   result.bounds.max_W.y() = 2.5;
   result.near_scale = 0.75;
   result.time_scale = 1.25;

@@ -193,6 +193,7 @@ TEST(WireAnswer, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   measures.largest_turn_acceleration_rad_per_s2 = 8.0;
   measures.clearance_lower_bound_m = 9.0;
   result.measures = measures;
+  result.viewing_distance_m = 4.5;
   planning::KeyframeFault fault;
   fault.keyframe = 4;
   fault.depth_m = 0.0625;
@@ -216,6 +217,7 @@ TEST(WireAnswer, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.measures.length_m, 7.0);
   EXPECT_EQ(wire.measures.largest_turn_acceleration_rad_per_s2, 8.0);
   EXPECT_EQ(wire.measures.clearance_lower_bound_m, 9.0);
+  EXPECT_EQ(wire.viewing_distance_m, 4.5);
   ASSERT_EQ(wire.num_slowed, 1);
   EXPECT_EQ(wire.slowed[0].t_begin_s, 1.5);
   EXPECT_EQ(wire.slowed[0].t_end_s, 2.5);
@@ -252,6 +254,13 @@ TEST(WireAnswer, EveryPlanningStatusHasItsNumber) {
     const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
     EXPECT_EQ(wire.status, number);
   }
+}
+
+TEST(WireAnswer, TheViewingDistanceIsZeroForNone) {
+  planning::PlanResult result;
+  result.measures = motion::PathMeasures{};
+  EXPECT_EQ(to_wire(result, {kIds, "", 0, ""}).viewing_distance_m, 0.0);
+  EXPECT_EQ(plain_answer(plan_response_t::STATUS_OVERLOADED, "", {}).viewing_distance_m, 0.0);
 }
 
 TEST(WireAnswer, KeyframeAtFaultIsMinusOneForNone) {

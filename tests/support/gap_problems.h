@@ -73,6 +73,15 @@ inline void add_plate_across(scene::Mesh& mesh, double height_m, double thicknes
   add_cuboid(mesh, {-3, -3, -0.5 * thickness_m}, {3, low_m + height_m, 0.5 * thickness_m});
 }
 
+/// Adds a wall at z = 0 that ends at x = 6. Its window, 0.9 m wide at (0.5, 0.5), lies between
+/// points that are whole metres.
+inline void add_wall_with_window(scene::Mesh& mesh) {
+  add_cuboid(mesh, {-20, -20, -0.1}, {6, 0.05, 0.1});
+  add_cuboid(mesh, {-20, 0.95, -0.1}, {6, 20, 0.1});
+  add_cuboid(mesh, {-20, 0.05, -0.1}, {0.05, 0.95, 0.1});
+  add_cuboid(mesh, {0.95, 0.05, -0.1}, {6, 0.95, 0.1});
+}
+
 inline std::vector<motion::Keyframe> random_keyframes(Draw& draw, int count) {
   std::vector<motion::Keyframe> keyframes;
   double time_s = draw.uniform(-5.0, 5.0);

@@ -138,6 +138,29 @@ void collect_below(const scene::Mesh& mesh, SceneUp up, FloorSection& section) {
   section.outlines = feature_edges(below, up);
 }
 
+/// Whether the outline has the point inside: a ray to the right crosses it an odd number of times.
+bool has_inside(const SectionLine& outline, const PlanPoint& point) {
+  bool is_inside = false;
+  for (std::size_t i = 1; i < outline.points.size(); ++i) {
+    const PlanPoint& a = outline.points[i - 1];
+    const PlanPoint& b = outline.points[i];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double share = (point.y() - a.y()) / (b.y() - a.y());
+    if (point.x() < std::lerp(a.x(), b.x(), share)) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+double area_m2(const SectionLine& outline) {
+  double twice_m2 = 0.0;
+  for (std::size_t i = 1; i < outline.points.size(); ++i) {
+    const PlanPoint& a = outline.points[i - 1];
+    const PlanPoint& b = outline.points[i];
+    twice_m2 += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::abs(0.5 * twice_m2);
+}
+
 }  // namespace
 
 PlanPoint to_plan(const Vec3& p_W, SceneUp up) {
@@ -191,6 +214,21 @@ FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m,
   }
   collect_below(mesh, up, section);
   return section;
+}
+
+void open_room_about(std::span<const PlanPoint> places, FloorSection& section) {
+  if (places.empty()) return;
+  for (std::vector<SectionLine>& object : section.cut) {
+    std::vector<SectionLine*> around;
+    for (SectionLine& line : object) {
+      const auto is_around = [&](const PlanPoint& place) { return has_inside(line, place); };
+      if (line.closed && std::ranges::all_of(places, is_around)) around.push_back(&line);
+    }
+    if (around.size() % 2 == 0) continue;
+    (*std::ranges::max_element(around, {}, [](const SectionLine* line) {
+      return area_m2(*line);
+    }))->closed = false;
+  }
 }
 
 }  // namespace camway::draw

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "daemon/geometry/types.h"
@@ -47,5 +48,10 @@ double find_floor_m(const scene::Mesh& mesh, SceneUp up, double height_m);
 /// is at `floor_m`; by default, it is searched.
 FloorSection cut_floor(const scene::Mesh& mesh, SceneUp up, double height_m,
                        std::optional<double> floor_m = std::nullopt);
+
+/// Tells apart a room from a solid. Where an odd number of outlines of an object has all of
+/// `places`, which are not in a solid, the largest one is the wall of a room without a thickness:
+/// it counts as not closed. Does nothing without places.
+void open_room_about(std::span<const PlanPoint> places, FloorSection& section);
 
 }  // namespace camway::draw

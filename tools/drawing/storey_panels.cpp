@@ -160,6 +160,11 @@ std::string side_of(const std::optional<Barrier>& barrier, const std::string& nu
 Panel panel_of(const FloorPlan& plan, const StoreySplit& split, std::size_t storey) {
   Panel panel;
   panel.section = section_of_storey(plan, split, storey);
+  std::vector<PlanPoint> places;
+  for (const motion::Keyframe& keyframe : seen_on(plan, split, storey)) {
+    places.push_back(to_plan(keyframe.pose.position, plan.up));
+  }
+  open_room_about(places, panel.section);
   const std::vector<std::string> numbers = keyframe_numbers(plan.keyframes);
   const bool is_level = are_level(plan.keyframes, plan.up);
   for (std::size_t i = 0; i < plan.keyframes.size(); ++i) {

@@ -145,6 +145,7 @@ void take_report(const PlanResponse& response, planning::PlanResult& result) {
                          correction_of);
   if (response.measures_before) result.measures_before = measures_of(*response.measures_before);
   if (response.measures) result.measures = measures_of(*response.measures);
+  if (response.viewing_distance_m > 0.0) result.viewing_distance_m = response.viewing_distance_m;
   result.bounds = geometry::bounds_of({response.bounds.min_m, response.bounds.max_m});
   result.near_scale = response.near_scale;
   result.time_scale = response.time_scale;

@@ -206,6 +206,9 @@ struct PlanResponse {
   std::vector<Correction> corrections;  ///< one for each of `collisions`; may be empty
   std::optional<PathMeasures> measures_before;  ///< measures of the path as interpolated
   std::optional<PathMeasures> measures;         ///< measures of `path`
+  /// Viewing distance of all shifts in the answer: that of the request, or the one that was taken
+  /// from the scene. 0 if no shift was measured: nothing was corrected, or by "keyframe_insertion".
+  double viewing_distance_m = 0.0;
   double near_scale = 1.0;  ///< near distance that is proved, divided by the requested one
   /// Duration of `path` divided by the requested one; above 1 if the path was slowed to meet motion
   /// limits. Then all times in the answer are times on the slowed path.

@@ -19,6 +19,7 @@
 #include "daemon/correction/search/cell_search.h"
 #include "daemon/correction/search/lattice_ways.h"
 #include "daemon/correction/search/other_side.h"
+#include "daemon/correction/search/shorter_way.h"
 #include "daemon/correction/search/small_ball_way.h"
 #include "daemon/correction/search/tree_search.h"
 
@@ -34,6 +35,8 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
+constexpr int kFewSamples = 300;                       // of trees that turn less than those before
+constexpr std::array<double, 2> kSmallTurns_rad = {0.0, 0.35};  // limits of their turns
 constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
@@ -53,95 +56,102 @@ class Detour {
         has_center_(space.body().is_near(space.center_C(), kBallShares.front() * radius_m_)) {}
 
   DetourResult run(Search search) {
-    result_.candidate = search == Search::kQuick     ? with_ball(Lattices::kCoarse)
-                        : search == Search::kTurning ? with_turns()
-                        : space_.may_turn()          ? with_ball(Lattices::kAllButFinest)
-                                                     : without_turns();
+    result_.candidate = search == Search::kQuick    ? with_ball(Lattices::kCoarse)
+                        : search == Search::kNarrow ? through_narrow_places()
+                                                    : with_ball(Lattices::kAllButFinest);
     return std::move(result_);
   }
 
  private:
-  // Where there is none, looks whether an end is shut in.
-  std::optional<Candidate> without_turns() {
-    std::optional<Candidate> found = with_ball(Lattices::kAll);
-    if (!found && !deadline_.passed()) {
-      result_.pocket = way_of_small_ball(kBallShares.front(), kFewCells).pocket;
-    }
-    return found;
-  }
+  using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
 
-  // Detours with room for every orientation: the cheaper one of two on different sides.
+  // A way, and the path along it.
+  struct DrawnWay {
+    LatticeResult way;
+    Candidate path;
+  };
+
+  // Detours with room for every orientation: the cheapest one of several ways.
   std::optional<Candidate> with_ball(Lattices lattices) {
     const std::optional<SignedPose> begin = ball_escape(space_, from_, radius_m_);
     const std::optional<SignedPose> end = ball_escape(space_, to_, radius_m_);
     if (!begin || !end) return std::nullopt;
     const BallMotion ball{
         .radius_m = radius_m_, .from_W = center_W(*begin), .to_W = center_W(*end)};
-    std::vector<Vec3> about_W;
-    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
-      about_W.push_back(space_.center_W(pose));
-    }
+    about_W_ = centers_as_interpolated();
     const Draw draw = [&](const LatticeResult& way) {
       // Any orientation fits in the ball, so the path keeps its own.
       return followed(oriented(way.way_W, *begin, *end), Turning::kAsPath);
-    };
-    LatticeResult way;
-    std::optional<Candidate> first;
-    const auto use = [&](const LatticeResult& found) {
-      way = found;
-      first = draw(found);
-      return first.has_value();
     };
     // A narrow place is found sooner by the way of a small ball than by a fine lattice.
     std::optional<Candidate> threaded;
     const bool has_escaped = begin->position != from_.position || end->position != to_.position;
     const auto is_done = [&] {
-      if (space_.may_turn()) threaded = along_small_ball(kBallShares.front(), kFewCells);
+      threaded = along_small_ball(kBallShares.front(), kFewCells);
       // The pocket is no proof, and other corrections may follow: it only ends this search.
       const bool is_complete = has_complete_pocket();
       if (is_complete) result_.pocket.reset();
       const bool is_shut_in = is_complete && !has_escaped;
       return threaded || is_shut_in || (!deadline_.passed() && proofs_.is_caged());
     };
-    search_ways(ball, lattices, about_W, {use, proofs_.is_separated, is_done});
-    if (!first) return threaded;
-    std::optional<Candidate> second = on_another_side(ball, way, about_W, draw);
-    const bool is_better = second && cost(*second) < cost(*first);
-    return std::move(is_better ? second : first);
+    std::optional<DrawnWay> best;
+    const auto use = [&](const LatticeResult& way) { return draw_way(way, draw, best); };
+    search_ways(ball, lattices, {use, proofs_.is_separated, is_done});
+    if (!best) return threaded;
+    take_if_cheaper(on_finer_lattice(ball, best->way, draw), *best);
+    take_if_cheaper(on_another_side(ball, best->way, draw), *best);
+    return std::move(best->path);
   }
 
   [[nodiscard]] bool has_complete_pocket() const {
     return result_.pocket && result_.pocket->is_complete;
   }
 
-  using Draw = std::function<std::optional<Candidate>(const LatticeResult& way)>;
+  // Draws a path along `way`; returns false if none is free.
+  static bool draw_way(const LatticeResult& way, const Draw& draw, std::optional<DrawnWay>& drawn) {
+    std::optional<Candidate> path = draw(way);
+    if (path) drawn = DrawnWay{way, *std::move(path)};
+    return drawn.has_value();
+  }
+
+  void take_if_cheaper(std::optional<DrawnWay> other, DrawnWay& best) const {
+    if (other && cost(other->path) < cost(best.path)) best = *std::move(other);
+  }
+
+  // A much shorter way than `first`, where that is long.
+  std::optional<DrawnWay> on_finer_lattice(const BallMotion& ball, const LatticeResult& first,
+                                           const Draw& draw) {
+    std::optional<DrawnWay> shorter;
+    const std::optional<BallMotion> limited = shorter_way(ball, first);
+    if (!limited) return std::nullopt;
+    const auto use = [&](const LatticeResult& way) { return draw_way(way, draw, shorter); };
+    search_ways(*limited, Lattices::kCoarse, {.use = use});
+    return shorter;
+  }
 
   // A way that avoids the apex of `first`; nothing if it leads much farther off.
-  std::optional<Candidate> on_another_side(const BallMotion& ball, const LatticeResult& first,
-                                           const std::vector<Vec3>& about_W, const Draw& draw) {
-    const OtherSide other_side(first, about_W);
-    std::optional<Candidate> second;
-    const auto use = [&](const LatticeResult& found) {
-      const bool is_too_far = other_side.is_too_far(found);
-      if (!is_too_far) second = draw(found);
-      return is_too_far || second.has_value();
+  std::optional<DrawnWay> on_another_side(const BallMotion& ball, const LatticeResult& first,
+                                          const Draw& draw) {
+    const OtherSide other_side(first, about_W_);
+    std::optional<DrawnWay> second;
+    const auto use = [&](const LatticeResult& way) {
+      return other_side.is_too_far(way) || draw_way(way, draw, second);
     };
-    search_ways(other_side.limited(ball), Lattices::kCoarse, about_W, {.use = use});
+    search_ways(other_side.limited(ball), Lattices::kCoarse, {.use = use});
     return second;
   }
 
-  void search_ways(const BallMotion& ball, Lattices lattices, const std::vector<Vec3>& about_W,
-                   const LatticeWayUse& use) {
-    count_points(for_each_lattice_way(space_, ball, lattices, about_W, use, deadline_));
+  void search_ways(const BallMotion& ball, Lattices lattices, const LatticeWayUse& use) {
+    count_points(for_each_lattice_way(space_, ball, lattices, about_W_, use, deadline_));
   }
 
   [[nodiscard]] double cost(const Candidate& candidate) const {
     return closeness_cost(candidate.path, problem_.original, space_.closeness());
   }
 
-  // Detours on which the body must turn: narrow passages and trees along the way of a smaller ball.
+  // Detours where the ball does not fit: narrow passages and trees along the way of a smaller ball.
   // The smallest ball comes first: if it has no way, the others have none.
-  std::optional<Candidate> with_turns() {
+  std::optional<Candidate> through_narrow_places() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
       std::optional<Candidate> found = along_small_ball(share, kMostCells);
@@ -151,7 +161,7 @@ class Detour {
       if (found) return found;
     }
     if (std::optional<Candidate> found = between_ways_out()) return found;
-    // The finest lattice comes last: detours that need it mostly need turning as well.
+    // The finest lattice comes last: detours that need it mostly are narrow as well.
     return with_ball(Lattices::kFinest);
   }
 
@@ -201,8 +211,35 @@ class Detour {
     return std::move(found.candidate);
   }
   std::optional<Candidate> followed(const TreeResult& tree) {
+    std::optional<Candidate> found = followed(tree, space_);
+    if (found && space_.may_turn()) take_with_less_turning(*found);
+    return found;
+  }
+  std::optional<Candidate> followed(const TreeResult& tree, FreeSpace& space) {
     result_.effort.tree_samples += tree.samples;
-    return followed(tree.guide, Turning::kAsGuide);
+    const Turning turning = space.may_turn() ? Turning::kAsGuide : Turning::kAsPath;
+    Followed found = follow(problem_, tree.guide, turning, budget_, space, deadline_);
+    result_.effort.paths += found.paths;
+    return std::move(found.candidate);
+  }
+
+  // Trees turn as they like. Looks for a path along the same way of a small ball that turns less
+  // and costs less.
+  void take_with_less_turning(Candidate& found) {
+    OrientationPolicy policy = space_.policy();
+    for (const double most_rad : kSmallTurns_rad) {
+      if (small_way_W_.empty() || most_rad >= space_.policy().max_turn_rad || deadline_.passed())
+        return;
+      policy.max_turn_rad = most_rad;
+      FreeSpace space(space_.query(), policy, space_.closeness());
+      TreeOptions trees = tree_about(small_way_W_);
+      trees.max_samples = kFewSamples;
+      std::optional<Candidate> other =
+          followed(tree_way(space, from_, to_, trees, deadline_), space);
+      if (!other || cost(*other) >= cost(found)) continue;
+      found = *std::move(other);
+      return;
+    }
   }
 
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
@@ -225,6 +262,14 @@ class Detour {
           problem_.original.pose(std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), share)));
     }
     return poses;
+  }
+
+  [[nodiscard]] std::vector<Vec3> centers_as_interpolated() const {
+    std::vector<Vec3> centers_W;
+    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
+      centers_W.push_back(space_.center_W(pose));
+    }
+    return centers_W;
   }
 
   CellResult way_of_small_ball(double share, std::size_t max_cells) {
@@ -274,6 +319,7 @@ class Detour {
   const SignedPose from_;
   const SignedPose to_;
   const bool has_center_;          ///< whether the centre of the ball about the body is in the body
+  std::vector<Vec3> about_W_;      ///< the path as interpolated, which ways should follow
   std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
   DetourResult result_;
 };

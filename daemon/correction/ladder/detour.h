@@ -16,7 +16,7 @@ namespace camway::correction {
 enum class Search : std::uint8_t {
   kQuick,     ///< ways on coarse lattices alone, for which no proof is asked
   kWithRoom,  ///< ways with room for the body in any orientation; cheap
-  kTurning,   ///< ways on which the body must turn to get through
+  kNarrow,    ///< ways that are narrower than the ball that holds the body in any orientation
 };
 
 /// Proofs that there is no detour, which are looked for when a search becomes costly.

@@ -77,7 +77,7 @@ class Ladder {
     if (collisions_.any_without_way() && !deadline().passed()) {
       if (prover_.is_separated()) return false;
       if (!deadline().passed() && prover_.is_caged()) return false;
-      if (space_.may_turn()) correct_all(Search::kTurning);
+      correct_all(Search::kNarrow);
     }
     timed_out_ = collisions_.count_open() > 0 && deadline().passed();
     return true;

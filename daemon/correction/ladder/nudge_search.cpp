@@ -8,6 +8,7 @@
 
 #include "daemon/correction/path/guide.h"
 #include "daemon/correction/path/orientation_rule.h"
+#include "daemon/geometry/segment_triangle.h"
 #include "daemon/motion/path/quaternion.h"
 
 namespace camway::correction {
@@ -166,6 +167,23 @@ double NudgeSearch::farthest() const {
   return std::max(kFarthest * radius_m_, kFarthestShift * space_.closeness().viewing_distance_m);
 }
 
+// Along the segment from where the collision begins, which is free, each closed surface is crossed
+// an odd number of times if the nudged body is on its other side.
+bool NudgeSearch::leads_inside(const Nudge& nudge) const {
+  const Vec3 outside_W = space_.center_W(problem_.path.pose(problem_.interval.t_begin_s));
+  const Vec3 nudged_W = space_.center_W(motion::unsigned_pose(nudged_middle(nudge)));
+  const geometry::LineSegment segment{outside_W, nudged_W};
+  geometry::Box box(outside_W);
+  box.extend(nudged_W);
+  const scene::SceneIndex& index = space_.obstacles().index;
+  bool is_inside = false;
+  index.for_each_touching(box, [&](std::uint32_t triangle) {
+    if (geometry::hit_fraction(segment, index.triangle(triangle))) is_inside = !is_inside;
+    return true;
+  });
+  return is_inside;
+}
+
 std::vector<Nudge> NudgeSearch::smallest() {
   const std::vector<Vec3> all_W = directions_W();
   std::vector<Nudge> nudges;
@@ -174,7 +192,7 @@ std::vector<Nudge> NudgeSearch::smallest() {
     for (const Vec3& direction_W : all_W) {
       ++directions_;
       const std::optional<double> amount = least_amount(direction_W, limit, share * radius_m_);
-      if (!amount) continue;
+      if (!amount || leads_inside({direction_W, *amount})) continue;
       nudges.push_back({direction_W, *amount});
       limit = std::min(limit, kWorseWay * *amount);
     }

@@ -61,6 +61,9 @@ class NudgeSearch {
   /// `limit` does.
   std::optional<double> least_amount(const geometry::Vec3& direction_W, double limit,
                                      double margin_m);
+  /// Whether the nudged body is, in the middle, within a closed surface that it was outside of. No
+  /// bump leads there, although the pose is free of triangles.
+  [[nodiscard]] bool leads_inside(const Nudge& nudge) const;
   /// The largest amount that is tried.
   [[nodiscard]] double farthest() const;
   [[nodiscard]] std::vector<geometry::Vec3> directions_W();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,9 +24,11 @@ using motion::CubicPath;
 // Chosen by measurement; none changes what is proved.
 constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
 constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
+constexpr double kDear_rad = 0.3;        // cost of a part, divided by its duration
 constexpr int kStepsOfRelaxation = 8;    // of the first, and of all that follow
 constexpr int kStepsOfRoom = 12;         // of the relaxation that makes room
 constexpr std::size_t kMostKnots = 400;  // of a part
+constexpr std::size_t kMostNeeded = 16;  // knots without which a part is found to collide
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
 constexpr std::array<double, 2> kScales = {1.0, 1.15};
 
@@ -35,6 +38,32 @@ struct Drawing {
   Relaxed drawn;
   double cost = 0.0;
 };
+
+/// A drawing, or the time of a collision that prevents it, if there is one.
+struct TriedDrawing {
+  std::optional<Drawing> drawing;
+  std::optional<double> collides_s;
+};
+
+/// Whether other knots were taken, or the time of a collision that prevents it, if there is one.
+struct Redrawn {
+  bool is_taken = false;
+  std::optional<double> collides_s = {};
+};
+
+std::size_t half_of(std::size_t count) { return (count + 1) / 2; }
+
+double nearest(const std::vector<double>& knots_s, double time_s) {
+  return *std::ranges::min_element(knots_s, {},
+                                   [time_s](double knot_s) { return std::abs(knot_s - time_s); });
+}
+
+std::vector<double> without(std::vector<double> knots_s, const std::vector<double>& removed_s) {
+  std::erase_if(knots_s, [&](double knot_s) {
+    return std::ranges::find(removed_s, knot_s) != removed_s.end();
+  });
+  return knots_s;
+}
 
 class Redrawer {
  public:
@@ -74,11 +103,17 @@ class Redrawer {
   /// The drawing on `knots_s` that is nearest to `wanted`; nothing if it collides.
   [[nodiscard]] std::optional<Drawing> drawing(std::vector<double> knots_s,
                                                const CubicPath& wanted) const {
-    if (!choice_.is_valid(knots_s) || knots_s.size() > kMostKnots) return std::nullopt;
+    return try_drawing(std::move(knots_s), wanted).drawing;
+  }
+
+  [[nodiscard]] TriedDrawing try_drawing(std::vector<double> knots_s,
+                                         const CubicPath& wanted) const {
+    if (!choice_.is_valid(knots_s) || knots_s.size() > kMostKnots) return {};
     const motion::KnotRow knots = motion::KnotRow::at(knots_s, problem_.places);
     const FreeCoefficients free(problem_, knots, Ends::kFixed);
-    if (!knots.fits() || free.size() == 0) return std::nullopt;
+    if (!knots.fits() || free.size() == 0) return {};
     const Offsets nearest = fitted(free, wanted, problem_.path);
+    TriedDrawing tried;
     for (const double scale : kScales) {
       Offsets offsets = nearest;
       for (motion::CubicPoint& offset : offsets.at) {
@@ -86,13 +121,15 @@ class Redrawer {
         // Where nothing turns, what the fit finds is rounding.
         offset.image *= part_.turns ? scale : 0.0;
       }
-      std::optional<Candidate> found =
-          free_candidate(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
-      if (!found) continue;
-      const double drawn_cost = cost(found->path);
-      return Drawing{std::move(knots_s), {std::move(offsets), *std::move(found)}, drawn_cost};
+      Attempt found = attempt(problem_, {bumps_for(offsets, Ends::kFixed)}, space_, deadline_);
+      if (found.candidate) {
+        const double drawn_cost = cost(found.candidate->path);
+        Relaxed drawn{std::move(offsets), *std::move(found.candidate)};
+        return {Drawing{std::move(knots_s), std::move(drawn), drawn_cost}, std::nullopt};
+      }
+      tried.collides_s = std::midpoint(found.collision->t_begin_s, found.collision->t_end_s);
     }
-    return std::nullopt;
+    return tried;
   }
 
   void relax(Drawing& drawing, const Improvement& improvement, base::Budget& budget) const {
@@ -101,13 +138,18 @@ class Redrawer {
     drawing.cost = cost(drawing.drawn.candidate.path);
   }
 
-  /// Lets the part become longer, where that is cheaper.
+  /// Lets the part become longer, where that is cheaper. A dear part that is as long as it may be,
+  /// such as a way round, is only relaxed.
   void extend(Drawing& best) const {
+    base::Budget budget(kStepsOfRelaxation);
     std::vector<double> knots_s = choice_.extended(best.knots_s, part_.begin_s, part_.end_s);
-    if (knots_s.size() == best.knots_s.size()) return;
+    if (knots_s.size() == best.knots_s.size()) {
+      const bool is_dear = best.cost > kDear_rad * (part_.end_s - part_.begin_s);
+      if (is_dear) relax(best, {.may_turn = part_.turns}, budget);
+      return;
+    }
     std::optional<Drawing> longer = drawing(std::move(knots_s), best.drawn.candidate.path);
     if (!longer) return;
-    base::Budget budget(kStepsOfRelaxation);
     relax(*longer, {.may_turn = part_.turns}, budget);
     if (longer->cost >= best.cost) return;
     best = *std::move(longer);
@@ -121,14 +163,14 @@ class Redrawer {
     relax(best, {.may_turn = part_.turns, .makes_room = true}, budget);
   }
 
-  /// Draws `best` on other knots; returns false if that is not worth it.
-  bool redraw_on(std::vector<double> knots_s, Drawing& best) {
-    std::optional<Drawing> sparser = drawing(std::move(knots_s), best.drawn.candidate.path);
-    if (!sparser) return false;
-    if (!is_worth(*sparser)) relax(*sparser, {.may_turn = part_.turns}, budget_);
-    if (!is_worth(*sparser)) return false;
-    best = *std::move(sparser);
-    return true;
+  /// Draws `best` on other knots, if that is worth it.
+  Redrawn redraw_on(std::vector<double> knots_s, Drawing& best) {
+    TriedDrawing tried = try_drawing(std::move(knots_s), best.drawn.candidate.path);
+    if (!tried.drawing) return {false, tried.collides_s};
+    if (!is_worth(*tried.drawing)) relax(*tried.drawing, {.may_turn = part_.turns}, budget_);
+    if (!is_worth(*tried.drawing)) return {};
+    best = *std::move(tried.drawing);
+    return {.is_taken = true};
   }
 
   /// Ends the part at keyframes that it crosses for little.
@@ -137,25 +179,35 @@ class Redrawer {
     if (knots_s != best.knots_s) redraw_on(std::move(knots_s), best);
   }
 
-  /// Removes knots in batches, halved where that is too much at once.
+  /// Removes knots in batches, halved where that is too much at once. A knot without which the path
+  /// collides stays.
   void thin_out(Drawing& best) {
-    const auto removable = [&] {
-      return choice_.removable(best.knots_s, best.drawn.candidate.path);
-    };
-    std::vector<std::size_t> knots = removable();
-    std::size_t batch = (knots.size() + 1) / 2;
+    std::vector<double> needed_s;
+    std::vector<double> knots_s = spared(best, needed_s);
+    std::size_t batch = half_of(knots_s.size());
     while (batch > 0 && !deadline_.passed()) {
-      knots.resize(batch);
-      std::ranges::sort(knots);
-      std::vector<double> left_s = best.knots_s;
-      for (std::size_t i = batch; i-- > 0;) {
-        left_s.erase(left_s.begin() + static_cast<std::ptrdiff_t>(knots[i]));
-      }
-      const bool is_less = redraw_on(std::move(left_s), best);
-      if (!is_less) batch /= 2;
-      knots = removable();
-      batch = std::min(batch, is_less ? (knots.size() + 1) / 2 : knots.size());
+      knots_s.resize(batch);
+      const Redrawn redrawn = redraw_on(without(best.knots_s, knots_s), best);
+      const bool is_hit = redrawn.collides_s && needed_s.size() < kMostNeeded;
+      if (is_hit) needed_s.push_back(nearest(knots_s, *redrawn.collides_s));
+      knots_s = spared(best, needed_s);
+      if (redrawn.is_taken)
+        batch = half_of(knots_s.size());
+      else
+        batch = std::min(is_hit ? half_of(batch) : batch / 2, knots_s.size());
     }
+  }
+
+  /// The knots that may be removed, those that matter least first, without the ones that are
+  /// needed.
+  [[nodiscard]] std::vector<double> spared(const Drawing& best,
+                                           const std::vector<double>& needed_s) const {
+    std::vector<double> knots_s;
+    for (const std::size_t i : choice_.removable(best.knots_s, best.drawn.candidate.path)) {
+      const double knot_s = best.knots_s[i];
+      if (std::ranges::find(needed_s, knot_s) == needed_s.end()) knots_s.push_back(knot_s);
+    }
+    return knots_s;
   }
 
   const Problem& problem_;

@@ -2,7 +2,6 @@
 #include "daemon/correction/smoothing/constrained_minimum.h"
 
 #include <algorithm>
-#include <span>
 
 namespace camway::correction {
 
@@ -32,24 +31,12 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
   if (has_no_price_) price_room(variables, samples);
   bounds_.clear();
   if (touching_.empty()) return result;
-  StackedPoints unforced(response_.rows(), 7);
+  const Responses responses = responses_of(terms_, form_.factors());
   for (std::size_t i = 0; i < touching_.size(); ++i) {
-    PathSample& sample = *touching_[i];
-    const auto place = static_cast<Eigen::Index>(i);
-    unforced.row(place) = combined(sample.terms, result);
-    bounds_.add(i, combined(sample.terms, variables), response_(place, place), sample.rows);
+    const double response = own_response(terms_[i], responses.col(static_cast<Eigen::Index>(i)));
+    bounds_.add(i, combined(terms_[i], variables), response, touching_[i]->rows);
   }
-  const std::span<BoundConstraint> bounds = bounds_.bounds();
-  solve_qp(bounds, unforced, response_, settled_m_, most_sweeps_);
-  StackedPoints forces = StackedPoints::Zero(result.rows(), 7);
-  for (const BoundConstraint& bound : bounds) {
-    if (bound.multiplier == 0.0) continue;
-    for (const Term& term : touching_[bound.sample]->terms) {
-      forces.row(term.variable) += term.share * bound.multiplier * bound.direction;
-    }
-  }
-  form_.factors().solve_in_place(forces);
-  result += forces;
+  solve_qp(bounds_.bounds(), terms_, responses, settled_m_, most_sweeps_, result);
   bounds_.remember();
   return result;
 }
@@ -70,24 +57,11 @@ void ConstrainedMinimum::price_room(const StackedPoints& variables,
 
 void ConstrainedMinimum::find_touching(std::vector<PathSample>& samples) {
   touching_.clear();
+  terms_.clear();
   for (PathSample& sample : samples) {
-    if (!sample.contacts.empty()) touching_.push_back(&sample);
-  }
-  const auto count = static_cast<Eigen::Index>(touching_.size());
-  response_.resize(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    Eigen::VectorXd moved = Eigen::VectorXd::Zero(form_.minimum().rows());
-    for (const Term& term : touching_[static_cast<std::size_t>(j)]->terms) {
-      moved[term.variable] = term.share;
-    }
-    form_.factors().solve_in_place(moved);
-    for (Eigen::Index i = 0; i <= j; ++i) {
-      double sum = 0.0;
-      for (const Term& term : touching_[static_cast<std::size_t>(i)]->terms) {
-        sum += term.share * moved[term.variable];
-      }
-      response_(i, j) = response_(j, i) = sum;
-    }
+    if (sample.contacts.empty()) continue;
+    touching_.push_back(&sample);
+    terms_.push_back(sample.terms);
   }
 }
 

@@ -34,7 +34,7 @@ class ConstrainedMinimum {
   /// Sets the price of room. At that price all gaps that are missing now are worth `kWorthOfRoom`
   /// of the form, beside what `ContactBounds` adds for small ones.
   void price_room(const StackedPoints& variables, const std::vector<PathSample>& samples);
-  /// Finds the samples with contacts, and how they respond to one another.
+  /// Finds the samples with contacts.
   void find_touching(std::vector<PathSample>& samples);
 
   const SmoothingForm& form_;
@@ -44,7 +44,7 @@ class ConstrainedMinimum {
   const bool may_turn_;
   bool has_no_price_;                  ///< whether the price of room is still to be set
   std::vector<PathSample*> touching_;  ///< the samples with contacts, numbered in the bounds
-  Eigen::MatrixXd response_;           ///< displacement of each of them per unit force on each
+  std::vector<Terms> terms_;           ///< of these samples
 };
 
 }  // namespace camway::correction

@@ -23,6 +23,9 @@ class BandFactors {
  public:
   explicit BandFactors(const BandMatrix& matrix);
 
+  /// Number of rows of the matrix.
+  [[nodiscard]] Eigen::Index size() const { return factors_.rows(); }
+
   /// Replaces right-hand sides, one in each column, by the solutions. Requires as many rows as the
   /// matrix has.
   template <class RightHandSides>

@@ -126,7 +126,7 @@ struct PlanResult {
   std::optional<motion::PathMeasures> measures_before;
   std::optional<motion::PathMeasures> measures;
   /// Viewing distance of the shifts in `corrections` and `measures`; nothing where no correction
-  /// was found by shifts. Files have it, messages do not.
+  /// was found by shifts. [Limit: 0 < value]
   std::optional<double> viewing_distance_m;
   /// Near distance that the proof is for, as a share of the requested one; below 1 only if
   /// `PlanOptions::max_shrink` allows it.

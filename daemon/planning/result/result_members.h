@@ -239,10 +239,8 @@ void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
   io(may_lack("corrections"), result.corrections, wire.corrections...);
   io.group(may_lack("measures", result.measures_before || result.measures), 4,
            [&](auto& object) { measures_members(object, result, wire...); });
-  if constexpr (sizeof...(Wire) == 0) {
-    io(may_lack("viewing_distance_m", result.viewing_distance_m.has_value()),
-       result.viewing_distance_m);
-  }
+  io(may_lack("viewing_distance_m", result.viewing_distance_m.has_value()),
+     result.viewing_distance_m, wire.viewing_distance_m...);
   io(may_lack("bounds", result.bounds.any()), result.bounds, wire.bounds...);
   io(may_lack("near_scale", result.near_scale != 1.0), result.near_scale, wire.near_scale...);
   io(may_lack("time_scale", result.time_scale != 1.0), result.time_scale, wire.time_scale...);

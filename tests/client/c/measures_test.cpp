@@ -46,6 +46,7 @@ std::vector<testing_support::Bytes> corrected(const plan_request_t& asked) {
   pages[0].has_measures = pages[0].has_measures_before = 1;
   pages[0].measures = measures_from(100);
   pages[0].measures_before = measures_from(200);
+  pages[0].viewing_distance_m = 4.0625;
   for (int i = 0; i < 5; ++i) {
     correction_t correction{};
     correction.method = static_cast<std::int8_t>(i);
@@ -82,6 +83,10 @@ TEST_F(CMeasuresTest, AreThoseOfTheClientOfCxx) {
   EXPECT_EQ(std::memcmp(&measures.length_m, &*expected.measures, sizeof(PathMeasures)), 0);
   ASSERT_EQ(camway_answer_measures_before(answer, &measures, sizeof measures), CAMWAY_OK);
   EXPECT_EQ(std::memcmp(&measures.length_m, &*expected.measures_before, sizeof(PathMeasures)), 0);
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(answer, &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_EQ(expected.viewing_distance_m, 4.0625);
+  EXPECT_EQ(summary.viewing_distance_m, expected.viewing_distance_m);
 
   std::vector<camway_correction> corrections(5);
   std::size_t count = 0;
@@ -116,6 +121,9 @@ TEST_F(CMeasuresTest, AreRefusedWhereThereAreNone) {
   EXPECT_EQ(camway_answer_measures(answer, &measures, sizeof measures), CAMWAY_INVALID);
   EXPECT_THAT(camway_last_error(), HasSubstr("no such measures"));
   EXPECT_EQ(camway_answer_measures_before(answer, &measures, sizeof measures), CAMWAY_INVALID);
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(answer, &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_EQ(summary.viewing_distance_m, 0.0);
   std::size_t count = 7;
   EXPECT_EQ(camway_answer_corrections(answer, nullptr, 0, &count), CAMWAY_OK);
   EXPECT_EQ(count, 0u);

@@ -99,6 +99,7 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   for (plan_response_t& page : pages) {
     page.near_scale = 0.75;
     page.time_scale = 1.25;
+    page.viewing_distance_m = 4.5;
     page.deadline_reached = 1;
     page.has_measures = 1;
     page.measures.length_m = 7.0;
@@ -145,6 +146,7 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.measures->clearance_lower_bound_m, 9.0);
   EXPECT_EQ(response.near_scale, 0.75);
   EXPECT_EQ(response.time_scale, 1.25);
+  EXPECT_EQ(response.viewing_distance_m, 4.5);
   EXPECT_TRUE(response.deadline_reached);
 }
 

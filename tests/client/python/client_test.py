@@ -3,10 +3,13 @@
 import asyncio
 import concurrent.futures
 import gc
+import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -62,7 +65,8 @@ class ClientTest(unittest.TestCase):
                 except camway.Error as error:
                     answers.append(error.answer)
             for member in ("status", "message", "path", "keyframes", "frame", "collisions", "remaining", "certified",
-                           "clearance_lower_bound_m", "corrections", "infeasibility", "keyframe_faults", "bounds"):
+                           "clearance_lower_bound_m", "corrections", "infeasibility", "keyframe_faults", "bounds",
+                           "viewing_distance_m"):
                 self.assertEqual(getattr(answers[0], member), getattr(answers[1], member), f"{member} of {document}")
 
     def test_errors_are_those_of_the_cpp_client(self):
@@ -96,6 +100,22 @@ class ClientTest(unittest.TestCase):
         self.assertEqual((answer.status, answer.ok, answer.certified), ("infeasible", False, False))
         self.assertEqual(len(answer.infeasibility.triangles), 12)
         self.assertTrue(self.client.plan(request_of("office-graze-column")).ok)
+
+    def test_the_viewing_distance_is_that_of_the_file_of_the_command(self):
+        for options in ({}, {"viewing_distance_m": 2.5}, {"max_inserted_keyframes": 0}):
+            document = support.request_document("office-graze-column")
+            document = document | {"options": options, "scene": str(support.SCENES / "office.obj")}
+            with tempfile.TemporaryDirectory() as folder:
+                asked, written = pathlib.Path(folder) / "request.json", pathlib.Path(folder) / "answer.json"
+                asked.write_text(json.dumps(document))
+                support.run_camway("plan", "--request", asked, "--response", written)
+                wanted = json.loads(written.read_text())
+            request = camway.Request.from_json(document)
+            request.scene = "office"
+            answer = self.client.plan(request)
+            self.assertEqual(answer.viewing_distance_m, wanted.get("viewing_distance_m", 0.0))
+            self.assertEqual(answer.to_json().get("viewing_distance_m"), wanted.get("viewing_distance_m"))
+            self.assertEqual(answer.viewing_distance_m > 0.0, any(each.moved_m > 0.0 for each in answer.corrections))
 
     def test_many_plans_are_pending_at_a_time(self):
         pending = [self.client.plan_async(request_of("office-graze-column", seed=i + 1)) for i in range(20)]

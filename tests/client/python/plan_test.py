@@ -55,7 +55,7 @@ class PlanTest(unittest.TestCase):
                     statuses.add(answer.status)
                     made = answer.to_json(timing=False)
                     for name in ("status", "segments", "keyframes", "collisions", "remaining_collisions",
-                                 "certificate", "clearance_profile", "scene_digest"):
+                                 "certificate", "clearance_profile", "scene_digest", "viewing_distance_m"):
                         self.assertEqual(made.get(name), wanted.get(name), f"{name} of {document}")
         self.assertGreaterEqual(statuses, {"ok", "infeasible", "invalid"})
 

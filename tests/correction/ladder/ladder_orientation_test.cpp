@@ -6,6 +6,7 @@
 #include "daemon/correction/ladder/ladder.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/orientation_oracle.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -190,6 +191,37 @@ TEST(OrientationPolicy, TurnsNothingWhereOrientationsAreKept) {
 }
 
 // Passing the column_case takes a motion of some 30 cm, or 4° as seen from the target.
+/// A box that is wider than a door when it is turned, in front of the door and behind it.
+PolicyCase box_before_a_door(testing::Random& random) {
+  const Vec3 half_m(random.uniform(0.3, 0.5), 0.8, random.uniform(0.2, 0.45));
+  const double door_m = random.uniform(1.03, 1.2) * 2.0 * half_m.x();
+  PolicyCase c;
+  testing::add_cuboid(c.mesh, {-6, 0, -0.05}, {-0.5 * door_m, 3, 0.05});
+  testing::add_cuboid(c.mesh, {0.5 * door_m, 0, -0.05}, {6, 3, 0.05});
+  testing::add_cuboid(c.mesh, {-0.5 * door_m, 2, -0.05}, {0.5 * door_m, 3, 0.05});
+  testing::add_cuboid(c.mesh, {-6, 0, -4}, {6, 2.6, 4});
+  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), half_m});
+  c.keyframes = {{0, {{random.uniform(0.4, 0.7), 0.85, 2}, Quat::Identity()}},
+                 {6, {{random.uniform(0.4, 0.7), 0.85, -2}, Quat::Identity()}}};
+  return c;
+}
+
+// The ball that holds the box in any orientation does not fit through the door.
+TEST(OrientationPolicy, PassesDoorsThatTheBodyFitsWithoutTurning) {
+  testing::Random random(4612);
+  for (int run = 0; run < 12; ++run) {
+    const PolicyCase c = box_before_a_door(random);
+    OrientationPolicy keep;
+    keep.rule = OrientationRule::kKeep;
+    const Outcome kept = corrected(c, keep, Objective::kClosest);
+    EXPECT_TRUE(kept.is_free) << run;
+    EXPECT_EQ(kept.turned_deg, 0.0) << run;
+    const Outcome free = corrected(c, {}, Objective::kClosest);
+    EXPECT_TRUE(free.is_free) << run;
+    EXPECT_LT(free.turned_deg, 1.2) << run << ": a turn changes more of the picture";
+  }
+}
+
 TEST(OrientationPolicy, TurnsTowardsTheTargetAsItMovesAside) {
   const OrientationPolicy policy = towards({-0.15, 0, -4}, 2.0);
   const Outcome outcome = corrected(column_case(), policy, Objective::kClosest);

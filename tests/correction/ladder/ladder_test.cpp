@@ -14,6 +14,7 @@
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/smoothing/objective_cost.h"
 #include "tests/correction/ladder_case.h"
+#include "tests/support/gap_problems.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -63,6 +64,26 @@ void expect_corrected(const LadderCase& c, const std::vector<CorrectionKind>& ki
 }
 
 TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {CorrectionKind::kMove}); }
+
+// Within the wall the near quadrilateral touches nothing. No small move leads there.
+TEST(Ladder, MovesPastAWallThatIsThickerThanTheCamera) {
+  testing::Random random(4713);
+  for (int run = 0; run < 20; ++run) {
+    Mesh mesh;
+    const double overlap_m = random.uniform(0.02, 0.2);
+    testing::add_cuboid(mesh, {-0.8, -3, -random.uniform(0.4, 1.0)}, {overlap_m, 3, 0});
+    const LadderCase c = case_with(mesh, {at(0, {0, 0, 4}), at(8, {0, 0, -4})});
+    const LadderResult result = c.corrected();
+    EXPECT_TRUE(c.collisions(result.path).empty());
+    for (const Correction& correction : result.corrections) {
+      EXPECT_EQ(correction.kind, CorrectionKind::kMove) << "overlap " << overlap_m;
+    }
+    for (double time_s = 0.0; time_s <= 8.0; time_s += 0.05) {
+      const double moved_m = result.path.pose(time_s).position.head<2>().norm();
+      EXPECT_LT(moved_m, overlap_m + 0.3) << time_s;
+    }
+  }
+}
 
 TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {CorrectionKind::kGoRound}); }
 
@@ -136,6 +157,20 @@ TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
                    {CorrectionKind::kGoRound});
 }
 
+// The coarse lattice, with steps of a metre, finds the end of the wall first.
+TEST(Ladder, TakesAWindowNearbyRatherThanTheEndOfAWall) {
+  Mesh mesh;
+  testing::add_wall_with_window(mesh);
+  const LadderCase c = case_with(mesh, {at(0, {0, 0, 4}), at(8, {0, 0, -4})});
+  const LadderResult result = c.corrected();
+  EXPECT_TRUE(c.collisions(result.path).empty());
+  double farthest_m = 0.0;
+  for (int i = 0; i <= 100; ++i) {
+    farthest_m = std::max(farthest_m, result.path.pose(0.08 * i).position.head<2>().norm());
+  }
+  EXPECT_LT(farthest_m, 2.0);
+}
+
 TEST(Ladder, LeavesWhatItCannotCorrect) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
@@ -188,6 +223,32 @@ TEST(Ladder, IsLocal) {
              other.image == piece.image;
     }));
   }
+}
+
+// The path weaves between plates from either side. Where it collides without one knot, others may
+// still be removed.
+TEST(Ladder, InsertsFewKeyframesAlongASlalom) {
+  testing::Random random(4711);
+  std::size_t plates = 0;
+  std::size_t inserted = 0;
+  for (int run = 0; run < 12; ++run) {
+    Mesh mesh;
+    const int count = random.integer(5, 9);
+    for (int i = 0; i < count; ++i) {
+      const double z = -2.0 * i - random.uniform(0.7, 1.3);
+      const double edge_m = random.uniform(-0.1, 0.3);
+      const bool is_left = i % 2 == 0;
+      testing::add_cuboid(mesh, {is_left ? -9 : -edge_m, -9, z},
+                          {is_left ? edge_m : 9, 9, z + 0.05});
+    }
+    const LadderCase c = case_with(mesh, {at(0, {0, 0, 1}), at(count, {0, 0, -1.0 * count}),
+                                          at(2 * count, {0, 0, -2.0 * count - 1})});
+    const LadderResult result = c.corrected();
+    EXPECT_TRUE(c.collisions(result.path).empty());
+    plates += static_cast<std::size_t>(count);
+    inserted += result.inserted_s.size();
+  }
+  EXPECT_LT(2 * inserted, 5 * plates);
 }
 
 TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {

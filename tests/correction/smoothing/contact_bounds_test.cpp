@@ -39,6 +39,15 @@ double room_at(const BoundConstraint& bound, const Contact& contact, const Stack
   return contact.row.room_m + bound.bound_m - bound.direction.dot(moved);
 }
 
+/// Solves for the bounds of one sample, which is the only variable. `response`: its displacement
+/// per unit force.
+void solve_one_sample(ContactBounds& bounds, double response, double settled_m) {
+  const std::vector<Terms> samples = {{{0, 1.0}}};
+  StackedPoints variables = StackedPoints::Zero(1, 7);
+  solve_qp(bounds.bounds(), samples, Responses::Constant(1, 1, response), settled_m, kFewSweeps,
+           variables);
+}
+
 TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   Draw draw(6201);
   for (const auto& [objective, makes_room] :
@@ -78,8 +87,7 @@ TEST(ContactBounds, BuyRoomUntilItCostsMoreThanItsPrice) {
     along[1] = 1.0;
     std::vector<Contact> near = {contact(along, 0.06, 0, 0)};
     bounds.add(0, StackedPoint::Zero(), response, near);
-    solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, response),
-             kSettled_m);
+    solve_one_sample(bounds, response, kSettled_m);
     bounds.remember();
     const double missing_m = bounds.wanted_m() - 0.06 - response * near[0].soft_multiplier;
     EXPECT_NEAR(near[0].soft_multiplier, kPrice * missing_m, kForceRounding) << response;
@@ -97,8 +105,7 @@ TEST(ContactBounds, PayMoreForTheFirstPartOfAGap) {
     // So stiff that the force moves nothing.
     constexpr double kResponse = 1e-6;
     bounds.add(0, StackedPoint::Zero(), kResponse, near);
-    solve_qp(bounds.bounds(), StackedPoints::Zero(1, 7), Eigen::MatrixXd::Constant(1, 1, kResponse),
-             kSettled_m);
+    solve_one_sample(bounds, kResponse, kSettled_m);
     bounds.remember();
     return near[0].soft_multiplier / (bounds.wanted_m() - room_m);
   };
@@ -152,8 +159,7 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
     bounds.add(0, StackedPoint::Zero(), response, near);
-    const StackedPoints unforced = StackedPoints::Zero(1, 7);
-    solve_qp(bounds.bounds(), unforced, Eigen::MatrixXd::Constant(1, 1, response), 1e-9);
+    solve_one_sample(bounds, response, 1e-9);
     bounds.remember();
     EXPECT_EQ(near[0].soft_multiplier, bounds.bounds()[0].multiplier);
     return response * near[0].soft_multiplier;

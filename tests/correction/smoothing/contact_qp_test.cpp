@@ -17,31 +17,53 @@ namespace {
 
 using testing::Draw;
 
-/// Samples that react to each other like points of a spline: the matrix is symmetric and positive
-/// semidefinite.
+/// A random program. The Hessian is that of a sum of squares.
 struct ProgramCase {
-  StackedPoints unforced;
-  Eigen::MatrixXd response;
+  StackedPoints unforced;  ///< variables at the unconstrained minimum
+  std::vector<Terms> samples;
+  BandMatrix hessian;
   std::vector<BoundConstraint> bounds;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(bounds.size()); }
   [[nodiscard]] const BoundConstraint& bound(Eigen::Index i) const {
     return bounds[static_cast<std::size_t>(i)];
   }
+  /// Returns the minimum; the multipliers stay in the bounds.
+  StackedPoints solve(double settled_m, int most_sweeps = kFewSweeps) {
+    StackedPoints variables = unforced;
+    const Responses responses = responses_of(samples, BandFactors(hessian));
+    solve_qp(bounds, samples, responses, settled_m, most_sweeps, variables);
+    return variables;
+  }
 };
+
+Terms random_terms(Draw& draw, int variables) {
+  Terms terms;
+  const int first = draw.integer(0, std::max(0, variables - 1 - static_cast<int>(kBand)));
+  for (int k = first; k < std::min(variables, first + 1 + static_cast<int>(kBand)); ++k) {
+    terms.push_back({k, draw.uniform(-0.3, 1.0)});
+  }
+  return terms;
+}
 
 ProgramCase random_program(Draw& draw, int samples, int bounds_of_sample, double share_soft) {
   ProgramCase c;
-  c.unforced = draw.points(samples, 1.0);
-  const Eigen::MatrixXd shares =
-      Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.uniform(-0.3, 1.0); });
-  c.response = shares * shares.transpose() / samples;
+  const int variables = draw.integer(1, samples + 2);
+  c.unforced = draw.points(variables, 1.0);
+  SumOfSquares squares(variables);
+  for (int k = 0; k < variables; ++k) {
+    squares.count(draw.uniform(0.2, 2.0), {{k, 1.0}}, StackedPoint::Zero());
+    squares.count(draw.uniform(0.0, 2.0), random_terms(draw, variables), StackedPoint::Zero());
+  }
+  c.hessian = squares.hessian;
   for (int s = 0; s < samples; ++s) {
+    c.samples.push_back(random_terms(draw, variables));
     for (int i = 0; i < bounds_of_sample; ++i) {
       BoundConstraint bound;
       bound.sample = static_cast<std::size_t>(s);
       bound.direction = draw.stacked(1.0);
-      bound.bound_m = c.unforced.row(s).dot(bound.direction) + draw.uniform(-0.5, 0.5);
+      bound.bound_m =
+          combined(c.samples.back(), c.unforced).dot(bound.direction) + draw.uniform(-0.5, 0.5);
       bound.compliance = draw.uniform(0.0, 1.0) < share_soft ? draw.uniform(0.2, 2.0) : 0.0;
       c.bounds.push_back(bound);
     }
@@ -49,14 +71,38 @@ ProgramCase random_program(Draw& draw, int samples, int bounds_of_sample, double
   return c;
 }
 
+Eigen::MatrixXd dense(const BandMatrix& band) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(band.rows(), band.rows());
+  for (Eigen::Index i = 0; i < band.rows(); ++i) {
+    for (Eigen::Index d = 0; d <= std::min(i, kBand); ++d) {
+      matrix(i, i - d) = matrix(i - d, i) = band(i, d);
+    }
+  }
+  return matrix;
+}
+
+/// Returns the place of each sample in terms of the variables, one per row.
+Eigen::MatrixXd shares_of(const ProgramCase& c) {
+  Eigen::MatrixXd shares =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(c.samples.size()), c.unforced.rows());
+  for (std::size_t s = 0; s < c.samples.size(); ++s) {
+    for (const Term& term : c.samples[s]) {
+      shares(static_cast<Eigen::Index>(s), term.variable) = term.share;
+    }
+  }
+  return shares;
+}
+
 /// Returns the response of each bound to a unit multiplier on each, compliance included.
 Eigen::MatrixXd matrix_of(const ProgramCase& c) {
+  const Eigen::MatrixXd shares = shares_of(c);
+  const Eigen::MatrixXd response = shares * dense(c.hessian).ldlt().solve(shares.transpose());
   Eigen::MatrixXd matrix(c.size(), c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) {
     for (Eigen::Index j = 0; j < c.size(); ++j) {
       const auto a = static_cast<Eigen::Index>(c.bound(i).sample);
       const auto b = static_cast<Eigen::Index>(c.bound(j).sample);
-      matrix(i, j) = c.response(a, b) * c.bound(i).direction.dot(c.bound(j).direction);
+      matrix(i, j) = response(a, b) * c.bound(i).direction.dot(c.bound(j).direction);
     }
   }
   for (Eigen::Index i = 0; i < c.size(); ++i) matrix(i, i) *= 1.0 + c.bound(i).compliance;
@@ -66,8 +112,8 @@ Eigen::MatrixXd matrix_of(const ProgramCase& c) {
 Eigen::VectorXd missing_in(const ProgramCase& c) {
   Eigen::VectorXd missing(c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) {
-    const auto sample = static_cast<Eigen::Index>(c.bound(i).sample);
-    missing[i] = c.bound(i).bound_m - c.unforced.row(sample).dot(c.bound(i).direction);
+    const StackedPoint place = combined(c.samples[c.bound(i).sample], c.unforced);
+    missing[i] = c.bound(i).bound_m - place.dot(c.bound(i).direction);
   }
   return missing;
 }
@@ -105,7 +151,7 @@ void find_until_settled(ProgramCase& c) {
   constexpr double kUnchanged = 1e-14;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::VectorXd before = forces_of(c);
-    solve_qp(c.bounds, c.unforced, c.response, 0.0);
+    c.solve(0.0);
     const Eigen::VectorXd now = forces_of(c);
     if ((now - before).norm() <= kUnchanged * now.norm()) return;
   }
@@ -170,7 +216,7 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
     for (BoundConstraint& bound : c.bounds)
       bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 1.0);
     const double before = dual_of(c, forces_of(c));
-    solve_qp(c.bounds, c.unforced, c.response, 1e-3);
+    c.solve(1e-3);
     const double after = dual_of(c, forces_of(c));
     EXPECT_GE(after, before - 1e-12 * (1.0 + std::abs(before))) << run;
     EXPECT_GE(forces_of(c).minCoeff(), 0.0);
@@ -178,13 +224,13 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
 }
 
 TEST(ContactForces, AreNearerToTheOptimumAfterMoreSweeps) {
-  Draw draw(4206);
+  Draw draw(4207);
   for (int run = 0; run < 50; ++run) {
     const ProgramCase c = random_program(draw, 20, 2, 1.0);
     double last = -std::numeric_limits<double>::infinity();
     for (const int sweeps : {1, 3, 10, 40}) {
       ProgramCase swept = c;
-      solve_qp(swept.bounds, swept.unforced, swept.response, 0.0, sweeps);
+      swept.solve(0.0, sweeps);
       const double dual = dual_of(swept, forces_of(swept));
       EXPECT_GE(dual, last - 1e-12 * (1.0 + std::abs(dual))) << run;
       if (sweeps == 3) {
@@ -195,18 +241,37 @@ TEST(ContactForces, AreNearerToTheOptimumAfterMoreSweeps) {
   }
 }
 
+// The forces move the variables by the inverse of the Hessian, by an independent solution of it.
+TEST(ContactForces, MoveTheVariables) {
+  Draw draw(4206);
+  for (int run = 0; run < 100; ++run) {
+    ProgramCase c = random_program(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
+    const StackedPoints found = c.solve(1e-3);
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(c.unforced.rows(), 7);
+    const Eigen::MatrixXd shares = shares_of(c);
+    for (const BoundConstraint& bound : c.bounds) {
+      forces += bound.multiplier * shares.row(static_cast<Eigen::Index>(bound.sample)).transpose() *
+                bound.direction.transpose();
+    }
+    const Eigen::MatrixXd expected = c.unforced + dense(c.hessian).ldlt().solve(forces);
+    EXPECT_LT((found - expected).norm(), 1e-11 * (1.0 + expected.norm())) << run;
+  }
+}
+
 // A single bound has a closed solution.
 TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
   ProgramCase c;
   c.unforced = StackedPoints::Zero(1, 7);
-  c.response = Eigen::MatrixXd::Constant(1, 1, 4.0);
+  c.samples = {{{0, 1.0}}};
+  c.hessian = BandMatrix::Zero(1, kBand + 1);
+  c.hessian(0, 0) = 0.25;
   for (const double compliance : {0.0, 1.0, 3.0}) {
     c.bounds = {{0, 0.5 * StackedPoint::Unit(2), 6.0, compliance, 0.0}};
-    solve_qp(c.bounds, c.unforced, c.response, 0.0);
-    EXPECT_DOUBLE_EQ(c.bounds[0].multiplier, 6.0 / (1.0 + compliance));  // 4 · 0.5² is 1
+    c.solve(0.0);
+    EXPECT_DOUBLE_EQ(c.bounds[0].multiplier, 6.0 / (1.0 + compliance));  // 0.5² / 0.25 is 1
   }
   c.bounds = {{0, 0.5 * StackedPoint::Unit(2), -1.0, 0.0, 0.0}};
-  solve_qp(c.bounds, c.unforced, c.response, 0.0);
+  c.solve(0.0);
   EXPECT_EQ(c.bounds[0].multiplier, 0.0) << "it holds already";
 }
 
@@ -217,11 +282,10 @@ TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   ProgramCase without = c;
   without.bounds.erase(without.bounds.begin() + 1);
   for (ProgramCase* changed : {&c, &without}) {
-    changed->response.row(1).setZero();
-    changed->response.col(1).setZero();
+    changed->samples[1].clear();
     changed->bounds[0].bound_m += 2.0;
   }
-  c.bounds[1].bound_m = c.unforced.row(1).dot(c.bounds[1].direction) + 1.0;
+  c.bounds[1].bound_m = 1.0;
   find_until_settled(c);
   find_until_settled(without);
   EXPECT_EQ(c.bounds[1].multiplier, 0.0);

@@ -104,6 +104,9 @@ TEST_F(CInterfaceTest, AScanBreaksAPathAndIsTakenBack) {
   camway_path_measures measures;
   ASSERT_EQ(camway_answer_measures(corrected.answer, &measures, sizeof measures), CAMWAY_OK);
   EXPECT_GT(measures.largest_deviation_m + measures.largest_shift_rad, 0.0);
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(corrected.answer, &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_GE(summary.viewing_distance_m, 1.0) << "the least that is taken from a scene";
   camway_correction correction;
   std::size_t count = 0;
   ASSERT_EQ(camway_answer_corrections(corrected.answer, &correction, 1, &count), CAMWAY_OK);

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/scenes.h"
 #include "tests/tools/drawing/drawn_house.h"
 #include "tools/drawing/side_by_side.h"
 
@@ -91,6 +92,38 @@ FloorPlan through_the_wall() {
   plan.after = sample(motion::interpolate(plan.keyframes), 300);
   plan.collisions = {{0.9, 1.1}};
   return plan;
+}
+
+// The room and its column are one object, whose outlines alone would make a solid with a hole.
+TEST(FloorSection, AnOutlineAboutAllKeyframesIsARoom) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-5, 0, -5}, {5, 3, 5});
+  testing::add_cuboid(mesh, {0, 0, 0}, {1, 3, 1});
+  const FloorSection cut = cut_floor(mesh, SceneUp::kY, 1.5);
+  ASSERT_EQ(cut.cut.size(), 1U);
+  ASSERT_EQ(cut.cut[0].size(), 2U);
+  const auto closed_areas = [&](const std::vector<PlanPoint>& places) {
+    FloorSection section = cut;
+    open_room_about(places, section);
+    std::vector<double> areas_m2;
+    for (const SectionLine& line : section.cut[0]) {
+      if (line.closed) areas_m2.push_back(std::round(area_of(line)));
+    }
+    std::ranges::sort(areas_m2);
+    return areas_m2;
+  };
+  EXPECT_EQ(closed_areas({{-2, -2}, {3, 3}}), (std::vector<double>{1}));
+  EXPECT_EQ(closed_areas({{-2, -2}, {8, 3}}), (std::vector<double>{1, 100})) << "one is outside";
+  EXPECT_EQ(closed_areas({}), (std::vector<double>{1, 100}));
+}
+
+TEST(FloorSection, WallsWithAThicknessStaySolid) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-5, 0, -5}, {5, 3, 5});
+  testing::add_cuboid(mesh, {-4.8, 0.2, -4.8}, {4.8, 2.8, 4.8});
+  FloorSection section = cut_floor(mesh, SceneUp::kY, 1.5);
+  open_room_about(std::vector<PlanPoint>{{0, 0}, {1, 1}}, section);
+  for (const SectionLine& line : section.cut.at(0)) EXPECT_TRUE(line.closed);
 }
 
 TEST(FloorPlan, HeightIsTheKeyframesAndAvoidsFloors) {

@@ -332,8 +332,8 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "frame.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "With --daemon a running daemon plans, and the response is the same, except that it has the "
-      "name of\nthe daemon's scene, and neither scene_reading, viewing_distance_m, the warnings of "
-      "its import nor the time of loading it.\n"
+      "name of\nthe daemon's scene, neither scene_reading nor the time of loading it, and the "
+      "warnings of its\nimport in its message.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }

@@ -31,6 +31,8 @@ typedef struct camway_answer_summary {
   double near_scale;   ///< near distance that is proved, divided by the requested one
   double time_scale;   ///< duration of the path divided by the requested one
   double elapsed_s;    ///< time from the call to the answer
+  /// Viewing distance of all shifts in the answer; 0: no shift was measured.
+  double viewing_distance_m;
 } camway_answer_summary;
 
 /// `struct_size` is `sizeof(camway_answer_summary)`.

@@ -38,13 +38,14 @@ struct StageOfMember {
   std::string_view member;
   Stage stage;
 };
-constexpr std::array<StageOfMember, 18> kStages{{
+constexpr std::array<StageOfMember, 19> kStages{{
     {"bounds", Stage::kRequest},
     {"keyframe_faults", Stage::kRequest},
     {"measures.before.clearance_lower_bound_m", Stage::kProof},
     {"measures.before", Stage::kInterpolation},
     {"collisions", Stage::kCollisions},
     {"corrections", Stage::kCorrection},
+    {"viewing_distance_m", Stage::kCorrection},
     {"near_scale", Stage::kCorrection},
     {"time_scale", Stage::kTiming},
     {"slowed", Stage::kTiming},
@@ -195,6 +196,8 @@ class MessageComparer {
       if (then != now) found(value_text<Mine>(name, then), value_text<Mine>(name, now));
     } else {
       static_assert(std::is_arithmetic_v<Member>);
+      // Files of earlier versions lack an optional number, which is 0 in messages.
+      if (std::is_same_v<Mine, std::optional<double>> && (then == 0 || now == 0)) return;
       if (std::memcmp(&then, &now, sizeof(Member)) == 0) return;
       found(value_text<Mine>(name, then), value_text<Mine>(name, now));
     }

@@ -54,7 +54,7 @@ struct Difference {
   [[nodiscard]] std::string what() const;
 };
 
-/// The body and the viewing distance of a request, by which the paths of two answers are compared.
+/// The body of a request, and a viewing distance, by which the paths of two answers are compared.
 struct Yardstick {
   motion::Body body;
   double viewing_distance_m = 0.0;  ///< [Limit: 0 < value]
@@ -62,8 +62,8 @@ struct Yardstick {
 
 /// Compares two answers to one request, member by member as messages have them, but for members
 /// that tell how they were found: times, effort, whether the deadline was reached, and the message,
-/// whose wording may change between versions. Requires segments that are paths
-/// (`wire::path_fault`).
+/// whose wording may change between versions. A viewing distance counts if both tell it, since
+/// files of earlier versions do not. Requires segments that are paths (`wire::path_fault`).
 Difference difference_of(const plan_response_t& then, const plan_response_t& now,
                          const Yardstick& yardstick);
 

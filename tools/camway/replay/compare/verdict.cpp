@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <camway/plan_request_t.hpp>
@@ -45,11 +47,21 @@ std::string why_not_compared(const AnswerPair& answers) {
   return {};
 }
 
-/// Returns the body and the viewing distance of the request; those of a point and a default for a
-/// request that has none.
-Yardstick yardstick_of(const RecordedRequest& recorded) {
-  const correction::Closeness defaults;
-  Yardstick yardstick{motion::Body(motion::Camera{}), defaults.viewing_distance_m};
+/// Returns the viewing distance of two answers: the smaller one, by which the same move shifts the
+/// picture more, so that their order does not matter; a default if neither tells any.
+double told_distance_m(const Message& then, const Message& now) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const double told_m : {then.viewing_distance_m, now.viewing_distance_m}) {
+    if (told_m > 0.0) least_m = std::min(least_m, told_m);
+  }
+  return std::isfinite(least_m) ? least_m : correction::Closeness{}.viewing_distance_m;
+}
+
+/// Returns the body and the viewing distance of the request. For a request that has none, the body
+/// is a point, and the distance that of the answers.
+Yardstick yardstick_of(const RecordedRequest& recorded, const AnswerPair& answers) {
+  Yardstick yardstick{motion::Body(motion::Camera{}),
+                      told_distance_m(*answers.then->result, *answers.now->result)};
   if (!recorded.request) return yardstick;
   if (auto body = motion::Body::make(planning::body_shape(*recorded.request))) {
     yardstick.body = std::move(*body.value);
@@ -190,7 +202,7 @@ Judgement judge(const RecordedRequest& recorded, const AnswerPair& answers,
   judgement.note = why_not_compared(answers);
   if (!judgement.note.empty()) return judgement;
   judgement.difference =
-      difference_of(*answers.then->result, *answers.now->result, yardstick_of(recorded));
+      difference_of(*answers.then->result, *answers.now->result, yardstick_of(recorded, answers));
   Ruling ruling = ruling_of(recorded, answers, judgement.difference, thresholds);
   judgement.verdict = ruling.verdict;
   judgement.note = std::move(ruling.reason);

@@ -239,6 +239,30 @@ TEST(ReplayVerdict, PathsWithinTheTolerancesAreTheSame) {
       << "another number of keyframes";
 }
 
+TEST(ReplayVerdict, TheToleranceOfShiftsIsAtTheViewingDistanceOfTheRequestElseOfTheAnswers) {
+  Result then = proved_result();
+  Result now = then;
+  now.keyframes[1].pose.position.z() += 1e-3;
+  now.path = motion::interpolate(now.keyframes);
+  // 1 mm is a shift of 1/2000 rad at 2 m.
+  const Thresholds at_2_m{.tolerance_m = 2e-3, .tolerance_shift_rad = 1e-3 / 2.0};
+  const auto is_same = [&](const RecordedRequest& recorded = request_for()) {
+    const Verdict verdict = judged(then, now, at_2_m, recorded).verdict;
+    EXPECT_EQ(judged(now, then, at_2_m, recorded).verdict, verdict);
+    return verdict == Verdict::kSame;
+  };
+  EXPECT_TRUE(is_same()) << "3 m where nothing is told";
+  now.viewing_distance_m = 1.0;
+  EXPECT_FALSE(is_same());
+  then.viewing_distance_m = 5.0;
+  EXPECT_FALSE(is_same()) << "the smaller one counts";
+  now.viewing_distance_m = 5.0;
+  EXPECT_TRUE(is_same());
+  RecordedRequest asked = request_for();
+  asked.request->options.viewing_distance_m = 1.0;
+  EXPECT_FALSE(is_same(asked));
+}
+
 TEST(ReplayVerdict, NothingIsComparedWithoutTwoAnswers) {
   const RecordedAnswer answer = answer_of(proved_result());
   RecordedAnswer busy;

@@ -54,8 +54,9 @@ export function shiftOf(change: Change, scale: ShiftScale): number {
 }
 
 /**
- * The scale of shifts of an answer. Without the option, the answer says the viewing distance. That of a daemon does
- * not: the distance then follows from the mean shift, which is the mean turn plus the mean move over the distance.
+ * The scale of shifts of an answer. Without the option, the answer says the viewing distance. One of an earlier
+ * version does not: the distance then follows from the mean shift, which is the mean turn plus the mean move over the
+ * distance.
  */
 export function shiftScale(
   request: PlanRequest | undefined,
