@@ -121,6 +121,30 @@ TEST(Polish, KeepsTheDistanceThatCountsAsTight) {
   EXPECT_GT(polished, 30);
 }
 
+// Plates between samples, none of which is in the way of the least bend over the highest of them.
+TEST(Polish, SmoothestGetsFarPastManyThinPlates) {
+  testing::Random random(4545);
+  for (int run = 0; run < 8; ++run) {
+    constexpr double kTop_m = 0.5;
+    constexpr double kDuration_s = 5.0;
+    LadderCase c = over_a_plate(kTop_m, 0.5, 4.0, kDuration_s);
+    for (int i = 0; i < 14; ++i) {
+      const double z = random.uniform(-1.2, 1.2);
+      const double share = 0.5 + std::abs(z) / 4.0;
+      // The natural spline over the middle, less a margin.
+      const double rest = 1.0 - share;
+      const double below_m = kTop_m * (3.0 * rest - 4.0 * rest * rest * rest) - 0.15;
+      testing::add_cuboid(c.mesh, {-20, -20, z - 0.001}, {20, below_m, z + 0.001});
+    }
+    c.index = scene::SceneIndex::build(c.mesh);
+    const LadderResult smoothest = corrected_for(Objective::kSmoothest, c);
+    EXPECT_TRUE(c.collisions(smoothest.path).empty()) << run;
+    const double height_m = eye_over_m(kTop_m);
+    const double least = 48.0 * height_m * height_m / std::pow(kDuration_s, 3.0);
+    EXPECT_LT(bending_energy(smoothest.path), 1.25 * least) << run;
+  }
+}
+
 TEST(Polish, IsTheSameBitForBitEveryTime) {
   testing::Random random(4544);
   for (int run = 0; run < 4; ++run) {
