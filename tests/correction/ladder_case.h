@@ -46,6 +46,11 @@ inline LadderCase case_with(const scene::Mesh& mesh, std::vector<motion::Keyfram
   return c;
 }
 
+inline LadderResult corrected_for(Objective objective, LadderCase c) {
+  c.options.objective = objective;
+  return c.corrected();
+}
+
 /// A keyframe with the identity orientation.
 inline motion::Keyframe at(double time_s, const geometry::Vec3& position) {
   return {time_s, {position, geometry::Quat::Identity()}};

@@ -47,7 +47,8 @@ struct RelaxationCase {
     const double lever_m = 4.0 * space().ball_radius_m();
     const FreeCoefficients free(problem, offsets.knots, ends);
     const StackedPoints variables = free.variables_of(offsets, lever_m);
-    return SmoothingForm(problem, free, objective, lever_m, closeness, variables).value(variables);
+    return SmoothingForm(problem, free, objective, lever_m, closeness, variables)
+        .bounded_value(variables);
   }
 };
 

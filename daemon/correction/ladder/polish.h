@@ -14,6 +14,9 @@ namespace camway::correction {
 /// by that measure the result is never worse than the path was. Returns whether any step was
 /// better. Changes nothing for `kClosest`, which every correction optimises itself.
 ///
+/// Under `kShortest` and `kSmoothest` the path may come as near to the scene as `kTightGap`; where
+/// it was nearer, it keeps all but a twentieth of its distance.
+///
 /// The number of steps is limited; they also end at `corrected.deadline()`. Extends the ranges of
 /// corrections in `collisions` by the changed parts. `origin`: origin of all times.
 bool polish(Objective objective, const motion::TimeOrigin& origin, FreeSpace& space,

@@ -22,13 +22,14 @@ namespace {
 using motion::CubicPath;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kMostGrowth = 1.15;     // of the cost, for fewer knots
-constexpr double kBeside = 0.5;          // of the length of a part: how far it may extend
-constexpr double kDear_rad = 0.3;        // cost of a part, divided by its duration
-constexpr int kStepsOfRelaxation = 8;    // of the first, and of all that follow
-constexpr int kStepsOfRoom = 12;         // of the relaxation that makes room
-constexpr std::size_t kMostKnots = 400;  // of a part
-constexpr std::size_t kMostNeeded = 16;  // knots without which a part is found to collide
+constexpr double kMostGrowth = 1.15;            // of the cost, for fewer knots
+constexpr double kBeside = 0.5;                 // of the length of a part: how far it may extend
+constexpr std::size_t kMostKnotsRelaxed = 100;  // of a dear part: steps take as much longer
+constexpr double kDear_rad = 0.3;               // cost of a part, divided by its duration
+constexpr int kStepsOfRelaxation = 8;           // of the first, and of all that follow
+constexpr int kStepsOfRoom = 12;                // of the relaxation that makes room
+constexpr std::size_t kMostKnots = 400;         // of a part
+constexpr std::size_t kMostNeeded = 16;         // knots without which a part is found to collide
 /// Factors of the offsets that are tried: fewer knots round the path off, into what it goes round.
 constexpr std::array<double, 2> kScales = {1.0, 1.15};
 
@@ -145,7 +146,8 @@ class Redrawer {
     std::vector<double> knots_s = choice_.extended(best.knots_s, part_.begin_s, part_.end_s);
     if (knots_s.size() == best.knots_s.size()) {
       const bool is_dear = best.cost > kDear_rad * (part_.end_s - part_.begin_s);
-      if (is_dear) relax(best, {.may_turn = part_.turns}, budget);
+      if (is_dear && knots_s.size() <= kMostKnotsRelaxed)
+        relax(best, {.may_turn = part_.turns}, budget);
       return;
     }
     std::optional<Drawing> longer = drawing(std::move(knots_s), best.drawn.candidate.path);

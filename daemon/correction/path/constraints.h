@@ -17,6 +17,12 @@ enum class Objective : std::uint8_t {
   kSafest,     ///< least distance to the scene
 };
 
+/// Whether the objective is a measure of the curve of the eye alone. Paths of other objectives keep
+/// room beside what they pass.
+inline bool measures_curve(Objective objective) {
+  return objective == Objective::kShortest || objective == Objective::kSmoothest;
+}
+
 /// Changes of orientation that corrections may make (`orientation_rule.h` defines them exactly).
 /// The rule holds at every time, relative to the interpolated path at the same time.
 enum class OrientationRule : std::uint8_t {

@@ -10,6 +10,7 @@ namespace {
 // Chosen by measurement.
 constexpr double kForceSettled = 1e-3;  // in radii of the ball
 constexpr double kWorthOfRoom = 0.6;    // of all missing gaps together, relative to the form
+constexpr int kSweepsOfCurve = 40;      // a curve that hugs what it passes has many tight bounds
 
 }  // namespace
 
@@ -18,6 +19,7 @@ ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvem
     : form_(form),
       bounds_(improvement.objective, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
+      most_sweeps_(measures_curve(improvement.objective) ? kSweepsOfCurve : kFewSweeps),
       may_turn_(improvement.may_turn),
       has_no_price_(improvement.makes_room) {}
 
@@ -34,7 +36,7 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
     const double response = own_response(terms_[i], responses.col(static_cast<Eigen::Index>(i)));
     bounds_.add(i, combined(terms_[i], variables), response, touching_[i]->rows);
   }
-  solve_qp(bounds_.bounds(), terms_, responses, settled_m_, result);
+  solve_qp(bounds_.bounds(), terms_, responses, settled_m_, most_sweeps_, result);
   bounds_.remember();
   return result;
 }

@@ -40,6 +40,7 @@ class ConstrainedMinimum {
   const SmoothingForm& form_;
   ContactBounds bounds_;
   const double settled_m_;  ///< convergence threshold of the multipliers
+  const int most_sweeps_;   ///< of the solver
   const bool may_turn_;
   bool has_no_price_;                  ///< whether the price of room is still to be set
   std::vector<PathSample*> touching_;  ///< the samples with contacts, numbered in the bounds

@@ -10,20 +10,26 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr double kWanted = 0.7;        // gap that is kept where there is room for it, ...
-constexpr double kWantedShift = 0.02;  // ... or this share of the viewing distance, if less
-constexpr double kKeptShare = 0.9;     // share of a smaller gap that is kept
-constexpr double kLittle = 0.15;       // share of the wanted gap: the first part of a gap, ...
-constexpr double kMoreWorth = 6.0;     // ... which is worth so much more
-constexpr double kHardReach = 0.5;     // `kSafest` has hard bounds only for nearer vertices
+constexpr double kWanted = 0.7;          // gap that is kept where there is room for it, ...
+constexpr double kWantedShift = 0.02;    // ... or this share of the viewing distance, if less
+constexpr double kWantedOfCurve = 0.03;  // gap that suffices for a measure of the curve alone
+constexpr double kKeptShare = 0.9;       // share of a smaller gap that is kept
+constexpr double kLittle = 0.15;         // share of the wanted gap: the first part of a gap, ...
+constexpr double kMoreWorth = 6.0;       // ... which is worth so much more
+constexpr double kHardReach = 0.5;       // `kSafest` has hard bounds only for nearer vertices
 constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
+
+double wanted_gap_m(Objective objective, double ball_radius_m, double viewing_distance_m) {
+  if (objective == Objective::kSafest) return kComfort * ball_radius_m;
+  const double share = measures_curve(objective) ? kWantedOfCurve : kWanted;
+  return std::min(share * ball_radius_m, kWantedShift * viewing_distance_m);
+}
 
 }  // namespace
 
 ContactBounds::ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m)
     : is_safest_(objective == Objective::kSafest),
-      wanted_m_(is_safest_ ? kComfort * ball_radius_m
-                           : std::min(kWanted * ball_radius_m, kWantedShift * viewing_distance_m)),
+      wanted_m_(wanted_gap_m(objective, ball_radius_m, viewing_distance_m)),
       hard_reach_m_(kHardReach * ball_radius_m) {}
 
 double ContactBounds::little_m() const { return kLittle * wanted_m_; }

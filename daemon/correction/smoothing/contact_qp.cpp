@@ -12,8 +12,6 @@ namespace camway::correction {
 
 namespace {
 
-constexpr int kMostSweeps = 10;  // chosen by measurement
-
 /// Stacked points with an eighth number: processors handle two or four at a time.
 using PaddedPoint = Eigen::Matrix<double, 8, 1>;
 /// The same, one per row.
@@ -154,9 +152,10 @@ double own_response(const Terms& sample, const Eigen::Ref<const Eigen::VectorXd>
 }
 
 void solve_qp(std::span<BoundConstraint> bounds, std::span<const Terms> samples,
-              const Responses& responses, double settled_m, StackedPoints& variables) {
+              const Responses& responses, double settled_m, int most_sweeps,
+              StackedPoints& variables) {
   QpSolver solver(bounds, samples, responses, variables);
-  for (int i = 0; i < kMostSweeps && solver.sweep() >= settled_m; ++i) {
+  for (int i = 0; i < most_sweeps && solver.sweep() >= settled_m; ++i) {
   }
   variables = solver.variables();
 }

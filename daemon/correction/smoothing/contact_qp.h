@@ -22,6 +22,9 @@ struct BoundConstraint {
   double multiplier = 0.0;
 };
 
+/// Sweeps that suffice where the next step corrects what is still missing. Chosen by measurement.
+inline constexpr int kFewSweeps = 10;
+
 /// How variables give way to forces on samples: a force on sample i displaces each variable by its
 /// element of column i, times the force.
 using Responses = Eigen::MatrixXd;
@@ -36,12 +39,13 @@ double own_response(const Terms& sample, const Eigen::Ref<const Eigen::VectorXd>
 
 /// Finds the minimum of a quadratic form subject to `bounds` on samples of it, and the multipliers
 /// there. Solves the dual by coordinate ascent (Hildreth 1957, "A quadratic programming
-/// procedure"). Stops when no multiplier displaces a sample by more than `settled_m`, or after a
-/// fixed number of sweeps; the result is then approximate, but never worse than the guess. Ignores
+/// procedure"). Stops when no multiplier displaces a sample by more than `settled_m`, or after
+/// `most_sweeps` sweeps; the result is then approximate, but never worse than the guess. Ignores
 /// bounds on samples with zero response. Requires the bounds of one sample to be adjacent.
 ///
 /// `variables`: in: the unconstrained minimum; out: the minimum.
 void solve_qp(std::span<BoundConstraint> bounds, std::span<const Terms> samples,
-              const Responses& responses, double settled_m, StackedPoints& variables);
+              const Responses& responses, double settled_m, int most_sweeps,
+              StackedPoints& variables);
 
 }  // namespace camway::correction

@@ -17,10 +17,8 @@ using motion::CubicPiece;
 
 constexpr int kSamplesAPiece = 16;
 constexpr double kSampleStep = 0.25;  // step between samples, as a share of the ball's radius
-constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
-constexpr double kTightGap = 0.02;      // in radii of the ball: enough for all but `kSafest`
 constexpr double kWorthAChange = 1e-3;  // share of the cost: less is within the error of samples
 
 template <class Use>
@@ -70,13 +68,6 @@ void for_each_gap(const motion::CubicPath& path, double step_m, double up_to_m, 
   }
 }
 
-double least_gap_m(const motion::CubicPath& path, FreeSpace& space) {
-  double least_m = kTightGap * space.ball_radius_m();
-  for_each_gap(path, kTightStep * space.ball_radius_m(), least_m, space,
-               [&](double gap_m, double) { least_m = std::min(least_m, gap_m); });
-  return least_m;
-}
-
 // Integrates over the curve's length and not over time: otherwise lingering in a safe place would
 // lower the cost of danger elsewhere.
 ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
@@ -111,9 +102,9 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
     case Objective::kClosest:
       return {closeness_cost(path, original, space.closeness()), 0.0};
     case Objective::kShortest:
-      return {length_m(path), least_gap_m(path, space)};
+      return {length_m(path), 0.0};
     case Objective::kSmoothest:
-      return {bending_energy(path), least_gap_m(path, space)};
+      return {bending_energy(path), 0.0};
     case Objective::kSafest:
       break;
   }

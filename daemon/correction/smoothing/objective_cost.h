@@ -17,15 +17,18 @@ struct ObjectiveCost {
   /// - `kSafest`: (1 - gap/c)², with gaps above the sufficient gap c counted as c, integrated over
   ///   the length of the eye's curve [Units: metres]
   double value = 0.0;
-  /// Least gap over the path, or a sufficient gap if that is less: by samples, for `kSafest` by
-  /// `collision::path_clearance`. 0 for `kClosest`, which is evaluated often and relies on the gaps
-  /// that relaxation keeps. [Units: metres]
+  /// For `kSafest` the least gap over the path by `collision::path_clearance`, or a sufficient gap
+  /// if that is less. 0 for others, which keep gaps by proofs. [Units: metres]
   double least_gap_m = 0.0;
 };
 
 /// The sufficient gap of `kSafest`, in radii of the ball that holds the body: larger gaps are no
 /// better.
 inline constexpr double kComfort = 3.0;
+
+/// The gap below which `kShortest` and `kSmoothest` come no nearer to the scene than the closest
+/// path does, in radii of the ball that holds the body.
+inline constexpr double kTightGap = 0.02;
 
 /// Evaluates `objective` on `path`. Requires `original` to cover the time of `path`. For `kSafest`
 /// the value is infinite if the deadline strikes; other objectives ignore the deadline.

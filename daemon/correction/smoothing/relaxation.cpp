@@ -24,24 +24,29 @@ constexpr int kFewestPerStep = 2;         // between two knots
 constexpr int kMostPerStep = 8;           // the same
 constexpr double kTravelPerSample = 1.0;  // travel of the eye between two samples
 constexpr double kDenserForRoom = 2.0;    // samples, as the least gap lies between two of them
+constexpr double kDenserForCurve = 2.0;   // samples of a curve that hugs what it passes
 constexpr double kLeastKept = 0.995;      // share of the least gap that `kSafest` keeps
 constexpr double kFirstTrust = 2.0;       // radius of the trust region
 constexpr double kMostTrust = 4.0;
 constexpr double kLeastTrust = 0.02;
 constexpr double kDistrust = 0.3;
-constexpr double kHorizon = 0.7;       // largest gap that is measured; `kSafest` adds kComfort
-constexpr double kSettled = 0.05;      // a step that moves the body less is the last
-constexpr double kGained = 0.01;       // share of the objective: a step that gains less is the last
-constexpr double kGentler = 1.5;       // weight of acceleration in steps, relative to the cost
-constexpr double kGentlerRoom = 1.25;  // the same in steps that make room
-constexpr double kPriceOfRoom = 1.25;  // largest growth of the cost for wider gaps
-constexpr int kMostCuts = 3;           // attempts at a step, each with more contacts
-constexpr int kRounds = 3;             // rounds of relaxing, with more samples each time
-constexpr int kStepsAgain = 4;         // of each round but the first, at least
+constexpr double kHorizon = 0.7;   // largest gap that is measured; `kSafest` adds kComfort
+constexpr double kSettled = 0.05;  // a step that moves the body less is the last
+constexpr double kGained = 0.01;   // share of the objective: a step that gains less is the last
+constexpr double kSettledCurve = 0.02;  // the same two for a measure of the curve alone, whose
+constexpr double kGainedCurve = 0.003;  // minimum is exact
+constexpr double kGentler = 1.5;        // weight of acceleration in steps, relative to the cost
+constexpr double kGentlerRoom = 1.25;   // the same in steps that make room
+constexpr double kPriceOfRoom = 1.25;   // largest growth of the cost for wider gaps
+constexpr int kMostCuts = 3;            // attempts at a step, each with more contacts
+constexpr int kRounds = 3;              // rounds of relaxing, with more samples each time
+constexpr int kStepsAgain = 4;          // of each round but the first, at least
 constexpr double kRetreat = 0.6;
 constexpr double kAffordable = 0.5;  // share of what is left of the price of room
 constexpr int kLooks = 2;            // closer looks: the whole step, and what of it is affordable
 constexpr int kRetreats = 3;         // moves back towards the initial correction
+constexpr int kStepsAProof = 2;      // of a curve, as what is proved is not lost again
+constexpr int kMostProofs = 16;      // of a curve
 
 double horizon_m(Objective objective, double radius_m) {
   return (objective == Objective::kSafest ? kComfort + kHorizon : kHorizon) * radius_m;
@@ -77,6 +82,7 @@ class Relaxation {
         problem_(problem),
         objective_(improvement.objective),
         is_safest_(improvement.objective == Objective::kSafest),
+        measures_curve_(measures_curve(improvement.objective)),
         may_turn_(limited(improvement, space).may_turn),
         makes_room_(improvement.makes_room),
         closeness_(space.closeness()),
@@ -107,8 +113,8 @@ class Relaxation {
   /// true for `kSafest`, which gains gaps that the form does not contain.
   [[nodiscard]] bool is_no_worse(const Relaxed& now, const Relaxed& before) const {
     if (objective_ == Objective::kClosest) return cost(now) <= most_growth() * cost(before);
-    return is_safest_ || form_.value(free_.variables_of(now.offsets, lever_m_)) <=
-                             form_.value(free_.variables_of(before.offsets, lever_m_));
+    return is_safest_ || form_.bounded_value(free_.variables_of(now.offsets, lever_m_)) <=
+                             form_.bounded_value(free_.variables_of(before.offsets, lever_m_));
   }
 
   /// The share of the way from `before` to `now` that is tried first if `now` is too dear. The cost
@@ -127,9 +133,16 @@ class Relaxation {
     return kAffordable * (most_growth() * cost(before) - now) / (cost(wider) - now);
   }
 
+  /// The largest length of the first step. [Units: metres]
+  [[nodiscard]] double first_trust_m() const { return kFirstTrust * radius_m_; }
+
   /// Takes steps until the budget is spent, or a step gains little.
   void run(base::Budget& budget, const base::Deadline& deadline) {
-    double trust_m = kFirstTrust * radius_m_;
+    double trust_m = first_trust_m();
+    run(budget, trust_m, deadline);
+  }
+  /// The same with `trust_m` as the largest length of the next step, which is adapted.
+  void run(base::Budget& budget, double& trust_m, const base::Deadline& deadline) {
     while (budget.covers(1) && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
       budget.spend(1);
       bound_cost();
@@ -137,13 +150,12 @@ class Relaxation {
       const std::optional<double> moved_m = take_step(trust_m);
       if (!moved_m) return;
       if (*moved_m == 0.0) continue;
-      if (*moved_m < kSettled * radius_m_) return;
+      if (*moved_m < (measures_curve_ ? kSettledCurve : kSettled) * radius_m_) return;
       const bool was_whole = *moved_m < 0.99 * trust_m;
       // Room is no part of the form.
       const bool form_is_all = !is_safest_ && !makes_room_;
-      if (was_whole && form_is_all && before - form_.value(variables_) < kGained * before) {
-        return;
-      }
+      const double gained = measures_curve_ ? kGainedCurve : kGained;
+      if (was_whole && form_is_all && before - form_.value(variables_) < gained * before) return;
       trust_m = std::min(2.0 * trust_m, kMostTrust * radius_m_);
     }
   }
@@ -176,9 +188,9 @@ class Relaxation {
     return closeness_cost(correction.candidate.path, problem_.original, closeness_);
   }
 
-  /// Makes the form of the closest path touch the cost at the path as it is.
+  /// Makes a form that bounds its objective touch it at the path as it is.
   void bound_cost() {
-    if (objective_ != Objective::kClosest) return;
+    if (objective_ != Objective::kClosest && objective_ != Objective::kShortest) return;
     form_.bound_about(variables_);
   }
 
@@ -208,7 +220,7 @@ class Relaxation {
     const double travel_m =
         (problem.path.at(end_s).position - problem.path.at(begin_s).position).norm();
     const double wanted = std::ceil(travel_m / (kTravelPerSample * radius_m_));
-    const double denser = makes_room_ ? kDenserForRoom : 1.0;
+    const double denser = measures_curve_ ? kDenserForCurve : makes_room_ ? kDenserForRoom : 1.0;
     const int count =
         static_cast<int>(denser * std::clamp(wanted, double{kFewestPerStep}, double{kMostPerStep}));
     for (int i = 0; i < count; ++i) add_sample(std::lerp(begin_s, end_s, (i + 0.5) / count));
@@ -317,6 +329,7 @@ class Relaxation {
   const Problem& problem_;
   const Objective objective_;
   const bool is_safest_;
+  const bool measures_curve_;
   const bool may_turn_;
   const bool makes_room_;
   const Closeness& closeness_;
@@ -367,6 +380,24 @@ Relaxed with_closer_look(const Problem& problem, Relaxation& relaxation, Relaxed
   return found;
 }
 
+/// The first of some places between `better` and the free correction `free` that is free and no
+/// worse, or else `free`. `share`: that of the first place, from `free`.
+Relaxed retreated(const Problem& problem, const Relaxation& relaxation, Relaxed free,
+                  const Offsets& better, double share, Ends ends, FreeSpace& space,
+                  const base::Deadline& deadline) {
+  for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
+    const Offsets between = mixed(free.offsets, better, share);
+    std::optional<Candidate> tried =
+        free_candidate(problem, {bumps_for(between, ends)}, space, deadline);
+    ++free.paths;
+    if (!tried) continue;
+    Relaxed found{between, *std::move(tried), free.paths};
+    if (relaxation.is_no_worse(found, free)) return found;
+  }
+  return free;
+}
+
+/// Relaxes the free correction `free`, and proves the result.
 Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
                base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   Offsets better = free.offsets;
@@ -389,16 +420,47 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);
   }
-  for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
-    const Offsets between = mixed(free.offsets, better, share);
-    std::optional<Candidate> tried =
-        free_candidate(problem, {bumps_for(between, ends)}, space, deadline);
+  return retreated(problem, relaxation, std::move(free), better, share, ends, space, deadline);
+}
+
+/// The same with a proof after every few steps. A proof that fails costs these alone, and so it
+/// pays to take many steps past what is thin.
+Relaxed proved_by_parts(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
+                        base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
+  double trust_m = relaxation.first_trust_m();
+  Offsets better = free.offsets;
+  for (int i = 0; i < kMostProofs && !deadline.passed(); ++i) {
+    // Steps that repair a failed proof are taken beside those of the budget.
+    const bool is_spent = !budget.covers(1);
+    base::Budget steps = is_spent ? base::Budget(kStepsAProof) : budget.take(kStepsAProof);
+    relaxation.run(steps, trust_m, deadline);
+    const bool is_settled = steps.covers(1);
+    if (!is_spent) budget.put_back(steps);
+    better = relaxation.offsets();
+    Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
     ++free.paths;
-    if (!tried) continue;
-    Relaxed found{between, *std::move(tried), free.paths};
-    if (relaxation.is_no_worse(found, free)) return found;
+    if (!tried.candidate) {
+      relaxation.watch(*tried.collision, free.offsets);
+      trust_m = relaxation.first_trust_m();
+      continue;
+    }
+    Relaxed found{better, std::move(*tried.candidate), free.paths};
+    if (!relaxation.is_no_worse(found, free)) break;
+    free = std::move(found);
+    if (is_settled || !budget.covers(1)) return free;
   }
-  return free;
+  return retreated(problem, relaxation, std::move(free), better, kRetreat, ends, space, deadline);
+}
+
+/// Relaxes the free correction `free` as the objective requires, and proves the result.
+Relaxed proved_by_objective(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
+                            const Improvement& improvement, base::Budget& budget, FreeSpace& space,
+                            const base::Deadline& deadline) {
+  base::Budget steps = budget.take(improvement.most_steps);
+  const auto& prove = measures_curve(improvement.objective) ? proved_by_parts : proved;
+  Relaxed better = prove(problem, relaxation, std::move(free), ends, steps, space, deadline);
+  budget.put_back(steps);
+  return better;
 }
 
 }  // namespace
@@ -407,10 +469,8 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improveme
                 base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   if (!budget.covers(1)) return free;
   Relaxation relaxation(problem, free.offsets, ends, improvement, space);
-  base::Budget steps = budget.take(improvement.most_steps);
-  Relaxed better = proved(problem, relaxation, std::move(free), ends, steps, space, deadline);
-  budget.put_back(steps);
-  return better;
+  return proved_by_objective(problem, relaxation, std::move(free), ends, improvement, budget, space,
+                             deadline);
 }
 
 std::optional<Candidate> polished(const Problem& problem, int knots, const Improvement& improvement,
@@ -422,9 +482,8 @@ std::optional<Candidate> polished(const Problem& problem, int knots, const Impro
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
   Relaxation relaxation(problem, none, ends, improvement, space);
   if (!relaxation.promises(improvement.worth)) return std::nullopt;
-  base::Budget steps = budget.take(improvement.most_steps);
-  Relaxed better = proved(problem, relaxation, {none, {}}, ends, steps, space, deadline);
-  budget.put_back(steps);
+  Relaxed better = proved_by_objective(problem, relaxation, {none, {}}, ends, improvement, budget,
+                                       space, deadline);
   if (better.candidate.rows.empty()) return std::nullopt;
   return std::move(better.candidate);
 }

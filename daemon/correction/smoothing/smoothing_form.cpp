@@ -14,42 +14,21 @@ namespace camway::correction {
 namespace {
 
 using motion::CubicPoint;
+using motion::KnotBump;
 
 constexpr double kRoundedShare = 0.01;  // of the largest offset: δ
 constexpr int kBumpReach = 2;           // knots from a bump's peak to the end of its support
-constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
-constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner
+constexpr double kSwerve = 0.2;     // spread for `kSafest`, by a weight that outweighs distances
+constexpr double kRounding = 0.03;  // share of the interval: how wide `kShortest` rounds a corner
 
+/// Places of Gauss's rule with two points on [0, 1], whose weights are equal.
+constexpr std::array<double, 2> kGaussPair = {0.21132486540518712, 0.7886751345948129};
 /// Places and weights of Gauss's rule with four points on [0, 1].
 constexpr std::array<std::pair<double, double>, 4> kGauss = {
     {{0.06943184420297371, 0.17392742256872692},
      {0.33000947820757187, 0.32607257743127307},
      {0.6699905217924281, 0.32607257743127307},
      {0.9305681557970263, 0.17392742256872692}}};
-
-/// Weights of the squared distance from the original, and of squared first and second differences
-/// of the path's control points.
-struct Weights {
-  double distance;
-  double stretch;
-  double bend;
-};
-
-/// Requires an objective other than `kClosest`.
-Weights weights_of(Objective objective, int count) {
-  switch (objective) {
-    case Objective::kSafest:
-      return {1.0, 0.0, std::pow(kSwerve * count, 4.0)};
-    case Objective::kShortest:
-      return {0.0, 1.0, std::pow(kRounding * count, 2.0)};
-    case Objective::kSmoothest:
-      return {0.0, 0.0, 1.0};
-    case Objective::kClosest:
-      break;  // has another form
-  }
-  assert(false);
-  return {};
-}
 
 /// The path, extended beyond its ends along its tangents: natural end conditions.
 CubicPoint extended(const motion::CubicPath& path, double time_s) {
@@ -79,6 +58,55 @@ int knots_beyond(const motion::KnotRow& knots, int keyframe, int side, double ne
   int beyond = 0;
   while (beyond < knots.count / 2 && !reaches(beyond + 1)) ++beyond;
   return beyond;
+}
+
+/// Times between a knot of a row, or a joint of the path, and the next.
+struct Step {
+  double begin_s;
+  double end_s;
+  int knot;                         ///< the last knot up to `begin_s`
+  const motion::CubicPiece& piece;  ///< of the path
+};
+
+/// Calls `use` with each step of the path that bumps reach.
+template <class Use>
+void for_each_step(const motion::CubicPath& path, const FreeCoefficients& free, const Use& use) {
+  const motion::KnotRow& knots = free.knots();
+  std::size_t first = 0;
+  for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
+    const double begin_s = std::max(knots.knot_s(k), path.begin_s());
+    const double end_s = std::min(knots.knot_s(k + 1), path.end_s());
+    if (!(begin_s < end_s)) continue;
+    while (path.pieces[first].t1_s <= begin_s) ++first;
+    for (std::size_t i = first; i < path.pieces.size() && path.pieces[i].t0_s < end_s; ++i) {
+      const motion::CubicPiece& piece = path.pieces[i];
+      use(Step{std::max(begin_s, piece.t0_s), std::min(end_s, piece.t1_s), k, piece});
+    }
+  }
+}
+
+/// The position of the eye and its derivatives by time.
+motion::bezier::Jet<geometry::Vec3> eye_at(const motion::CubicPiece& piece, double time_s) {
+  const double duration_s = piece.t1_s - piece.t0_s;
+  auto jet = motion::bezier::jet_at(piece.position, (time_s - piece.t0_s) / duration_s);
+  jet.first /= duration_s;
+  jet.second /= duration_s * duration_s;
+  return jet;
+}
+
+StackedPoint moved_by(const geometry::Vec3& move) {
+  return stacked({move, geometry::Vec4::Zero()}, 1.0);
+}
+
+/// A derivative of the row of bumps at a time between the knots `knot` and `knot + 1`.
+Terms sum_of_bumps(int knot, const FreeCoefficients& free,
+                   double (KnotBump::*derivative)(double) const, double time_s) {
+  Terms terms;
+  const int last = std::min(knot + kBumpReach, free.last());
+  for (int k = std::max(knot - kBumpReach + 1, free.first()); k <= last; ++k) {
+    free.add(k, (free.bump(k).*derivative)(time_s), terms);
+  }
+  return terms;
 }
 
 }  // namespace
@@ -167,14 +195,26 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
                              Objective objective, double lever_m, const Closeness& closeness,
                              const StackedPoints& about)
     : bending_(free.size()), squares_(free.size()) {
-  if (objective == Objective::kClosest) {
-    const double a = closeness.acceleration_m_per_s2;
-    find_places(problem, free, lever_m,
-                2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a));
-    bound_about(about);
-  } else {
-    count_differences(problem, free, objective, lever_m);
-    solve();
+  const double a = closeness.acceleration_m_per_s2;
+  switch (objective) {
+    case Objective::kClosest:
+      find_places(problem, free, lever_m,
+                  2.0 * kAccelerationWeight_rad * closeness.viewing_distance_m / (a * a));
+      bound_about(about);
+      break;
+    case Objective::kShortest:
+      find_velocities(problem, free, lever_m);
+      bound_about(about);
+      break;
+    case Objective::kSmoothest:
+      count_bending(problem, free, 1.0);
+      squares_ = bending_;
+      solve();
+      break;
+    case Objective::kSafest:
+      count_differences(problem, free, lever_m);
+      solve();
+      break;
   }
 }
 
@@ -189,14 +229,14 @@ void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& 
     if (!(begin_s < end_s)) continue;
     for (const auto& [share, weight] : kGauss) {
       const double time_s = std::lerp(begin_s, end_s, share);
-      OffsetPlace& place = places_.emplace_back();
+      Place& place = places_.emplace_back();
       place.share_s = weight * (end_s - begin_s);
       Terms bent;
       for (int near = std::max(k - 1, free.first()); near <= std::min(k + 2, free.last()); ++near) {
         free.add(near, free.bump(near).value(time_s), place.value);
         free.add(near, free.bump(near).second_derivative(time_s), bent);
       }
-      place.offset =
+      place.constant =
           stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
       bending_.count(place.share_s * bend_weight, bent,
                      stacked(difference(problem.path.second_derivative(time_s),
@@ -211,17 +251,26 @@ void SmoothingForm::bound_about(const StackedPoints& about) {
   if (bound_at_ && *bound_at_ == about) return;  // the form would be the same
   bound_at_ = about;
   std::vector<double> sizes_m;
-  for (const OffsetPlace& place : places_) {
-    sizes_m.push_back((place.offset + combined(place.value, about)).norm());
+  for (const Place& place : places_) {
+    sizes_m.push_back((place.constant + combined(place.value, about)).norm());
   }
   const double largest_m = sizes_m.empty() ? 0.0 : *std::ranges::max_element(sizes_m);
   const double floor_m = largest_m > 0.0 ? kRoundedShare * largest_m : 1.0;
   squares_ = bending_;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const OffsetPlace& place = places_[i];
-    squares_.count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.offset);
+    const Place& place = places_[i];
+    squares_.count(place.share_s / std::hypot(sizes_m[i], floor_m), place.value, place.constant);
   }
   solve();
+}
+
+double SmoothingForm::bounded_value(const StackedPoints& variables) const {
+  if (places_.empty()) return value(variables);
+  double sum = bending_.value(variables);
+  for (const Place& place : places_) {
+    sum += 0.5 * place.share_s * (place.constant + combined(place.value, variables)).norm();
+  }
+  return sum;
 }
 
 void SmoothingForm::solve() {
@@ -230,9 +279,46 @@ void SmoothingForm::solve() {
   factors_->solve_in_place(minimum_);
 }
 
+// A corner that is rounded off over the share r of an interval of duration T, at the mean speed v,
+// has the weight λ = (r·T)²/v.
+void SmoothingForm::find_velocities(const Problem& problem, const FreeCoefficients& free,
+                                    double lever_m) {
+  double length_m = 0.0;
+  double duration_s = 0.0;
+  for_each_step(problem.path, free, [&](const Step& step) {
+    for (const auto& [share, weight] : kGauss) {
+      const double time_s = std::lerp(step.begin_s, step.end_s, share);
+      const double share_s = weight * (step.end_s - step.begin_s);
+      const geometry::Vec3 velocity = eye_at(step.piece, time_s).first;
+      length_m += share_s * velocity.norm();
+      duration_s += share_s;
+      places_.push_back({share_s,
+                         sum_of_bumps(step.knot, free, &KnotBump::first_derivative, time_s),
+                         moved_by(velocity)});
+    }
+  });
+  const double rounded_s = kRounding * (problem.leg_end_s() - problem.leg_begin_s());
+  // If the camera only turns, corrections move it by about its own size.
+  const double speed_m_per_s = std::max(length_m, lever_m) / duration_s;
+  count_bending(problem, free, rounded_s * rounded_s / speed_m_per_s);
+}
+
+// The second derivative is linear on each step, so the integral of its square is exact.
+void SmoothingForm::count_bending(const Problem& problem, const FreeCoefficients& free,
+                                  double weight) {
+  for_each_step(problem.path, free, [&](const Step& step) {
+    for (const double share : kGaussPair) {
+      const double time_s = std::lerp(step.begin_s, step.end_s, share);
+      bending_.count(0.5 * weight * (step.end_s - step.begin_s),
+                     sum_of_bumps(step.knot, free, &KnotBump::second_derivative, time_s),
+                     moved_by(eye_at(step.piece, time_s).second));
+    }
+  });
+}
+
 void SmoothingForm::count_differences(const Problem& problem, const FreeCoefficients& free,
-                                      Objective objective, double lever_m) {
-  const Weights weights = weights_of(objective, free.knots().count);
+                                      double lever_m) {
+  const double bend_weight = std::pow(kSwerve * free.knots().count, 4.0);
   const auto path_at = [&](int k) {
     return stacked(extended(problem.path, free.knots().knot_s(k)), lever_m);
   };
@@ -242,16 +328,12 @@ void SmoothingForm::count_differences(const Problem& problem, const FreeCoeffici
     const StackedPoint here = path_at(k);
     Terms value;
     free.add(k, 1.0, value);
-    squares_.count(weights.distance, value,
-                   here - stacked(extended(problem.original, time_s), lever_m));
-    Terms step = value;
-    free.add(k - 1, -1.0, step);
-    squares_.count(weights.stretch, step, here - path_at(k - 1));
+    squares_.count(1.0, value, here - stacked(extended(problem.original, time_s), lever_m));
     Terms bend;
     free.add(k - 1, 1.0, bend);
     free.add(k, -2.0, bend);
     free.add(k + 1, 1.0, bend);
-    squares_.count(weights.bend, bend, path_at(k - 1) - 2.0 * here + path_at(k + 1));
+    squares_.count(bend_weight, bend, path_at(k - 1) - 2.0 * here + path_at(k + 1));
   }
 }
 

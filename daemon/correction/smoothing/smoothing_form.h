@@ -87,50 +87,58 @@ class FreeCoefficients {
 ///   to what δ rounds off (majorisation; Hunter & Lange 2004, "A tutorial on MM algorithms"). A
 ///   move and a turn at the same time count as the length of both together, the cost adds them.
 ///
-/// The other objectives are weighted sums of squares (Farin 2002, section 9.4, for bending): of the
-/// control points' distances from the original, and of the first and second differences of the
-/// path's control points. They require equidistant knots.
-/// - `kSafest`: distances and second differences. Its gaps are not part of the form
-///   (`ContactBounds`).
-/// - `kShortest`: first differences, and second differences with a small weight.
-/// - `kSmoothest`: second differences.
+/// - `kShortest`: half the length of the eye's curve, at its quadratic bound about the velocity v
+/// of
+///   given coefficients, with a small weight of bending that rounds corners off: half of
+///   ∫ |c'|²/√(|v|² + δ²) + λ·|c''|² dt. The bound is that of `kClosest`.
+/// - `kSmoothest`: half the bending energy of the eye's curve, ∫ |c''|² dt.
+/// - `kSafest`: half the weighted sum of squares of the control points' distances from the original
+///   and of the second differences of the path's control points (Farin 2002, section 9.4). Its gaps
+///   are not part of the form (`ContactBounds`). Requires equidistant knots.
+///
+/// The integrals of `kShortest` and `kSmoothest` are about positions alone.
 class SmoothingForm {
  public:
-  /// `about`: the coefficients whose offset is e. Only `kClosest` uses `closeness` and `about`.
+  /// `about`: the coefficients whose offset is e, or whose velocity is v; without effect for
+  /// others. Only `kClosest` uses `closeness`.
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, const Closeness& closeness, const StackedPoints& about);
 
   /// Replaces the form by the quadratic bound about the coefficients `about`. Requires the
-  /// objective `kClosest`.
+  /// objective `kClosest` or `kShortest`.
   void bound_about(const StackedPoints& about);
 
   /// Returns the value of the form.
   [[nodiscard]] double value(const StackedPoints& variables) const {
     return squares_.value(variables);
   }
+  /// Returns the value of what the form bounds, up to a constant for `kClosest`; the value of the
+  /// form where that is no bound.
+  [[nodiscard]] double bounded_value(const StackedPoints& variables) const;
   /// Returns the coefficients that minimise the form.
   [[nodiscard]] const StackedPoints& minimum() const { return minimum_; }
   /// Returns the factors of the Hessian, which is the same in all seven dimensions.
   [[nodiscard]] const BandFactors& factors() const { return *factors_; }
 
  private:
-  void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
-                         double lever_m);
   void find_places(const Problem& problem, const FreeCoefficients& free, double lever_m,
                    double bend_weight);
+  void find_velocities(const Problem& problem, const FreeCoefficients& free, double lever_m);
+  void count_bending(const Problem& problem, const FreeCoefficients& free, double weight);
+  void count_differences(const Problem& problem, const FreeCoefficients& free, double lever_m);
   void solve();
 
-  /// A place of Gauss's rule: the offset from the original there, as a function of the
-  /// coefficients.
-  struct OffsetPlace {
+  /// A place of Gauss's rule: the vector whose length is integrated there, as a function of the
+  /// coefficients. It is the offset from the original, or the velocity.
+  struct Place {
     double share_s;  ///< weight in the integral
     Terms value;
-    StackedPoint offset;  ///< offset of the problem's path
+    StackedPoint constant;  ///< of the problem's path
   };
 
-  std::vector<OffsetPlace> places_;        ///< for `kClosest`
-  SumOfSquares bending_;                   ///< of second derivatives, for `kClosest`
-  std::optional<StackedPoints> bound_at_;  ///< `about` of the present form, for `kClosest`
+  std::vector<Place> places_;              ///< for `kClosest` and `kShortest`
+  SumOfSquares bending_;                   ///< of second derivatives, for all but `kSafest`
+  std::optional<StackedPoints> bound_at_;  ///< `about` of the present form, if it is a bound
   SumOfSquares squares_;                   ///< the form
   std::optional<BandFactors> factors_;     ///< of the form
   StackedPoints minimum_;

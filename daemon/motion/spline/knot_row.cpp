@@ -107,6 +107,15 @@ double KnotBump::value(double time_s) const {
   return place ? bezier::value_at(pieces[place->first], place->second) : 0.0;
 }
 
+double KnotBump::first_derivative(double time_s) const {
+  const auto place = place_of(time_s);
+  if (!place) return 0.0;
+  const auto& [piece, u] = *place;
+  const std::array<double, 4>& b = pieces[piece];
+  const std::array<double, 3> steps = {b[1] - b[0], b[2] - b[1], b[3] - b[2]};
+  return 3.0 * bezier::value_at(steps, u) / (knots_s[piece + 1] - knots_s[piece]);
+}
+
 double KnotBump::second_derivative(double time_s) const {
   const auto place = place_of(time_s);
   if (!place) return 0.0;

@@ -43,6 +43,8 @@ struct KnotBump {
 
   /// Returns the value at a time; 0 outside of the knots.
   [[nodiscard]] double value(double time_s) const;
+  /// Returns the first derivative at a time; 0 outside of the knots.
+  [[nodiscard]] double first_derivative(double time_s) const;
   /// Returns the second derivative at a time; 0 outside of the knots.
   [[nodiscard]] double second_derivative(double time_s) const;
 

@@ -29,11 +29,6 @@ double least_gap_m(const LadderCase& c, const motion::CubicPath& path) {
       ->lower_bound_m;
 }
 
-LadderResult corrected_for(Objective objective, LadderCase c) {
-  c.options.objective = objective;
-  return c.corrected();
-}
-
 /// Adds a wall at z = 0 that is endless in x and y, but for a door.
 void add_wall_with_door(scene::Mesh& mesh, double door_begin_m, double door_end_m) {
   testing::add_cuboid(mesh, {-60, -60, -0.05}, {door_begin_m, 60, 0.05});

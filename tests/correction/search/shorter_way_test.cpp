@@ -30,6 +30,12 @@ TEST(ShorterWay, IsLookedForOnlyWhereTheFirstIsLong) {
   EXPECT_TRUE(shorter_way(kBall, way_of_cost(16.0)));
 }
 
+TEST(ShorterWay, IsNotLookedForWhereAFinerLatticeWouldRunOut) {
+  LatticeResult way = way_of_cost(20.0);
+  way.points = 3000;
+  EXPECT_FALSE(shorter_way(kBall, way));
+}
+
 TEST(ShorterWay, LimitsTheSearchByWhatTheFirstTook) {
   const BallMotion search = shorter_way(kBall, way_of_cost(20.0)).value();
   EXPECT_EQ(search.from_W, kBall.from_W);
@@ -62,6 +68,9 @@ double farthest_m(const LatticeResult& way) {
 TEST(ShorterWay, LeadsThroughAWindowThatCoarseLatticesMiss) {
   scene::Mesh mesh;
   testing::add_wall_with_window(mesh);
+  // A low hall, so that the first search takes few points.
+  testing::add_cuboid(mesh, {-20, -1.5, -8}, {20, -1.4, 8});
+  testing::add_cuboid(mesh, {-20, 2.4, -8}, {20, 2.5, 8});
   const testing_search::SearchScene scene(std::move(mesh));
   const FreeSpace space = scene.space();
   const LatticeResult first = coarse_way(space, kBall);

@@ -44,7 +44,8 @@ double room_at(const BoundConstraint& bound, const Contact& contact, const Stack
 void solve_one_sample(ContactBounds& bounds, double response, double settled_m) {
   const std::vector<Terms> samples = {{{0, 1.0}}};
   StackedPoints variables = StackedPoints::Zero(1, 7);
-  solve_qp(bounds.bounds(), samples, Responses::Constant(1, 1, response), settled_m, variables);
+  solve_qp(bounds.bounds(), samples, Responses::Constant(1, 1, response), settled_m, kFewSweeps,
+           variables);
 }
 
 TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
@@ -116,6 +117,14 @@ TEST(ContactBounds, PayMoreForTheFirstPartOfAGap) {
 TEST(ContactBounds, WantAShareOfTheRadiusWhereThatShiftsThePictureLittle) {
   EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, 0.1, 100.0).wanted_m(), 0.07);
   EXPECT_DOUBLE_EQ(ContactBounds(Objective::kClosest, 1.0, 2.0).wanted_m(), 0.04);
+}
+
+// A measure of the curve alone is the better, the less room is kept.
+TEST(ContactBounds, WantLittleForAMeasureOfTheCurveAlone) {
+  for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
+    EXPECT_DOUBLE_EQ(ContactBounds(objective, 0.1, 100.0).wanted_m(), 0.003);
+    EXPECT_DOUBLE_EQ(ContactBounds(objective, 1.0, 1.0).wanted_m(), 0.02);
+  }
 }
 
 TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {

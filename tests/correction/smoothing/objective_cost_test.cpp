@@ -97,21 +97,5 @@ TEST(ObjectiveCost, IsBetterOnlyIfLessAndNoNearer) {
   EXPECT_TRUE(is_better({0.9, 0.2}, {1.0, 0.1}));
 }
 
-// The other objectives count tight clearances only.
-TEST(ObjectiveCost, OfOthersKnowsTightGapsAlone) {
-  const CostCase c;
-  const double radius_m = c.space().ball_radius_m();
-  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
-  for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
-    const auto gap_m = [&](double height_m) {
-      const Vec3 up(0, -1.0 - low_m + height_m, 0);
-      const CubicPath path = straight(up, up + Vec3(3, 0, 0), 2.0);
-      return c.cost(objective, path, path).least_gap_m;
-    };
-    EXPECT_LT(gap_m(0.005 * radius_m), 0.006 * radius_m);
-    EXPECT_EQ(gap_m(0.5 * radius_m), gap_m(2.0 * radius_m));
-  }
-}
-
 }  // namespace
 }  // namespace camway::correction

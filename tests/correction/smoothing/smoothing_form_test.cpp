@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "daemon/correction/smoothing/objective_cost.h"
 #include "tests/support/gap_problems.h"
 
 namespace camway::correction {
@@ -185,14 +186,10 @@ StackedPoint on(const CubicPath& path, double time_s) {
          3.0 / (piece.t1_s - piece.t0_s) * (time_s - inside_s) * stacked(slope, kFormLever_m);
 }
 
-/// Returns the objective from single control points; its weights are part of the computation.
-double value_of(const FormCase& c, Objective objective, const Offsets& offsets, int first,
-                int last) {
-  const double distance = objective == Objective::kSafest ? 1.0 : 0.0;
-  const double stretch = objective == Objective::kShortest ? 1.0 : 0.0;
-  double bend = 1.0;
-  if (objective == Objective::kShortest) bend = std::pow(0.1 * c.knots.count, 2.0);
-  if (objective == Objective::kSafest) bend = std::pow(0.2 * c.knots.count, 4.0);
+/// Returns the objective `kSafest` from single control points; its weight is part of the
+/// computation.
+double value_of(const FormCase& c, const Offsets& offsets, int first, int last) {
+  const double bend = std::pow(0.2 * c.knots.count, 4.0);
   const auto control_point = [&](int k) -> StackedPoint {
     return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kFormLever_m);
   };
@@ -203,8 +200,7 @@ double value_of(const FormCase& c, Objective objective, const Offsets& offsets, 
     const StackedPoint here = control_point(k);
     const StackedPoint before = control_point(k - 1);
     const StackedPoint after = control_point(k + 1);
-    sum += 0.5 * distance * (here - on(c.problem.original, time_s)).squaredNorm() +
-           0.5 * stretch * (here - before).squaredNorm() +
+    sum += 0.5 * (here - on(c.problem.original, time_s)).squaredNorm() +
            0.5 * bend * (before - 2.0 * here + after).squaredNorm();
   }
   return sum;
@@ -224,18 +220,97 @@ void for_many_forms(Draw& draw, int count, const Check& check) {
   });
 }
 
-TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
+TEST(SmoothingForm, OfSafestIsTheSumOfSquaresOfControlPoints) {
   Draw draw(4106);
   for_many_forms(draw, 60,
                  [&](const FormCase& c, const FreeCoefficients& free, Objective objective,
                      const SmoothingForm& form) {
-                   if (objective == Objective::kClosest) return;
+                   if (objective != Objective::kSafest) return;
                    const StackedPoints variables = draw.points(free.size(), 1.0);
-                   const double expected =
-                       value_of(c, objective, free.offsets_of(variables, kFormLever_m),
-                                free.first(), free.last());
+                   const double expected = value_of(c, free.offsets_of(variables, kFormLever_m),
+                                                    free.first(), free.last());
                    ASSERT_NEAR(form.value(variables), expected, kFormRounding * expected);
                  });
+}
+
+CubicPath path_with(const FormCase& c, Ends ends, const FreeCoefficients& free,
+                    const StackedPoints& variables) {
+  const BumpRow row = bumps_for(free.offsets_of(variables, kFormLever_m), ends);
+  return motion::with_bumps(c.problem.path, std::vector{row});
+}
+
+// What an answer reports, joints of the path between two knots included; orientations have no part.
+TEST(SmoothingForm, OfSmoothestIsTheBendingEnergy) {
+  Draw draw(4112);
+  for_many(draw, 60, [&](const FormCase& c, Ends ends, const FreeCoefficients& free) {
+    const StackedPoints none = StackedPoints::Zero(free.size(), 7);
+    const SmoothingForm form(c.problem, free, Objective::kSmoothest, kFormLever_m, kCloseness,
+                             none);
+    StackedPoints variables = draw.points(free.size(), 1.0);
+    variables.rightCols<4>().setZero();
+    const double before = bending_energy(c.problem.path);
+    const double after = bending_energy(path_with(c, ends, free, variables));
+    ASSERT_NEAR(form.value(variables) - form.value(none), 0.5 * (after - before),
+                1e-10 * (before + after));
+    ASSERT_EQ(form.bounded_value(variables), form.value(variables));
+  });
+}
+
+/// Length of the eye's curve from `begin_s` to `end_s`, by many chords.
+double chords_m(const CubicPath& path, double begin_s, double end_s) {
+  constexpr int kChords = 4000;
+  double sum_m = 0.0;
+  for (int i = 0; i < kChords; ++i) {
+    const double from_s = std::lerp(begin_s, end_s, static_cast<double>(i) / kChords);
+    const double to_s = std::lerp(begin_s, end_s, static_cast<double>(i + 1) / kChords);
+    sum_m += (path.at(to_s).position - path.at(from_s).position).norm();
+  }
+  return sum_m;
+}
+
+TEST(SmoothingForm, OfShortestBoundsTheLengthAndALittleBending) {
+  constexpr double kRounded = 0.03;  // share of the interval: its weight is part of the computation
+  Draw draw(4113);
+  for_many(draw, 30, [&](const FormCase& c, Ends ends, const FreeCoefficients& free) {
+    const StackedPoints none = StackedPoints::Zero(free.size(), 7);
+    const SmoothingForm form(c.problem, free, Objective::kShortest, kFormLever_m, kCloseness, none);
+    const double begin_s = std::max(c.knots.knot_s(free.first() - 2), c.problem.path.begin_s());
+    const double end_s = std::min(c.knots.knot_s(free.last() + 2), c.problem.path.end_s());
+    const double speed =
+        std::max(chords_m(c.problem.path, begin_s, end_s), kFormLever_m) / (end_s - begin_s);
+    const double rounded_s = kRounded * (c.knots.end_s - c.knots.begin_s);
+    StackedPoints variables = draw.points(free.size(), 1.0);
+    variables.rightCols<4>().setZero();
+    const CubicPath after = path_with(c, ends, free, variables);
+    const double expected =
+        0.5 * (chords_m(after, begin_s, end_s) - chords_m(c.problem.path, begin_s, end_s)) +
+        0.5 * rounded_s * rounded_s / speed *
+            (bending_energy(after) - bending_energy(c.problem.path));
+    // Gauss's rule is not exact for lengths.
+    const double size = form.bounded_value(variables) + form.bounded_value(none);
+    ASSERT_NEAR(form.bounded_value(variables) - form.bounded_value(none), expected, 0.01 * size);
+  });
+}
+
+// Majorisation: the form touches what it bounds, and is nowhere below it, up to what rounds
+// velocities off at 0.
+TEST(SmoothingForm, OfShortestIsNowhereBelowWhatItBounds) {
+  constexpr double kRoundedShare = 0.05;
+  Draw draw(4114);
+  for_many(draw, 60, [&](const FormCase& c, Ends, const FreeCoefficients& free) {
+    const StackedPoints about = draw.points(free.size(), 0.5);
+    const SmoothingForm form(c.problem, free, Objective::kShortest, kFormLever_m, kCloseness,
+                             about);
+    const auto form_less_bounded = [&](const StackedPoints& variables) {
+      return form.value(variables) - form.bounded_value(variables);
+    };
+    // ½·|v|²/|v| is ½·|v|, so the bound lacks ½·|v| as a constant.
+    const double constant = form_less_bounded(about);
+    const double slack = kRoundedShare * form.bounded_value(about);
+    for (const double size : {0.01, 0.1, 1.0}) {
+      ASSERT_GE(form_less_bounded(about + draw.points(free.size(), size)), constant - slack);
+    }
+  });
 }
 
 /// Half of ∫ d² + 2·w·D·(d''/a)² dt over the row, by Simpson's rule on many steps between two

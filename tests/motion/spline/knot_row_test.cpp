@@ -45,6 +45,27 @@ TEST(BSplinePieces, AreTheBasisFunction) {
   }
 }
 
+TEST(KnotBump, HasTheFirstDerivativeOfTheBasisFunction) {
+  Random random(3504);
+  for (int round = 0; round < 500; ++round) {
+    const KnotBump bump(random_knots(random));
+    const auto& knots = bump.knots_s;
+    EXPECT_EQ(bump.first_derivative(knots.front() - 0.1), 0.0);
+    EXPECT_EQ(bump.first_derivative(knots.back()), 0.0);
+    const auto piece = static_cast<std::size_t>(random.integer(0, 3));
+    const double step_s = knots[piece + 1] - knots[piece];
+    // Two differences with steps h and 2h give the derivative of a cubic exactly.
+    const double time_s = knots[piece] + random.uniform(0.3, 0.7) * step_s;
+    const double h = 0.125 * step_s;
+    const auto slope = [&](double step) {
+      const auto value = [&](double t) { return static_cast<double>(basis(knots, 0, 4, t)); };
+      return (value(time_s + step) - value(time_s - step)) / (2.0 * step);
+    };
+    const double oracle = (4.0 * slope(h) - slope(2.0 * h)) / 3.0;
+    ASSERT_NEAR(bump.first_derivative(time_s), oracle, 64.0 * kEpsilon / h);
+  }
+}
+
 TEST(KnotBump, HasTheSecondDerivativeOfTheBasisFunction) {
   Random random(3503);
   for (int round = 0; round < 500; ++round) {

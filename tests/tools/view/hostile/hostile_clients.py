@@ -314,6 +314,14 @@ def plan_of(door, request):
     return code, answer
 
 
+def first_plan(door, request):
+    """Returns the answer of a plan as soon as it is right: a daemon may still be starting."""
+    deadline = time.monotonic() + LONGEST_S
+    while (answered := plan_of(door, request))[0] != 200 and time.monotonic() < deadline:
+        time.sleep(0.2)
+    return answered
+
+
 def tidy(door):
     """Removes the objects of hostile clients. Returns why that was not possible."""
     code, described = door.ask("GET", "/v1/scenes/office")
@@ -378,9 +386,11 @@ def attack(door, processes, options):
 
 def judge(door, processes, options):
     request = hostile_requests.sample_requests(ROOT / "scenes/requests")[0]
-    right = plan_of(door, request)
+    right = first_plan(door, request)
     begin = [process.state() for process in processes]
     total, faults, states = attack(door, processes, options)
+    if right[0] != 200:
+        faults.append(f"the first plan was answered with {right}")
     for name, count in sorted(total.items()):
         print(f"  {count:8} {name}")
     faults += tidy(door)
