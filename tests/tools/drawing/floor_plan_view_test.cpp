@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/drawing/floor_plan_view.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "tests/support/random.h"
 #include "tools/drawing/answer_plan.h"
-#include "tools/drawing/floor_plan_view.h"
 #include "tools/drawing/legend.h"
 
 namespace camway::draw {
