@@ -45,45 +45,57 @@ TEST(BSplinePieces, AreTheBasisFunction) {
   }
 }
 
+/// A bump, and a time well within one of its pieces.
+struct BumpPlace {
+  KnotBump bump;
+  double step_s;  ///< length of the piece
+  double time_s;
+
+  /// The basis function by its definition.
+  [[nodiscard]] double value(double at_s) const {
+    return static_cast<double>(basis(bump.knots_s, 0, 4, at_s));
+  }
+};
+
+BumpPlace random_place(Random& random) {
+  const KnotBump bump(random_knots(random));
+  const auto piece = static_cast<std::size_t>(random.integer(0, 3));
+  const double step_s = bump.knots_s[piece + 1] - bump.knots_s[piece];
+  return {bump, step_s, bump.knots_s[piece] + random.uniform(0.3, 0.7) * step_s};
+}
+
 TEST(KnotBump, HasTheFirstDerivativeOfTheBasisFunction) {
   Random random(3504);
   for (int round = 0; round < 500; ++round) {
-    const KnotBump bump(random_knots(random));
-    const auto& knots = bump.knots_s;
-    EXPECT_EQ(bump.first_derivative(knots.front() - 0.1), 0.0);
-    EXPECT_EQ(bump.first_derivative(knots.back()), 0.0);
-    const auto piece = static_cast<std::size_t>(random.integer(0, 3));
-    const double step_s = knots[piece + 1] - knots[piece];
+    const BumpPlace place = random_place(random);
+    EXPECT_EQ(place.bump.first_derivative(place.bump.knots_s.front() - 0.1), 0.0);
+    EXPECT_EQ(place.bump.first_derivative(place.bump.knots_s.back()), 0.0);
     // Two differences with steps h and 2h give the derivative of a cubic exactly.
-    const double time_s = knots[piece] + random.uniform(0.3, 0.7) * step_s;
-    const double h = 0.125 * step_s;
-    const auto slope = [&](double step) {
-      const auto value = [&](double t) { return static_cast<double>(basis(knots, 0, 4, t)); };
-      return (value(time_s + step) - value(time_s - step)) / (2.0 * step);
+    const double h = 0.125 * place.step_s;
+    const auto slope = [&](double step_s) {
+      return (place.value(place.time_s + step_s) - place.value(place.time_s - step_s)) /
+             (2.0 * step_s);
     };
     const double oracle = (4.0 * slope(h) - slope(2.0 * h)) / 3.0;
     // Times of the differences are rounded as well, where the slope is about 1 / step at most.
-    const double rounding = 64.0 * kEpsilon * (1.0 + std::abs(time_s) / step_s) / h;
-    ASSERT_NEAR(bump.first_derivative(time_s), oracle, rounding);
+    const double rounding = 64.0 * kEpsilon * (1.0 + std::abs(place.time_s) / place.step_s) / h;
+    ASSERT_NEAR(place.bump.first_derivative(place.time_s), oracle, rounding);
   }
 }
 
 TEST(KnotBump, HasTheSecondDerivativeOfTheBasisFunction) {
   Random random(3503);
   for (int round = 0; round < 500; ++round) {
-    const KnotBump bump(random_knots(random));
-    const auto& knots = bump.knots_s;
-    EXPECT_EQ(bump.second_derivative(knots.front() - 0.1), 0.0);
-    EXPECT_EQ(bump.value(knots.back()), 0.0);
-    const auto piece = static_cast<std::size_t>(random.integer(0, 3));
-    const double step_s = knots[piece + 1] - knots[piece];
+    const BumpPlace place = random_place(random);
+    EXPECT_EQ(place.bump.second_derivative(place.bump.knots_s.front() - 0.1), 0.0);
+    EXPECT_EQ(place.bump.value(place.bump.knots_s.back()), 0.0);
     // Within one piece the second difference of a cubic is exact.
-    const double time_s = knots[piece] + random.uniform(0.3, 0.7) * step_s;
-    const double h = 0.25 * step_s;
-    const auto value = [&](double t) { return static_cast<double>(basis(knots, 0, 4, t)); };
-    const double oracle = (value(time_s - h) - 2.0 * value(time_s) + value(time_s + h)) / (h * h);
-    ASSERT_NEAR(bump.second_derivative(time_s), oracle, 256.0 * kEpsilon / (h * h));
-    ASSERT_NEAR(bump.value(time_s), value(time_s), 16.0 * kEpsilon);
+    const double h = 0.25 * place.step_s;
+    const double here = place.value(place.time_s);
+    const double oracle =
+        (place.value(place.time_s - h) - 2.0 * here + place.value(place.time_s + h)) / (h * h);
+    ASSERT_NEAR(place.bump.second_derivative(place.time_s), oracle, 256.0 * kEpsilon / (h * h));
+    ASSERT_NEAR(place.bump.value(place.time_s), here, 16.0 * kEpsilon);
   }
 }
 
