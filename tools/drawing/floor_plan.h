@@ -44,8 +44,8 @@ struct FloorPlan {
   scene::Mesh mesh;
   SceneUp up = SceneUp::kY;
   motion::Corners corners_C{};  ///< corners of the near quadrilateral
-  /// What moves in place of the near quadrilateral: points whose convex hull is drawn, each
-  /// thickened by a ball. Empty: a camera.
+  /// Points of the body whose convex hull is drawn, each thickened by a ball of radius
+  /// `body_ball_m`; empty for a camera, whose near quadrilateral is drawn.
   std::vector<geometry::Vec3> body_C = {};
   double body_ball_m = 0.0;
   std::vector<motion::Keyframe> keyframes;               ///< given and inserted keyframes

@@ -223,13 +223,13 @@ class Detour {
     return std::move(found.candidate);
   }
 
-  // Trees turn as they like. Looks for a path along the same way of a small ball that turns less
-  // and costs less.
+  // Replaces a path by one along the same way of a small ball that turns less, if that costs less:
+  // trees turn the body as they like.
   void take_with_less_turning(Candidate& found) {
     OrientationPolicy policy = space_.policy();
     for (const double most_rad : kSmallTurns_rad) {
-      if (small_way_W_.empty() || most_rad >= space_.policy().max_turn_rad || deadline_.passed())
-        return;
+      const bool is_less = most_rad < space_.policy().max_turn_rad;
+      if (!is_less || small_way_W_.empty() || deadline_.passed()) return;
       policy.max_turn_rad = most_rad;
       FreeSpace space(space_.query(), policy, space_.closeness());
       TreeOptions trees = tree_about(small_way_W_);

@@ -60,8 +60,8 @@ struct LadderResult {
 };
 
 /// Corrects collisions one after the other: by a move, else by a detour that keeps the orientation
-/// or by a turn, whichever costs less (`closeness.h`). The costly search for detours
-/// through narrow places comes last, after an attempt to prove that there is no path.
+/// or by a turn, whichever costs less (`closeness.h`). The costly search for detours through
+/// narrow places comes last, after an attempt to prove that there is no path.
 ///
 /// A correction changes the path by C² bumps between keyframes next to the collision, so the path
 /// meets all given keyframes and stays as it was elsewhere. It is accepted only if all that it

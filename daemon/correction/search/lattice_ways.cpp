@@ -88,7 +88,7 @@ class LatticeWays {
 };
 
 std::size_t last_level(Lattices lattices) {
-  return lattices == Lattices::kAllButFinest ? kFinestLattice - 1 : kFinestLattice;
+  return lattices == Lattices::kFinest ? kFinestLattice : kFinestLattice - 1;
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ struct BallMotion {
 
 /// The lattices on which a way is searched.
 enum class Lattices {
-  kAll,
-  kAllButFinest,  ///< detours that need the finest one mostly need turning as well
+  kAllButFinest,  ///< detours that need the finest one mostly are narrow as well
   kFinest,
   /// The coarsest one, and the next one if the points of the first did not run out. Only
   /// `LatticeWayUse::use` is called.

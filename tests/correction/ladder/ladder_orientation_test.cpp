@@ -208,6 +208,7 @@ PolicyCase box_before_a_door(testing::Random& random) {
 
 // The ball that holds the box in any orientation does not fit through the door.
 TEST(OrientationPolicy, PassesDoorsThatTheBodyFitsWithoutTurning) {
+  constexpr double kLeastTurn_deg = 1.2;  // without a comparison with paths that turn less: 2.4
   testing::Random random(4612);
   for (int run = 0; run < 12; ++run) {
     const PolicyCase c = box_before_a_door(random);
@@ -218,7 +219,7 @@ TEST(OrientationPolicy, PassesDoorsThatTheBodyFitsWithoutTurning) {
     EXPECT_EQ(kept.turned_deg, 0.0) << run;
     const Outcome free = corrected(c, {}, Objective::kClosest);
     EXPECT_TRUE(free.is_free) << run;
-    EXPECT_LT(free.turned_deg, 1.2) << run << ": a turn changes more of the picture";
+    EXPECT_LT(free.turned_deg, kLeastTurn_deg) << run << ": a turn changes more of the picture";
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using base::Deadline;
 
-// Of an angle near 0 from the dot product of unit quaternions: a few roots of epsilon.
+// Rounding of an angle near 0 from the dot product of unit quaternions: a few roots of epsilon.
 constexpr double kAngleRounding_rad = 1e-7;
 
 constexpr double kHalfWidth_m = 0.1;  // of the near quadrilateral of `small_camera()`

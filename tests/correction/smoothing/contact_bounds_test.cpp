@@ -159,7 +159,7 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
     bounds.add(0, StackedPoint::Zero(), response, near);
-    solve_one_sample(bounds, response, 1e-9);
+    solve_one_sample(bounds, response, kSettled_m);
     bounds.remember();
     EXPECT_EQ(near[0].soft_multiplier, bounds.bounds()[0].multiplier);
     return response * near[0].soft_multiplier;

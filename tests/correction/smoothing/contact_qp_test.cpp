@@ -17,6 +17,8 @@ namespace {
 
 using testing::Draw;
 
+constexpr double kEarly_m = 1e-3;  // ends a solution early, as in planning
+
 /// A random program. The Hessian is that of a sum of squares.
 struct ProgramCase {
   StackedPoints unforced;  ///< variables at the unconstrained minimum
@@ -216,7 +218,7 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
     for (BoundConstraint& bound : c.bounds)
       bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 1.0);
     const double before = dual_of(c, forces_of(c));
-    c.solve(1e-3);
+    c.solve(kEarly_m);
     const double after = dual_of(c, forces_of(c));
     EXPECT_GE(after, before - 1e-12 * (1.0 + std::abs(before))) << run;
     EXPECT_GE(forces_of(c).minCoeff(), 0.0);
@@ -246,7 +248,7 @@ TEST(ContactForces, MoveTheVariables) {
   Draw draw(4206);
   for (int run = 0; run < 100; ++run) {
     ProgramCase c = random_program(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
-    const StackedPoints found = c.solve(1e-3);
+    const StackedPoints found = c.solve(kEarly_m);
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(c.unforced.rows(), 7);
     const Eigen::MatrixXd shares = shares_of(c);
     for (const BoundConstraint& bound : c.bounds) {

@@ -205,6 +205,13 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
   EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
 }
 
+/// Largest share of the possible gain that steps may leave, as they end when they gain little. That
+/// is more where their form only bounds the objective.
+double largest_share_left(Objective objective) {
+  if (objective == Objective::kClosest) return 0.02;
+  return objective == Objective::kShortest ? 4e-3 : 1e-3;
+}
+
 // Without obstacles the result is the objective's minimum.
 TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   RelaxationCase c;
@@ -232,11 +239,8 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
     const double start = c.value(free->offsets, Ends::kFree, objective);
     const double reached = c.value(result.offsets, Ends::kFree, objective);
     const double least = c.value(coefficients.offsets_of(best, lever_m), Ends::kFree, objective);
-    // What forms only bound is reached by steps that end when they gain little.
-    const double share = objective == Objective::kClosest    ? 0.02
-                         : objective == Objective::kShortest ? 4e-3
-                                                             : 1e-3;
-    EXPECT_LE(reached - least, share * (start - least)) << static_cast<int>(objective);
+    EXPECT_LE(reached - least, largest_share_left(objective) * (start - least))
+        << static_cast<int>(objective);
   }
 }
 

@@ -227,7 +227,8 @@ TEST(ReplayVerdict, NamesTheMeasureThatDecides) {
 TEST(ReplayVerdict, PathsWithinTheTolerancesAreTheSame) {
   const Result then = proved_result();
   Result now = then;
-  now.keyframes[1].pose.position.z() += 1e-3;
+  constexpr double kMoved_m = 1e-3;
+  now.keyframes[1].pose.position.z() += kMoved_m;
   now.path = motion::interpolate(now.keyframes);
   EXPECT_EQ(judged(then, now).verdict, Verdict::kDifferent);
   EXPECT_EQ(judged(then, now, {.tolerance_m = 2e-3}).verdict, Verdict::kSame);
@@ -242,10 +243,10 @@ TEST(ReplayVerdict, PathsWithinTheTolerancesAreTheSame) {
 TEST(ReplayVerdict, TheToleranceOfShiftsIsAtTheViewingDistanceOfTheRequestElseOfTheAnswers) {
   Result then = proved_result();
   Result now = then;
-  now.keyframes[1].pose.position.z() += 1e-3;
+  constexpr double kMoved_m = 1e-3;
+  now.keyframes[1].pose.position.z() += kMoved_m;
   now.path = motion::interpolate(now.keyframes);
-  // 1 mm is a shift of 1/2000 rad at 2 m.
-  const Thresholds at_2_m{.tolerance_m = 2e-3, .tolerance_shift_rad = 1e-3 / 2.0};
+  const Thresholds at_2_m{.tolerance_m = 2.0 * kMoved_m, .tolerance_shift_rad = kMoved_m / 2.0};
   const auto is_same = [&](const RecordedRequest& recorded = request_for()) {
     const Verdict verdict = judged(then, now, at_2_m, recorded).verdict;
     EXPECT_EQ(judged(now, then, at_2_m, recorded).verdict, verdict);
