@@ -27,8 +27,8 @@ struct SearchScene {
                        const motion::Body& moving = motion::Body(testing::small_camera()))
       : mesh(std::move(mesh_W)), index(scene::SceneIndex::build(mesh)), body(moving) {}
 
-  [[nodiscard]] FreeSpace space() const {
-    return FreeSpace({collision::Obstacles(index), body, detect});
+  [[nodiscard]] FreeSpace space(const OrientationPolicy& policy = {}) const {
+    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
   }
 
   /// Returns the distance of a point from the scene; infinity for an empty scene.

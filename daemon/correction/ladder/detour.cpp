@@ -36,7 +36,12 @@ constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ba
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
 constexpr int kFewSamples = 300;                       // of trees that turn less than those before
-constexpr std::array<double, 2> kSmallTurns_rad = {0.0, 0.35};  // limits of their turns
+constexpr double kSmallTurn_rad = 0.35;                // limit of their turns
+/// A way that turns replaces one that does not if it costs less than this share: relaxation may
+/// change both costs, and a turn changes what is seen.
+constexpr double kTurnShare = 0.7;
+/// A way without turns that costs no more, for each second, is not compared with others.
+constexpr double kCheap_rad = 0.08;
 constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
@@ -157,7 +162,7 @@ class Detour {
       std::optional<Candidate> found = along_small_ball(share, kMostCells);
       if (found || has_complete_pocket()) return found;
       if (small_way_W_.empty()) break;
-      found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_));
+      found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_), space_);
       if (found) return found;
     }
     if (std::optional<Candidate> found = between_ways_out()) return found;
@@ -168,7 +173,7 @@ class Detour {
   // A detour between the ways out of the narrow places in which the body is at its ends; nothing if
   // it is in none.
   std::optional<Candidate> between_ways_out() {
-    if (is_limited(space_.policy())) return std::nullopt;
+    if (space_.may_turn() && is_limited(space_.policy())) return std::nullopt;
     const std::optional<Guide> out = way_out_from(from_);
     const std::optional<Guide> back = out ? way_out_from(to_) : std::nullopt;
     if (!back || out->size() + back->size() == 2) return std::nullopt;
@@ -184,7 +189,7 @@ class Detour {
     if (found.guide.empty()) return std::nullopt;
     found.guide.insert(found.guide.begin(), out->begin(), out->end() - 1);
     found.guide.insert(found.guide.end(), back->rbegin() + 1, back->rend());
-    return followed(found);
+    return followed(found, space_);
   }
 
   [[nodiscard]] std::optional<Guide> way_out_from(const SignedPose& end) {
@@ -194,26 +199,28 @@ class Detour {
     return way_out(space_, end, HasRoom::kByGap, deadline_);
   }
 
-  // A detour through the narrow places on the way of a small ball. Keeps that way, and the pocket
-  // that shuts in one end of the smallest ball.
+  // A detour through the narrow places on the way of a small ball, without turns if that does not
+  // cost more. Keeps that way, and the pocket that shuts in one end of the smallest ball.
   std::optional<Candidate> along_small_ball(double share, std::size_t max_cells) {
     CellResult ball = way_of_small_ball(share, max_cells);
     if (share == kBallShares.front()) result_.pocket = std::move(ball.pocket);
     small_way_W_ = std::move(ball.way_W);
     if (small_way_W_.empty()) return std::nullopt;
-    return followed(
-        threaded_guide(space_, small_way_W_, from_, to_, tree_about(small_way_W_), deadline_));
+    std::optional<Candidate> kept = along_way_with_turns(0.0);
+    if (!space_.may_turn() || (kept && is_cheap(*kept))) return kept;
+    std::optional<Candidate> turned = followed(
+        threaded_guide(space_, small_way_W_, from_, to_, tree_about(small_way_W_), deadline_),
+        space_);
+    if (!turned) return kept;
+    if (kept) return cost(*turned) < kTurnShare * cost(*kept) ? std::move(turned) : std::move(kept);
+    std::optional<Candidate> less = along_way_with_turns(kSmallTurn_rad);
+    return less && cost(*less) < cost(*turned) ? std::move(less) : std::move(turned);
   }
 
   std::optional<Candidate> followed(const Guide& guide, Turning turning) {
     Followed found = follow(problem_, guide, turning, budget_, space_, deadline_);
     result_.effort.paths += found.paths;
     return std::move(found.candidate);
-  }
-  std::optional<Candidate> followed(const TreeResult& tree) {
-    std::optional<Candidate> found = followed(tree, space_);
-    if (found && space_.may_turn()) take_with_less_turning(*found);
-    return found;
   }
   std::optional<Candidate> followed(const TreeResult& tree, FreeSpace& space) {
     result_.effort.tree_samples += tree.samples;
@@ -223,23 +230,24 @@ class Detour {
     return std::move(found.candidate);
   }
 
-  // Replaces a path by one along the same way of a small ball that turns less, if that costs less:
-  // trees turn the body as they like.
-  void take_with_less_turning(Candidate& found) {
+  // A detour along the way of the small ball on which the body turns by no more than `most_rad`, if
+  // few samples find one: trees with more freedom turn the body as they like.
+  std::optional<Candidate> along_way_with_turns(double most_rad) {
     OrientationPolicy policy = space_.policy();
-    for (const double most_rad : kSmallTurns_rad) {
-      const bool is_less = most_rad < space_.policy().max_turn_rad;
-      if (!is_less || small_way_W_.empty() || deadline_.passed()) return;
-      policy.max_turn_rad = most_rad;
-      FreeSpace space(space_.query(), policy, space_.closeness());
-      TreeOptions trees = tree_about(small_way_W_);
-      trees.max_samples = kFewSamples;
-      std::optional<Candidate> other =
-          followed(tree_way(space, from_, to_, trees, deadline_), space);
-      if (!other || cost(*other) >= cost(found)) continue;
-      found = *std::move(other);
-      return;
+    policy.max_turn_rad = std::min(policy.max_turn_rad, most_rad);
+    FreeSpace space(space_.query(), policy, space_.closeness());
+    TreeOptions trees = tree_about(small_way_W_);
+    std::optional<Candidate> found;
+    if (!space.may_turn()) {
+      found = followed(threaded_guide(space, small_way_W_, from_, to_, trees, deadline_), space);
     }
+    trees.max_samples = kFewSamples;
+    if (!found) found = followed(tree_way(space, from_, to_, trees, deadline_), space);
+    return found;
+  }
+
+  [[nodiscard]] bool is_cheap(const Candidate& candidate) const {
+    return cost(candidate) <= kCheap_rad * (problem_.leg_end_s() - problem_.leg_begin_s());
   }
 
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {

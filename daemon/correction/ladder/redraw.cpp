@@ -22,7 +22,7 @@ namespace {
 using motion::CubicPath;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kMostGrowth = 1.15;            // of the cost, for fewer knots
+constexpr double kMostGrowth = 1.06;            // of the cost, for fewer knots
 constexpr double kBeside = 0.5;                 // of the length of a part: how far it may extend
 constexpr std::size_t kMostKnotsRelaxed = 100;  // of a dear part: steps take as much longer
 constexpr double kDear_rad = 0.3;               // cost of a part, divided by its duration

@@ -32,11 +32,15 @@ constexpr double kGrowthOfGap = 0.8;  // share of the gap that growth may take
 constexpr int kMostGrowths = 60;
 constexpr double kLeastGrowth = 2e-4;  // of the scale: less than that is none
 
-/// How a pair's gap grows with a twist about `center_W`.
-Twist gradient(const NearPair& pair, const Vec3& center_W, const Vec3& along_W, double radius_m) {
-  Twist row;
+/// How a pair's gap grows with a twist about the centre of the body at `pose`.
+Twist gradient(const FreeSpace& space, const NearPair& pair, const Pose& pose,
+               const Vec3& along_W) {
+  Twist row = Twist::Zero();
   row.head<3>() = pair.away_W - pair.away_W.dot(along_W) * along_W;
-  row.tail<3>() = (pair.at_W - center_W).cross(pair.away_W) / radius_m;
+  if (space.may_turn()) {
+    const Vec3 lever_W = pair.at_W - space.center_W(pose);
+    row.tail<3>() = lever_W.cross(pair.away_W) / space.ball_radius_m();
+  }
   return row;
 }
 
@@ -88,9 +92,7 @@ Centered centered(FreeSpace& space, const Pose& pose, double enough_m, const Vec
     const std::vector<NearPair> pairs = near_pairs(space, now.pose, horizon_m);
     if (pairs.empty()) break;
     std::vector<Twist> rows;
-    for (const NearPair& pair : pairs) {
-      rows.push_back(gradient(pair, space.center_W(now.pose), along_W, radius_m));
-    }
+    for (const NearPair& pair : pairs) rows.push_back(gradient(space, pair, now.pose, along_W));
     for (; gain > kLeastGain; gain *= 0.5) {
       const double asked_m = gain * std::max(now.gap_m, kLeastAsked * radius_m);
       Twist twist = shortest_twist(pairs, rows, now.gap_m + asked_m);

@@ -16,8 +16,9 @@ struct Centered {
   double gap_m = 0.0;
 };
 
-/// Moves and turns the body from a free pose to where its gap is larger, to a local maximum or up
-/// to `enough_m`. It does not move along `along_W`, a unit vector; zero permits all moves.
+/// Moves the body from a free pose to where its gap is larger, to a local maximum or up to
+/// `enough_m`, and turns it if the policy of `space` allows any turn. It does not move along
+/// `along_W`, a unit vector; zero permits all moves.
 ///
 /// Each step asks for a larger gap: the shortest change of the pose with which all near pairs
 /// (`near_pairs.h`) have it to first order. It is taken if the gap grew indeed, and halved

@@ -8,6 +8,9 @@
 
 namespace camway::correction {
 
+/// Margin of a way out where it begins at a small gap, relative to that. Chosen by measurement.
+inline constexpr double kMarginOfGap = 0.3;
+
 /// When a body has left a narrow place.
 enum class HasRoom {
   kByGap,   ///< its gap is a share of the radius of the ball about it, or the ball fits
@@ -30,10 +33,19 @@ std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
 std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from, HasRoom has_room,
                              const base::Deadline& deadline);
 
+/// Free poses to which a corridor may lead: one before a narrow place, and one behind it.
+struct CorridorGoals {
+  motion::SignedPose back;
+  motion::SignedPose forth;
+};
+
 /// Ways out to either side: from a pose in a narrow place backwards and forwards along `along_W`,
-/// in the order of a way along it. Nothing if one of the two is missing.
+/// in the order of a way along it, without poses that a straight motion can skip. Each ends where
+/// the body has room, or at its goal where a straight motion there is free: a body that passes a
+/// door just above the floor has room nowhere. `goals` may be null. Nothing if one of the two ways
+/// is missing.
 std::optional<Guide> corridor(FreeSpace& space, const motion::SignedPose& middle,
                               const geometry::Vec3& along_W, double margin_m,
-                              const base::Deadline& deadline);
+                              const base::Deadline& deadline, const CorridorGoals* goals = nullptr);
 
 }  // namespace camway::correction

@@ -35,6 +35,10 @@ std::vector<geometry::Vec3> places_on(const HoleLine& line);
 /// The place with the least room. [Limit: one place or more]
 geometry::Vec3 tightest(const FreeSpace& space, std::span<const geometry::Vec3> places_W);
 
+/// Price of a shift of the body from a line: the farther, the likelier beside the narrow place. In
+/// the scale of the body, for a shift by the radius of its ball. Chosen by measurement.
+inline constexpr double kBesideLine = 0.5;
+
 /// A direction across a line, and the vector from the line to the middle of the free space in that
 /// direction.
 struct Side {

@@ -11,6 +11,7 @@
 #include "daemon/correction/narrow/centering.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/hole_line.h"
+#include "daemon/correction/narrow/way_places.h"
 #include "daemon/correction/path/orientation_rule.h"
 
 namespace camway::correction {
@@ -22,19 +23,14 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr double kStep = 0.25;       // spacing of the places on a way that are checked
-constexpr double kMostPlaces = 4e3;  // longer ways are skipped
-constexpr double kApart = 2.0;       // narrow places closer to each other are one
 constexpr double kHalfLength = 0.7;  // half length of the line on which a pose must fit
 constexpr std::array<double, 3> kFirstHalfLengths = {kHalfLength, 0.2, 0.05};
 constexpr double kGrowth = 1.5;  // factor of the length per iteration
 constexpr double kLongest = 3.5;
 constexpr std::array<double, 3> kMiddles = {0.5, 0.25, 0.75};  // places in a narrow range
 constexpr double kLeastRoom = 0.01;                            // of the ball where it fits
-constexpr double kWide = 0.9;           // room from which a line counts as not narrow
-constexpr std::size_t kMostTried = 24;  // fitting poses from which a motion is tried
-constexpr double kBesideLine = 0.5;     // price of a shift from the line, in the scale of the body
-constexpr double kMarginOfGap = 0.3;    // margin of a passage where the gap is small
+constexpr double kWide = 0.9;               // room from which a line counts as not narrow
+constexpr std::size_t kMostTried = 24;      // fitting poses from which a motion is tried
 constexpr std::size_t kMostThinTried = 24;  // poses of scaled-down bodies that grow
 constexpr double kFarthest = 3.0;  // motion to either side, unless the narrow place is longer
 constexpr double kNearest = 1.05;  // least motion that leaves a thin wall
@@ -65,7 +61,7 @@ class Threader {
       for (const double half_length : kFirstHalfLengths) {
         std::optional<NarrowPassage> found = along_grown(middle_W, along_W, half_length);
         if (!found) continue;
-        if (leads_through(*found, way_W)) return found;
+        if (leads_through(found->poses, way_W, space_)) return found;
         if (!beside) beside = std::move(found);
       }
     }
@@ -78,16 +74,6 @@ class Threader {
     double sum_m = 0.0;
     for (std::size_t i = 1; i < way_W.size(); ++i) sum_m += (way_W[i] - way_W[i - 1]).norm();
     return sum_m;
-  }
-
-  /// Whether the passage begins nearer to the beginning of the way, and ends nearer to its end.
-  [[nodiscard]] bool leads_through(const NarrowPassage& passage,
-                                   std::span<const Vec3> way_W) const {
-    const auto ahead_m = [&](const SignedPose& pose) {
-      const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
-      return (center_W - way_W.front()).norm() - (center_W - way_W.back()).norm();
-    };
-    return ahead_m(passage.poses.front()) < 0.0 && ahead_m(passage.poses.back()) > 0.0;
   }
 
   static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
@@ -137,7 +123,7 @@ class Threader {
       std::optional<Guide> poses = corridor(space_, pose, line.direction_W(), margin_m, deadline_);
       if (!poses) continue;
       NarrowPassage passage{*std::move(poses)};
-      if (leads_through(passage, way_W)) return passage;
+      if (leads_through(passage.poses, way_W, space_)) return passage;
     }
     return std::nullopt;
   }
@@ -160,7 +146,6 @@ class Threader {
         // Where the body is free, `fitting` has been there.
         const double scale = fitter.free_scale(pose);
         if (scale == 1.0) continue;
-        // The farther from the line, the likelier beside the narrow place.
         const double worth = scale - kBesideLine * shift_W.norm() / radius_m_;
         if (scale > 0.0 && worth > best.worth) best = {worth, signed_as_ends(pose).likeness, pose};
       }
@@ -250,70 +235,36 @@ class Threader {
   double farthest_m_ = 0.0;  ///< largest motion to either side
 };
 
-/// A place on a way, and the index of the way's point before it.
-struct WayPlace {
-  Vec3 at_W;
-  std::size_t leg;
-};
-
-/// Places on `way_W` at most `step_m` apart; empty if they were too many.
-std::vector<WayPlace> places_of(std::span<const Vec3> way_W, double step_m) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
-  if (!(length_m <= kMostPlaces * step_m)) return {};
-  std::vector<WayPlace> places = {{way_W.front(), 0}};
-  for (std::size_t i = 1; i < way_W.size(); ++i) {
-    const int parts = 1 + static_cast<int>((way_W[i] - way_W[i - 1]).norm() / step_m);
-    for (int k = 1; k <= parts; ++k) {
-      const double share = static_cast<double>(k) / parts;
-      places.push_back({(1.0 - share) * way_W[i - 1] + share * way_W[i], i - 1});
-    }
-  }
-  return places;
-}
-
-/// A range of places, from `begin` to before `end`.
-struct Narrow {
-  std::size_t begin;
-  std::size_t end;
-};
-
 /// Ranges where the ball does not fit. Leaves out those at the ends of the way: the body is there
 /// already.
-std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const WayPlace> places) {
+std::vector<PlaceRange> narrow_places(const FreeSpace& space, std::span<const WayPlace> places) {
   const double radius_m = space.ball_radius_m();
   const double comfort_m = kLeastRoom * radius_m;
-  const auto apart = static_cast<std::size_t>(kApart / kStep);
-  std::vector<Narrow> narrow;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (space.ball_gap_m(places[i].at_W, radius_m, comfort_m) > 0.0) continue;
-    if (!narrow.empty() && i - narrow.back().end < apart) {
-      narrow.back().end = i + 1;
-    } else {
-      narrow.push_back({i, i + 1});
-    }
-  }
-  std::erase_if(narrow, [&](const Narrow& stretch) {
-    return stretch.begin == 0 || stretch.end == places.size();
+  return inner_ranges(places.size(), [&](std::size_t place) {
+    return !(space.ball_gap_m(places[place].at_W, radius_m, comfort_m) > 0.0);
   });
-  return narrow;
 }
 
 }  // namespace
+
+bool leads_through(const Guide& poses, std::span<const Vec3> way_W, const FreeSpace& space) {
+  const auto ahead_m = [&](const SignedPose& pose) {
+    const Vec3 center_W = space.center_W(motion::unsigned_pose(pose));
+    return (center_W - way_W.front()).norm() - (center_W - way_W.back()).norm();
+  };
+  return ahead_m(poses.front()) < 0.0 && ahead_m(poses.back()) > 0.0;
+}
 
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec3> way_W,
                                            const SignedPose& from, const SignedPose& to,
                                            double margin_m, const base::Deadline& deadline) {
   if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
-  const std::vector<WayPlace> places = places_of(way_W, kStep * space.ball_radius_m());
+  const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
   Threader threader(space, from, to, margin_m, deadline);
   std::vector<NarrowPassage> passages;
-  for (const Narrow& narrow : narrow_places(space, places)) {
+  for (const PlaceRange& narrow : narrow_places(space, places)) {
     if (deadline.passed()) return {};
-    std::vector<Vec3> stretch_W;
-    for (std::size_t i = narrow.begin - 1; i <= narrow.end; ++i)
-      stretch_W.push_back(places[i].at_W);
-    std::optional<NarrowPassage> found = threader.through(stretch_W);
+    std::optional<NarrowPassage> found = threader.through(with_neighbours_W(places, narrow));
     if (!found) return {};
     found->first = places[narrow.begin - 1].leg;
     found->last = places[narrow.end].leg + 1;

@@ -51,6 +51,14 @@ SignedPose signed_pose_at(const motion::CubicPath& path, double time_s) {
   return {point.position, q / q.norm()};
 }
 
+motion::Pose pose_at_share(std::span<const motion::Pose> poses, double share) {
+  const double place = share * static_cast<double>(poses.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(place), poses.size() - 2);
+  const double rest = place - static_cast<double>(i);
+  return {(1.0 - rest) * poses[i].position + rest * poses[i + 1].position,
+          poses[i].orientation.slerp(rest, poses[i + 1].orientation)};
+}
+
 TimedGuide::TimedGuide(const motion::CubicPath& path, const Guide& guide, double begin_s,
                        double end_s, const FreeSpace& space)
     : guide_(guide), begin_s_(begin_s), end_s_(end_s), so_far_m_(1, 0.0) {

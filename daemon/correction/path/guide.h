@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "daemon/correction/path/free_space.h"
@@ -15,6 +16,10 @@ using Guide = std::vector<motion::SignedPose>;
 
 /// The pose of `path` at a time, with the sign of its image in R⁴.
 motion::SignedPose signed_pose_at(const motion::CubicPath& path, double time_s);
+
+/// The pose at a share of a row of poses at equal steps, between its neighbours. [Limit: two poses
+/// or more; 0 <= share <= 1]
+motion::Pose pose_at_share(std::span<const motion::Pose> poses, double share);
 
 /// Coefficients of a row of bumps between two keyframes, which lie at knots 0 and `knots.count`.
 struct Offsets {

@@ -168,13 +168,8 @@ class TreeSearch {
   /// `pose`, turned as far as the orientation policy asks for.
   [[nodiscard]] SignedPose allowed(const SignedPose& pose) const {
     if (!is_limited(space_.policy())) return pose;
-    const std::vector<motion::Pose>& poses = options_.interpolated;
-    const double place = share_near(space_.center_W(motion::unsigned_pose(pose))) *
-                         static_cast<double>(poses.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(place), poses.size() - 2);
-    const double rest = place - static_cast<double>(i);
-    return space_.allowed(pose, {(1.0 - rest) * poses[i].position + rest * poses[i + 1].position,
-                                 poses[i].orientation.slerp(rest, poses[i + 1].orientation)});
+    const double share = share_near(space_.center_W(motion::unsigned_pose(pose)));
+    return space_.allowed(pose, pose_at_share(options_.interpolated, share));
   }
 
   /// Share of the way at its point nearest to `center_W`.

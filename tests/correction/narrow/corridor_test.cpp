@@ -105,5 +105,31 @@ TEST(Corridor, LeadsThroughAPipeToBothSides) {
   EXPECT_TRUE(is_proved_free(scene, *way, kMargin_m));
 }
 
+// A body just above a floor has room nowhere near it: centred after each step, it would rise.
+TEST(Corridor, GoesStraightOnBeyondWhereItsGoalsAreSeen) {
+  scene::Mesh mesh = testing_search::wall_with_gap(-0.36, 0.36);
+  testing::add_cuboid(mesh, {-3, -0.92, -3}, {3, -0.82, 3});
+  testing::add_cuboid(mesh, {-0.4, 0.82, -0.05}, {0.4, 3, 0.05});
+  const SearchScene scene(mesh,
+                          *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.7, 1.6, 0.6)}));
+  FreeSpace space = scene.space({.rule = OrientationRule::kKeep});
+  const SignedPose middle = motion::signed_pose({Vec3::Zero(), Quat::Identity()});
+  const CorridorGoals goals{motion::signed_pose({Vec3(0.5, 0, 1.8), Quat::Identity()}),
+                            motion::signed_pose({Vec3(-0.3, 0, -1.8), Quat::Identity()})};
+  const Vec3 ahead_W = Vec3(-0.2, 0, -1).normalized();
+  const std::optional<Guide> way =
+      corridor(space, middle, ahead_W, 0.001, Deadline::never(), &goals);
+  ASSERT_TRUE(way);
+  EXPECT_TRUE(is_proved_free(scene, *way, 0.001));
+  EXPECT_EQ(way->front().position, goals.back.position);
+  EXPECT_EQ(way->back().position, goals.forth.position);
+  ASSERT_GT(way->size(), 3U);
+  EXPECT_GT((*way)[1].position.z(), 0.7 * space.ball_radius_m());
+  EXPECT_LT((*way)[way->size() - 2].position.z(), -0.7 * space.ball_radius_m());
+  for (std::size_t i = 1; i + 1 < way->size(); ++i) {
+    EXPECT_LT((*way)[i].position.head<2>().norm(), 0.01) << i;
+  }
+}
+
 }  // namespace
 }  // namespace camway::correction

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/narrow/kept_passage.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "daemon/correction/narrow/centering.h"
+#include "daemon/correction/narrow/corridor.h"
+#include "daemon/correction/narrow/hole_line.h"
+#include "daemon/correction/narrow/way_places.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+using motion::SignedPose;
+
+// Chosen by measurement; none changes what is proved.
+constexpr std::array<double, 2> kHalfLengths = {0.5, 0.05};  // of lines, in radii of the ball
+constexpr std::size_t kPlacesToGoal = 8;                     // from the last narrow place, at most
+
+class KeptPassage {
+ public:
+  /// `goals`: the poses at the ends of `way_W`. `middle`: a pose with the orientation between them.
+  KeptPassage(FreeSpace& space, std::span<const Vec3> way_W, const CorridorGoals& goals,
+              const SignedPose& middle, double margin_m, const base::Deadline& deadline)
+      : space_(space),
+        way_W_(way_W),
+        along_W_((way_W.back() - way_W.front()).stableNormalized()),
+        goals_(goals),
+        middle_(middle),
+        margin_m_(margin_m),
+        deadline_(deadline),
+        fitter_(space, deadline) {}
+
+  std::optional<Guide> run() {
+    for (const Vec3& middle_W : {way_W_[way_W_.size() / 2], tightest(space_, way_W_)}) {
+      if (deadline_.passed()) return std::nullopt;
+      const std::optional<HoleLine> line = widest_line(middle_W);
+      const std::optional<motion::Pose> place = line ? best_place(*line) : std::nullopt;
+      if (!place) continue;
+      if (std::optional<Guide> found = from(*place)) return found;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // The longest line about `middle_W` that has room somewhere beside it.
+  [[nodiscard]] std::optional<HoleLine> widest_line(const Vec3& middle_W) const {
+    for (const double half_length : kHalfLengths) {
+      const HoleLine line = widened(space_, line_about(space_, middle_W, along_W_, half_length));
+      if (room_m(space_, line) > 0.0) return line;
+    }
+    return std::nullopt;
+  }
+
+  // The place of the body on the line or beside it where the largest scaled-down body is free.
+  [[nodiscard]] std::optional<motion::Pose> best_place(const HoleLine& line) {
+    const std::vector<Side> sides = sides_of(space_, line);
+    const geometry::Quat orientation = geometry::from_wxyz(middle_.orientation);
+    std::optional<motion::Pose> best;
+    double best_worth = -std::numeric_limits<double>::infinity();
+    const auto look_at = [&](const Vec3& shift_W) {
+      const motion::Pose pose = space_.pose_around(line.center_W() + shift_W, orientation);
+      const double scale = fitter_.free_scale(pose);
+      const double worth = scale - kBesideLine * shift_W.norm() / space_.ball_radius_m();
+      if (scale == 0.0 || worth <= best_worth) return;
+      best_worth = worth;
+      best = pose;
+    };
+    look_at(Vec3::Zero());
+    for (std::size_t i = 0; i < kSides / 4; ++i) {
+      const Vec3& side_W = sides[i].to_middle_W;
+      const Vec3& other_W = sides[i + kSides / 4].to_middle_W;
+      look_at(side_W);
+      look_at(other_W);
+      look_at(side_W + other_W);
+    }
+    return best;
+  }
+
+  // A motion to both sides from where the body fits near `place`, if it leads along the way.
+  [[nodiscard]] std::optional<Guide> from(const motion::Pose& place) {
+    const std::optional<Centered> fitted = fitter_.fitted(place);
+    if (!fitted) return std::nullopt;
+    const double margin_m = std::min(margin_m_, kMarginOfGap * fitted->gap_m);
+    SignedPose middle = motion::signed_pose(fitted->pose);
+    if (middle.orientation.dot(middle_.orientation) < 0.0) middle.orientation *= -1.0;
+    std::optional<Guide> found = corridor(space_, middle, along_W_, margin_m, deadline_, &goals_);
+    return found && leads_through(*found, way_W_, space_) ? std::move(found) : std::nullopt;
+  }
+
+  FreeSpace& space_;
+  const std::span<const Vec3> way_W_;
+  const Vec3 along_W_;
+  const CorridorGoals goals_;
+  const SignedPose middle_;
+  const double margin_m_;
+  const base::Deadline& deadline_;
+  Fitter fitter_;
+};
+
+/// The poses of the body at the places, with the orientations of the interpolated path and signs
+/// that go on from `from`.
+std::vector<SignedPose> poses_at(std::span<const WayPlace> places, const FreeSpace& space,
+                                 const SignedPose& from,
+                                 std::span<const motion::Pose> interpolated) {
+  std::vector<SignedPose> poses;
+  geometry::Vec4 before = from.orientation;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(places.size() - 1);
+    const geometry::Quat orientation = pose_at_share(interpolated, share).orientation;
+    poses.push_back(motion::signed_pose(space.pose_around(places[i].at_W, orientation)));
+    if (poses.back().orientation.dot(before) < 0.0) poses.back().orientation *= -1.0;
+    before = poses.back().orientation;
+  }
+  return poses;
+}
+
+}  // namespace
+
+std::optional<Guide> kept_way(FreeSpace& space, std::span<const Vec3> way_W, const SignedPose& from,
+                              const SignedPose& to, std::span<const motion::Pose> interpolated,
+                              double margin_m) {
+  const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
+  if (places.size() < 2) return std::nullopt;
+  Guide guide = poses_at(places, space, from, interpolated);
+  guide.front() = from;
+  guide.back() = to;
+  for (std::size_t i = 1; i < guide.size(); ++i) {
+    if (space.first_hit(guide[i - 1], guide[i], margin_m)) return std::nullopt;
+  }
+  return guide;
+}
+
+std::optional<std::vector<NarrowPassage>> kept_passages(
+    FreeSpace& space, std::span<const Vec3> way_W, const SignedPose& from,
+    std::span<const motion::Pose> interpolated, double margin_m, const base::Deadline& deadline) {
+  const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
+  if (places.size() < 2) return std::nullopt;
+  const std::vector<SignedPose> poses = poses_at(places, space, from, interpolated);
+  const auto is_narrow = [&](std::size_t place) {
+    return !space.is_free(motion::unsigned_pose(poses[place]), margin_m);
+  };
+  std::vector<NarrowPassage> passages;
+  for (const PlaceRange& narrow : inner_ranges(places.size(), is_narrow)) {
+    if (deadline.passed()) return {};
+    const std::size_t before = narrow.begin - std::min(narrow.begin, kPlacesToGoal);
+    const std::size_t behind = std::min(narrow.end - 1 + kPlacesToGoal, places.size() - 1);
+    const CorridorGoals goals{poses[before], poses[behind]};
+    const std::vector<Vec3> stretch_W = with_neighbours_W(places, narrow);
+    const SignedPose& middle = poses[(narrow.begin + narrow.end) / 2];
+    std::optional<Guide> found =
+        KeptPassage(space, stretch_W, goals, middle, margin_m, deadline).run();
+    if (!found) return std::nullopt;
+    passages.push_back(
+        {*std::move(found), places[narrow.begin - 1].leg, places[narrow.end].leg + 1});
+  }
+  return passages;
+}
+
+}  // namespace camway::correction
