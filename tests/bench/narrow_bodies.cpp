@@ -134,11 +134,31 @@ scene::Mesh pole(double spare) {
   return mesh;
 }
 
+NarrowCase robot_case(double spare, std::uint32_t seed) {
+  constexpr double kAboveFloor_m = 0.02;
+  constexpr double kBelowLintel_m = 0.08;
+  const Vec3 size_m(0.6, 0.7, 1.6);
+  testing::Random random(seed);
+  NarrowCase narrow;
+  narrow.scene =
+      two_rooms((1.0 + spare) * size_m.y(), kAboveFloor_m + size_m.z() + kBelowLintel_m, 0.15, 0.0);
+  narrow.request.body = motion::BoxShape{Vec3::Zero(), size_m};
+  narrow.request.has_times = true;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 place(side * random.uniform(1.5, 2.5), random.uniform(-0.8, 0.8),
+                     kAboveFloor_m + 0.5 * size_m.z());
+    const double time_s = side < 0.0 ? 0.0 : kDuration_s;
+    narrow.request.keyframes.push_back({time_s, {place, Quat::Identity()}});
+  }
+  return narrow;
+}
+
 }  // namespace
 
 NarrowCase narrow_case(std::size_t body, double spare, std::uint32_t seed) {
+  if (kNarrowBodies[body] == "robot") return robot_case(spare, seed);
   testing::Random random(seed);
-  const bool is_ring = body + 1 == kNarrowBodies.size();
+  const bool is_ring = kNarrowBodies[body] == "ring";
   // One case in four begins and ends as the hole is.
   const auto orientation = [&] { return seed % 4 == 3 ? Quat::Identity() : random.rotation(); };
   NarrowCase narrow;

@@ -11,6 +11,7 @@
 
 #include "daemon/correction/ladder/follow_guide.h"
 #include "daemon/correction/narrow/corridor.h"
+#include "daemon/correction/narrow/kept_guide.h"
 #include "daemon/correction/narrow/threaded_guide.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/guide.h"
@@ -239,7 +240,9 @@ class Detour {
     TreeOptions trees = tree_about(small_way_W_);
     std::optional<Candidate> found;
     if (!space.may_turn()) {
-      found = followed(threaded_guide(space, small_way_W_, from_, to_, trees, deadline_), space);
+      const std::optional<Guide> kept = kept_guide(space, small_way_W_, from_, to_,
+                                                   trees.interpolated, trees.margin_m, deadline_);
+      if (kept) found = followed(*kept, Turning::kAsPath);
     }
     trees.max_samples = kFewSamples;
     if (!found) found = followed(tree_way(space, from_, to_, trees, deadline_), space);

@@ -12,6 +12,18 @@ constexpr double kApart = 2.0;       // ranges closer to each other are one
 
 }  // namespace
 
+std::vector<geometry::Vec3> pulled_tight(const FreeSpace& space,
+                                         std::span<const geometry::Vec3> way_W, double radius_m) {
+  std::vector<geometry::Vec3> points_W = {way_W.front()};
+  for (std::size_t i = 0; i + 1 < way_W.size();) {
+    std::size_t next = way_W.size() - 1;
+    while (next > i + 1 && !space.ball_passes(way_W[i], way_W[next], radius_m)) --next;
+    points_W.push_back(way_W[next]);
+    i = next;
+  }
+  return points_W;
+}
+
 std::vector<WayPlace> places_on_way(std::span<const geometry::Vec3> way_W, double radius_m) {
   const double step_m = kStep * radius_m;
   double length_m = 0.0;

@@ -6,9 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "daemon/geometry/types.h"
+#include "daemon/correction/path/free_space.h"
 
 namespace camway::correction {
+
+/// Returns the points of a way that a ball of that radius cannot skip on a straight line; the ways
+/// of balls lead from cell to cell, up and down in open space.
+std::vector<geometry::Vec3> pulled_tight(const FreeSpace& space,
+                                         std::span<const geometry::Vec3> way_W, double radius_m);
 
 /// A place on a way, and the index of the way's point before it.
 struct WayPlace {

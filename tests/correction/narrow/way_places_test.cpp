@@ -5,12 +5,42 @@
 
 #include <set>
 
+#include "tests/correction/search_scene.h"
+
 namespace camway::correction {
 namespace {
 
 using geometry::Vec3;
 
 const std::vector<Vec3> kWay_W = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {1, 2, 0.1}};
+
+/// A plate in the plane z = 0 over which the ways lead.
+testing_search::SearchScene plate() {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-0.5, -0.5, -0.1}, {0.5, 0.5, 0.1});
+  return testing_search::SearchScene(mesh);
+}
+
+TEST(PulledTight, LeavesOutWhatTheBallCanSkip) {
+  const testing_search::SearchScene scene = plate();
+  const FreeSpace space = scene.space();
+  const std::vector<Vec3> up_and_down_W = {{-2, 0, 1},  {-1.5, 0, 1.4}, {-1, 0, 0.6},
+                                           {0, 0, 1.2}, {1, 0, 0.7},    {2, 0, 1}};
+  EXPECT_EQ(pulled_tight(space, up_and_down_W, 0.2),
+            (std::vector<Vec3>{up_and_down_W.front(), up_and_down_W.back()}));
+  const std::vector<Vec3> over_W = {{-2, 0, 0}, {-1, 0, 0.3}, {0, 0, 0.5}, {1, 0, 0.3}, {2, 0, 0}};
+  const std::vector<Vec3> pulled_W = pulled_tight(space, over_W, 0.2);
+  EXPECT_EQ(pulled_W, (std::vector<Vec3>{over_W[0], over_W[2], over_W[4]}));
+  for (std::size_t i = 1; i < pulled_W.size(); ++i)
+    EXPECT_TRUE(space.ball_passes(pulled_W[i - 1], pulled_W[i], 0.2));
+}
+
+TEST(PulledTight, KeepsStepsThatTheBallCannotPass) {
+  const testing_search::SearchScene scene = plate();
+  const std::vector<Vec3> through_W = {{0, 0, -2}, {0, 0, -1}, {0, 0, 1}, {0, 0, 2}};
+  EXPECT_EQ(pulled_tight(scene.space(), through_W, 0.2), through_W);
+  EXPECT_EQ(pulled_tight(scene.space(), {through_W.begin(), 1}, 0.2).size(), 1U);
+}
 
 TEST(PlacesOnWay, AreEveryQuarterOfTheRadiusAndAtItsPoints) {
   for (const double radius_m : {0.1, 0.7, 5.0}) {

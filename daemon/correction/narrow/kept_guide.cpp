@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/narrow/kept_passage.h"
+#include "daemon/correction/narrow/kept_guide.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include "daemon/correction/narrow/centering.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/hole_line.h"
+#include "daemon/correction/narrow/narrow_passage.h"
 #include "daemon/correction/narrow/way_places.h"
 
 namespace camway::correction {
@@ -22,6 +23,8 @@ using motion::SignedPose;
 // Chosen by measurement; none changes what is proved.
 constexpr std::array<double, 2> kHalfLengths = {0.5, 0.05};  // of lines, in radii of the ball
 constexpr std::size_t kPlacesToGoal = 8;                     // from the last narrow place, at most
+constexpr double kPulledBall = 0.04;  // ball for which a way is pulled tight, in radii of the ball
+constexpr double kMarginBetween = 0.1;  // margin between narrow places, relative to that in them
 
 class KeptPassage {
  public:
@@ -121,46 +124,68 @@ std::vector<SignedPose> poses_at(std::span<const WayPlace> places, const FreeSpa
   return poses;
 }
 
+/// A guide that grows by poses to which straight motions are free.
+class GrowingGuide {
+ public:
+  GrowingGuide(FreeSpace& space, const SignedPose& from, double margin_m)
+      : space_(space), margin_m_(margin_m), guide_{from} {}
+
+  [[nodiscard]] bool add(std::span<const SignedPose> poses) {
+    return std::ranges::all_of(poses, [&](const SignedPose& pose) {
+      if (space_.first_hit(guide_.back(), pose, margin_m_)) return false;
+      guide_.push_back(pose);
+      return true;
+    });
+  }
+  /// Adds a motion that is known to be free, from where a straight motion leads to its beginning.
+  [[nodiscard]] bool add_free(const Guide& motion) {
+    if (!add({&motion.front(), 1})) return false;
+    guide_.insert(guide_.end(), motion.begin() + 1, motion.end());
+    return true;
+  }
+  [[nodiscard]] const Guide& guide() const { return guide_; }
+
+ private:
+  FreeSpace& space_;
+  const double margin_m_;
+  Guide guide_;
+};
+
 }  // namespace
 
-std::optional<Guide> kept_way(FreeSpace& space, std::span<const Vec3> way_W, const SignedPose& from,
-                              const SignedPose& to, std::span<const motion::Pose> interpolated,
-                              double margin_m) {
-  const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
+std::optional<Guide> kept_guide(FreeSpace& space, std::span<const Vec3> way_W,
+                                const SignedPose& from, const SignedPose& to,
+                                std::span<const motion::Pose> interpolated, double margin_m,
+                                const base::Deadline& deadline) {
+  const double radius_m = space.ball_radius_m();
+  const std::vector<Vec3> pulled_W = pulled_tight(space, way_W, kPulledBall * radius_m);
+  const std::vector<WayPlace> places = places_on_way(pulled_W, radius_m);
   if (places.size() < 2) return std::nullopt;
-  Guide guide = poses_at(places, space, from, interpolated);
-  guide.front() = from;
-  guide.back() = to;
-  for (std::size_t i = 1; i < guide.size(); ++i) {
-    if (space.first_hit(guide[i - 1], guide[i], margin_m)) return std::nullopt;
-  }
-  return guide;
-}
-
-std::optional<std::vector<NarrowPassage>> kept_passages(
-    FreeSpace& space, std::span<const Vec3> way_W, const SignedPose& from,
-    std::span<const motion::Pose> interpolated, double margin_m, const base::Deadline& deadline) {
-  const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
-  if (places.size() < 2) return std::nullopt;
-  const std::vector<SignedPose> poses = poses_at(places, space, from, interpolated);
+  std::vector<SignedPose> poses = poses_at(places, space, from, interpolated);
+  poses.front() = from;
+  poses.back() = to;
   const auto is_narrow = [&](std::size_t place) {
     return !space.is_free(motion::unsigned_pose(poses[place]), margin_m);
   };
-  std::vector<NarrowPassage> passages;
+  GrowingGuide grown(space, from, kMarginBetween * margin_m);
+  std::size_t last = 0;  // the place up to which the guide leads
   for (const PlaceRange& narrow : inner_ranges(places.size(), is_narrow)) {
-    if (deadline.passed()) return {};
-    const std::size_t before = narrow.begin - std::min(narrow.begin, kPlacesToGoal);
+    const std::size_t before = std::max(last, narrow.begin - std::min(narrow.begin, kPlacesToGoal));
     const std::size_t behind = std::min(narrow.end - 1 + kPlacesToGoal, places.size() - 1);
-    const CorridorGoals goals{poses[before], poses[behind]};
+    const std::span<const SignedPose> all(poses);
+    if (!grown.add(all.subspan(last + 1, before - last))) return std::nullopt;
     const std::vector<Vec3> stretch_W = with_neighbours_W(places, narrow);
     const SignedPose& middle = poses[(narrow.begin + narrow.end) / 2];
-    std::optional<Guide> found =
-        KeptPassage(space, stretch_W, goals, middle, margin_m, deadline).run();
-    if (!found) return std::nullopt;
-    passages.push_back(
-        {*std::move(found), places[narrow.begin - 1].leg, places[narrow.end].leg + 1});
+    const std::optional<Guide> passage =
+        KeptPassage(space, stretch_W, {poses[before], poses[behind]}, middle, margin_m, deadline)
+            .run();
+    if (!passage || !grown.add_free(*passage) || !grown.add({&poses[behind], 1})) {
+      return std::nullopt;
+    }
+    last = behind;
   }
-  return passages;
+  if (!grown.add(std::span<const SignedPose>(poses).subspan(last + 1))) return std::nullopt;
+  return shortened(grown.guide(), space, kMarginBetween * margin_m);
 }
 
 }  // namespace camway::correction
