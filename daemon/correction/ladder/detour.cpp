@@ -18,6 +18,7 @@
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/search/ball_escape.h"
 #include "daemon/correction/search/cell_search.h"
+#include "daemon/correction/search/kept_cell_way.h"
 #include "daemon/correction/search/lattice_ways.h"
 #include "daemon/correction/search/other_side.h"
 #include "daemon/correction/search/shorter_way.h"
@@ -37,13 +38,17 @@ constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ba
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
 constexpr int kFewSamples = 300;                       // of trees that turn less than those before
-constexpr double kSmallTurn_rad = 0.35;                // limit of their turns
+constexpr std::size_t kMostBodyCells = 20'000;         // of ways on which the body does not turn
+constexpr std::size_t kBodyCells = 15'000;             // of those that may replace a way with turns
+constexpr double kHardlyTurned_rad = 0.02;  // a body turned by less can keep its orientation
+constexpr double kSmallTurn_rad = 0.35;     // limit of their turns
 /// A way that turns replaces one that does not if it costs less than this share: relaxation may
 /// change both costs, and a turn changes what is seen.
 constexpr double kTurnShare = 0.7;
 /// A way without turns that costs no more, for each second, is not compared with others.
 constexpr double kCheap_rad = 0.08;
-constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
+constexpr double kFarTurn_rad = 0.7;     // from there on, a way without turns is searched at length
+constexpr int kLegsAsInterpolated = 16;  // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
 class Detour {
@@ -164,7 +169,7 @@ class Detour {
       if (found || has_complete_pocket()) return found;
       if (small_way_W_.empty()) break;
       found = followed(tree_way(space_, from_, to_, tree_about(small_way_W_), deadline_), space_);
-      if (found) return found;
+      if (found) return turned_less(*std::move(found));
     }
     if (std::optional<Candidate> found = between_ways_out()) return found;
     // The finest lattice comes last: detours that need it mostly are narrow as well.
@@ -208,14 +213,24 @@ class Detour {
     small_way_W_ = std::move(ball.way_W);
     if (small_way_W_.empty()) return std::nullopt;
     std::optional<Candidate> kept = along_way_with_turns(0.0);
-    if (!space_.may_turn() || (kept && is_cheap(*kept))) return kept;
+    if (!space_.may_turn()) return kept ? std::move(kept) : along_cells_of_body();
+    if (kept && is_cheap(*kept)) return kept;
     std::optional<Candidate> turned = followed(
         threaded_guide(space_, small_way_W_, from_, to_, tree_about(small_way_W_), deadline_),
         space_);
     if (!turned) return kept;
     if (kept) return cost(*turned) < kTurnShare * cost(*kept) ? std::move(turned) : std::move(kept);
     std::optional<Candidate> less = along_way_with_turns(kSmallTurn_rad);
-    return less && cost(*less) < cost(*turned) ? std::move(less) : std::move(turned);
+    if (less && cost(*less) < cost(*turned)) return less;
+    return turned_less(*std::move(turned));
+  }
+
+  // The path, or one on which the body does not turn, if it turns far.
+  Candidate turned_less(Candidate turned) {
+    if (turn_rad(turned.path) <= kFarTurn_rad) return turned;
+    std::optional<Candidate> kept = along_cells_of_body();
+    const bool is_worse = !kept || cost(turned) < kTurnShare * cost(*kept);
+    return is_worse ? std::move(turned) : *std::move(kept);
   }
 
   std::optional<Candidate> followed(const Guide& guide, Turning turning) {
@@ -249,8 +264,35 @@ class Detour {
     return found;
   }
 
+  // A detour on which the body does not turn, where the path hardly turns it either.
+  std::optional<Candidate> along_cells_of_body() {
+    if (std::exchange(has_searched_body_, true)) return std::nullopt;
+    const std::vector<motion::Pose> poses = poses_as_interpolated(kPosesAsInterpolated);
+    const bool turns = std::ranges::any_of(poses, [&](const motion::Pose& pose) {
+      return pose.orientation.angularDistance(poses.front().orientation) > kHardlyTurned_rad;
+    });
+    if (turns) return std::nullopt;
+    const std::size_t most = space_.may_turn() ? kBodyCells : kMostBodyCells;
+    const KeptWay way = kept_cell_way(space_, from_, to_, most, deadline_);
+    count_points(way.cells);
+    if (way.guide.empty()) return std::nullopt;
+    return followed(shortened(way.guide, space_, 0.0), Turning::kAsPath);
+  }
+
   [[nodiscard]] bool is_cheap(const Candidate& candidate) const {
     return cost(candidate) <= kCheap_rad * (problem_.leg_end_s() - problem_.leg_begin_s());
+  }
+
+  // About the largest turn from the path as interpolated.
+  [[nodiscard]] double turn_rad(const motion::CubicPath& path) const {
+    double largest_rad = 0.0;
+    for (int i = 0; i <= kPosesAsInterpolated; ++i) {
+      const double share = static_cast<double>(i) / kPosesAsInterpolated;
+      const double time_s = std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), share);
+      const geometry::Quat before = problem_.original.pose(time_s).orientation;
+      largest_rad = std::max(largest_rad, path.pose(time_s).orientation.angularDistance(before));
+    }
+    return largest_rad;
   }
 
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
@@ -332,6 +374,7 @@ class Detour {
   const bool has_center_;          ///< whether the centre of the ball about the body is in the body
   std::vector<Vec3> about_W_;      ///< the path as interpolated, which ways should follow
   std::vector<Vec3> small_way_W_;  ///< way of the small ball that was searched last
+  bool has_searched_body_ = false;  ///< whether the cells of the body were searched
   DetourResult result_;
 };
 

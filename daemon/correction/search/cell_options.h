@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+
+#include "daemon/geometry/types.h"
 
 namespace camway::correction {
 
@@ -22,6 +25,9 @@ struct CellOptions {
   double narrow_m = 0.0;
   /// Limit of the cells of a search of which an end is in a narrow place. `max_cells` holds, too.
   std::size_t max_cells_if_narrow = 200'000;
+  /// If not empty, the way of a body that does not turn is searched, in place of a ball: returns
+  /// the gap of the body at a place of its centre, at most `up_to_m`.
+  std::function<double(const geometry::Vec3& center_W, double up_to_m)> body_gap_m{};
 };
 
 }  // namespace camway::correction

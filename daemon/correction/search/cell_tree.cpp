@@ -38,6 +38,7 @@ bool CellTree::may_divide(const OctreeCell& cell) const {
 
 std::optional<ClosedCorner> CellTree::corner_at(const OctreeCell& cell,
                                                 const OctreeCell& beside) const {
+  if (options_.body_gap_m) return std::nullopt;
   const double keep_m = options_.ball_radius_m + space_.query().kept_m();
   const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
   const Vec3 center_W = this->center_W(cell);
@@ -94,6 +95,12 @@ std::uint32_t CellTree::cell_at(const CellPlace& at, int level) const {
 
 void CellTree::classify(OctreeCell& cell) const {
   const double reach_m = kHalfDiagonal * side_m(cell.level);
+  if (options_.body_gap_m) {
+    const double gap_m = options_.body_gap_m(center_W(cell), std::max(reach_m, options_.comfort_m));
+    cell.gap_m = static_cast<float>(gap_m);
+    if (gap_m >= reach_m) cell.state = CellState::kFree;
+    return;
+  }
   const double keep_m = options_.ball_radius_m + space_.query().kept_m();
   // As far as it takes to prove the cell free, and to tell how much room there is.
   const double horizon_m = (keep_m + std::max(reach_m, options_.comfort_m)) / FreeSpace::kBallShare;

@@ -223,6 +223,30 @@ TEST(OrientationPolicy, PassesDoorsThatTheBodyFitsWithoutTurning) {
   }
 }
 
+/// A corridor with a table across it, and a body that is too high to pass above it. A small ball
+/// passes under it, the body only beside it.
+PolicyCase body_before_a_table() {
+  PolicyCase c;
+  testing::add_cuboid(c.mesh, {-1.6, -0.1, -4.1}, {1.6, 0, 4.1});
+  testing::add_cuboid(c.mesh, {-1.6, 2.5, -4.1}, {1.6, 2.6, 4.1});
+  testing::add_cuboid(c.mesh, {-1.6, 0, -4.1}, {-1.5, 2.5, 4.1});
+  testing::add_cuboid(c.mesh, {1.5, 0, -4.1}, {1.6, 2.5, 4.1});
+  testing::add_cuboid(c.mesh, {-1.6, 0, -4.1}, {1.6, 2.5, -4});
+  testing::add_cuboid(c.mesh, {-1.6, 0, 4}, {1.6, 2.5, 4.1});
+  testing::add_cuboid(c.mesh, {-1.5, 0.7, -0.4}, {0.7, 0.75, 0.4});
+  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.6, 1.9, 0.5)});
+  c.keyframes = {{0, {{-0.8, 1.2, 2}, Quat::Identity()}}, {6, {{-0.8, 1.1, -2}, Quat::Identity()}}};
+  return c;
+}
+
+TEST(OrientationPolicy, PassesATableThatOnlyASmallBallPassesUnder) {
+  const PolicyCase c = body_before_a_table();
+  expect_free(c, {});
+  const Outcome kept = corrected(c, keep(), Objective::kClosest);
+  EXPECT_TRUE(kept.is_free);
+  EXPECT_EQ(kept.turned_deg, 0.0);
+}
+
 TEST(OrientationPolicy, TurnsTowardsTheTargetAsItMovesAside) {
   const OrientationPolicy policy = towards({-0.15, 0, -4}, 2.0);
   const Outcome outcome = corrected(column_case(), policy, Objective::kClosest);

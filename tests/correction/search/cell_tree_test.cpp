@@ -54,6 +54,32 @@ TEST(CellTree, IsRightAboutFreeAndBlockedCells) {
   EXPECT_GT(blocked, 10);
 }
 
+// The gap of a body that does not turn grows by no more than the body moves. Here it is the height
+// above a slanted plane, of which the tree knows nothing else.
+TEST(CellTree, IsRightAboutCellsThatAreFreeForABody) {
+  const Vec3 up = Vec3(1, 2, 3).normalized();
+  CellOptions options{.smallest_m = 0.05};
+  options.body_gap_m = [&](const Vec3& center_W, double up_to_m) {
+    return std::min(up.dot(center_W), up_to_m);
+  };
+  const SearchScene empty(scene::Mesh{});
+  const FreeSpace space = empty.space();
+  CellTree tree(space, options, {Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+  std::size_t free = 0;
+  for (std::uint32_t i = 0; i < tree.size(); ++i) {
+    if (tree[i].state == CellState::kMixed && tree.may_divide(tree[i])) tree.divide(i);
+    EXPECT_NE(tree[i].state, CellState::kBlocked);
+    if (tree[i].state != CellState::kFree) continue;
+    ++free;
+    const geometry::Box box = tree_box(tree, i);
+    for (int corner = 0; corner < 8; ++corner) {
+      EXPECT_GE(up.dot(box.corner(static_cast<geometry::Box::CornerType>(corner))),
+                -kTreeRounding_m);
+    }
+  }
+  EXPECT_GT(free, 1000U);
+}
+
 // The oracle compares a cell with all others.
 TEST(CellTree, VisitsTheUndividedCellsAtItsFaces) {
   testing::Random random(5302);
