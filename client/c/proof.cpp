@@ -40,7 +40,8 @@ camway_status camway_answer_infeasibility(const camway_answer* answer,
                                           camway_infeasibility* infeasibility, size_t struct_size) {
   return guarded([&]() -> camway_status {
     const auto found = Handles::all().find(answer);
-    if (!found->infeasibility) throw Refusal{CAMWAY_INVALID, "the answer has no such proof"};
+    if (!found->infeasibility)
+      throw Refusal{CAMWAY_INVALID, "the answer has no proof that there is no path"};
     write_sized(infeasibility_of(*found->infeasibility), infeasibility, struct_size);
     return CAMWAY_OK;
   });
