@@ -51,7 +51,7 @@ camway_status camway_answer_proof_triangles(const camway_answer* answer, int32_t
                                             size_t capacity, size_t* count) {
   return guarded([&] {
     const auto found = Handles::all().find(answer);
-    static const std::vector<std::int32_t> none;
+    const std::vector<std::int32_t> none;
     return write_list(found->infeasibility ? found->infeasibility->triangles : none, triangles,
                       capacity, count, [](std::int32_t triangle) { return triangle; });
   });

@@ -23,8 +23,8 @@ typedef struct camway_path_frame {
   camway_path_end end;
 } camway_path_frame;
 
-/// The frame for `camway_plan_request::frame`. CAMWAY_INVALID if the answer has none, as nothing
-/// was corrected or the path was slowed.
+/// The frame for `camway_plan_request::frame`. CAMWAY_INVALID if the answer has none: nothing was
+/// corrected, the path was slowed, or the method was "keyframe_insertion".
 camway_status camway_answer_frame(const camway_answer* answer, camway_path_frame* frame);
 
 /// Writes the images for `camway_plan_request::images`, four numbers for each of the first

@@ -18,7 +18,7 @@ typedef struct camway_cage {
   double shortest_chord_m;  ///< through the centre of the near quadrilateral; above `widest_hole_m`
 } camway_cage;
 
-/// What the body cannot pass: it is inside at one given keyframe, and outside at another.
+/// The barrier of a proof. The body is inside at one given keyframe, and outside at another.
 enum {
   CAMWAY_PROOF_SURFACE = 0,  ///< a closed surface of the scene
   CAMWAY_PROOF_CAGE = 1      ///< a box that the centre of the near quadrilateral cannot leave

@@ -101,8 +101,8 @@ typedef struct camway_plan_request {
   /// Frame of the answer whose keyframes these are, as they were or edited; NULL: none. The
   /// keyframes have times then.
   const camway_path_frame* frame;
-  /// Four numbers for each keyframe, which count only with a frame: those of
-  /// `camway_answer_images`, zero for keyframes that are new. NULL: all zero.
+  /// Four numbers for each keyframe: those of `camway_answer_images`, zero for keyframes that are
+  /// new. All are zero without a frame. NULL: all zero, the default.
   const double* images;
 } camway_plan_request;
 
