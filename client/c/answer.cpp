@@ -2,6 +2,7 @@
 #include "client/c/answer.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "client/c/handles.h"
 #include "client/c/lists.h"
@@ -9,6 +10,8 @@
 
 namespace camway::c {
 namespace {
+
+constexpr double kNoBound_m = std::numeric_limits<double>::infinity();
 
 camway_segment segment_of(const Segment& from) {
   camway_segment segment{};
@@ -130,6 +133,19 @@ const char* camway_answer_error(const camway_answer* answer) {
 
 const char* camway_answer_message(const camway_answer* answer) {
   return guarded_text([&] { return Handles::all().find(answer)->message.c_str(); });
+}
+
+camway_status camway_answer_bounds(const camway_answer* answer, double min_m[3], double max_m[3]) {
+  return guarded([&] {
+    const auto found = Handles::all().find(answer);
+    require(min_m, "min_m");
+    require(max_m, "max_m");
+    for (std::size_t i = 0; i < 3; ++i) {
+      min_m[i] = found->bounds.min_m[i].value_or(-kNoBound_m);
+      max_m[i] = found->bounds.max_m[i].value_or(kNoBound_m);
+    }
+    return CAMWAY_OK;
+  });
 }
 
 camway_status camway_answer_poses(const camway_answer* answer, const double* times_s, size_t count,

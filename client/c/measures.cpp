@@ -45,6 +45,20 @@ camway_correction correction_of(const Correction& from) {
   return correction;
 }
 
+camway_slowed_stretch slowed_of(const SlowedStretch& from) {
+  return {from.t_begin_s, from.t_end_s, from.given_t_begin_s, from.given_t_end_s};
+}
+
+camway_plan_timing timing_of(const PlanTiming& from) {
+  camway_plan_timing timing{};
+  timing.motion_ms = from.motion_ms;
+  timing.detect_ms = from.detect_ms;
+  timing.correct_ms = from.correct_ms;
+  timing.certify_ms = from.certify_ms;
+  timing.total_ms = from.total_ms;
+  return timing;
+}
+
 }  // namespace
 }  // namespace camway::c
 
@@ -68,5 +82,20 @@ camway_status camway_answer_corrections(const camway_answer* answer, camway_corr
   return guarded([&] {
     return write_list(Handles::all().find(answer)->corrections, corrections, capacity, count,
                       correction_of);
+  });
+}
+
+camway_status camway_answer_slowed(const camway_answer* answer, camway_slowed_stretch* slowed,
+                                   size_t capacity, size_t* count) {
+  return guarded([&] {
+    return write_list(Handles::all().find(answer)->slowed, slowed, capacity, count, slowed_of);
+  });
+}
+
+camway_status camway_answer_timing(const camway_answer* answer, camway_plan_timing* timing,
+                                   size_t struct_size) {
+  return guarded([&] {
+    write_sized(timing_of(Handles::all().find(answer)->timing), timing, struct_size);
+    return CAMWAY_OK;
   });
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "client/c/frame.h"
 #include "client/c/sized.h"
 
 namespace camway::c {
@@ -40,6 +41,7 @@ std::vector<Keyframe> keyframes_of(const camway_plan_request& given) {
     if (given.untimed == 0) keyframes[i].time_s = from.time_s;
     keyframes[i].position_m = vector_of(from.position_m);
     std::copy_n(from.orientation_wxyz, 4, keyframes[i].orientation_wxyz.begin());
+    if (given.images != nullptr) std::copy_n(given.images + 4 * i, 4, keyframes[i].image.begin());
   }
   return keyframes;
 }
@@ -133,6 +135,7 @@ PlanRequest request_of(const camway_plan_request* pointer) {
   request.camera = {given.fov_x_rad, given.fov_y_rad, given.near_m};
   request.body = body_of(given.body);
   request.keyframes = keyframes_of(given);
+  if (given.frame != nullptr) request.frame = frame_of(*given.frame);
   request.default_speed_m_per_s = given.default_speed_m_per_s;
   request.viewing_distance_m = given.viewing_distance_m;
   request.method = optional_text(given.method);

@@ -45,6 +45,10 @@ template <>
 inline constexpr std::size_t kFirstSize<camway_scene_revision> = 56;
 template <>
 inline constexpr std::size_t kFirstSize<camway_scan_map> = 56;
+template <>
+inline constexpr std::size_t kFirstSize<camway_infeasibility> = 112;
+template <>
+inline constexpr std::size_t kFirstSize<camway_plan_timing> = 48;
 
 template <class T>
 void require_size(std::size_t size) {

@@ -25,9 +25,11 @@
 #include <camway/c/base.h>
 #include <camway/c/client.h>
 #include <camway/c/event_queue.h>
+#include <camway/c/frame.h>
 #include <camway/c/measures.h>
 #include <camway/c/occupancy.h>
 #include <camway/c/plan.h>
+#include <camway/c/proof.h>
 #include <camway/c/request.h>
 #include <camway/c/scan.h>
 #include <camway/c/scene.h>

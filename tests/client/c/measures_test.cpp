@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "tests/client/c/answered_twice.h"
 #include "tests/client/c/c_client.h"
 #include "tests/client/client_fixture.h"
 #include "tests/client/fake_daemon.h"
@@ -16,6 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing_support::answer_pages;
+using testing_support::AnsweredTwice;
 using testing_support::CClient;
 using testing_support::CRequest;
 using testing_support::encode_all;
@@ -107,6 +109,54 @@ TEST_F(CMeasuresTest, AreThoseOfTheClientOfCxx) {
   camway_answer_free(answer);
 }
 
+/// Slows an answer in three places.
+void slow_down(plan_response_t& answer) {
+  answer.time_scale = 1.75;
+  for (int i = 0; i < 3; ++i) {
+    slowed_stretch_t stretch{};
+    stretch.t_begin_s = 2 * i + 0.25;
+    stretch.t_end_s = 2 * i + 1.25;
+    stretch.given_t_begin_s = i + 0.125;
+    stretch.given_t_end_s = i + 0.625;
+    answer.slowed.push_back(stretch);
+  }
+}
+
+TEST_F(CMeasuresTest, SlowedPartsAreThoseOfTheClientOfCxx) {
+  const AnsweredTwice answer(slow_down);
+  ASSERT_EQ(answer.in_cxx().slowed.size(), 3u);
+  camway_slowed_stretch slowed[4] = {};
+  std::size_t count = 0;
+  ASSERT_EQ(camway_answer_slowed(answer.in_c(), slowed, 2, &count), CAMWAY_OK);
+  EXPECT_EQ(count, 3u);
+  EXPECT_EQ(slowed[2].t_end_s, 0.0) << "beyond the capacity";
+  ASSERT_EQ(camway_answer_slowed(answer.in_c(), slowed, 4, &count), CAMWAY_OK);
+  // The members are in the same order, so all are compared at once.
+  static_assert(sizeof slowed[0] == sizeof(SlowedStretch));
+  EXPECT_EQ(std::memcmp(slowed, answer.in_cxx().slowed.data(), 3 * sizeof slowed[0]), 0);
+  EXPECT_EQ(slowed[2].given_t_end_s, 2.625);
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(answer.in_c(), &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_EQ(summary.time_scale, 1.75);
+}
+
+TEST_F(CMeasuresTest, TimingIsThatOfTheClientOfCxx) {
+  const AnsweredTwice answer([](plan_response_t& timed) {
+    timed.motion_ms = 1.25;
+    timed.detect_ms = 2.25;
+    timed.correct_ms = 3.25;
+    timed.certify_ms = 4.25;
+    timed.total_ms = 11.5;
+  });
+  camway_plan_timing timing;
+  ASSERT_EQ(camway_answer_timing(answer.in_c(), &timing, sizeof timing), CAMWAY_OK);
+  EXPECT_EQ(timing.struct_size, sizeof timing);
+  EXPECT_EQ(timing.motion_ms, 1.25);
+  EXPECT_EQ(timing.total_ms, 11.5);
+  static_assert(sizeof timing == sizeof(PlanTiming) + 2 * sizeof(std::uint32_t));
+  EXPECT_EQ(std::memcmp(&timing.motion_ms, &answer.in_cxx().timing, sizeof(PlanTiming)), 0);
+}
+
 TEST_F(CMeasuresTest, AreRefusedWhereThereAreNone) {
   FakeDaemon daemon;
   daemon.on_plan = [](const plan_request_t& asked) {
@@ -126,6 +176,9 @@ TEST_F(CMeasuresTest, AreRefusedWhereThereAreNone) {
   EXPECT_EQ(summary.viewing_distance_m, 0.0);
   std::size_t count = 7;
   EXPECT_EQ(camway_answer_corrections(answer, nullptr, 0, &count), CAMWAY_OK);
+  EXPECT_EQ(count, 0u);
+  count = 7;
+  EXPECT_EQ(camway_answer_slowed(answer, nullptr, 0, &count), CAMWAY_OK);
   EXPECT_EQ(count, 0u);
   camway_answer_free(answer);
 }

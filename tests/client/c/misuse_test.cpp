@@ -128,6 +128,16 @@ void for_each_answer_call(const camway_answer* answer, const Check& check) {
   camway_path_measures measures;
   check(camway_answer_measures(answer, &measures, sizeof measures));
   check(camway_answer_measures_before(answer, &measures, sizeof measures));
+  camway_plan_timing timing;
+  check(camway_answer_timing(answer, &timing, sizeof timing));
+  check(camway_answer_slowed(answer, nullptr, 0, &count));
+  check(camway_answer_bounds(answer, positions_m, positions_m));
+  camway_path_frame frame;
+  check(camway_answer_frame(answer, &frame));
+  check(camway_answer_images(answer, nullptr, 0, &count));
+  camway_infeasibility infeasibility;
+  check(camway_answer_infeasibility(answer, &infeasibility, sizeof infeasibility));
+  check(camway_answer_proof_triangles(answer, nullptr, 0, &count));
   check(camway_answer_error(answer) == nullptr ? CAMWAY_BAD_ARGUMENT : CAMWAY_OK);
   check(camway_answer_message(answer) == nullptr ? CAMWAY_BAD_ARGUMENT : CAMWAY_OK);
 }
@@ -274,6 +284,11 @@ void expect_checks_size(const Init& init) {
     EXPECT_THAT(camway_last_error(), HasSubstr("struct_size"));
   }
   EXPECT_EQ(init(nullptr, sizeof(Struct)), CAMWAY_BAD_ARGUMENT);
+  // The struct of an older program.
+  EXPECT_EQ(init(&longer.known, c::kFirstSize<Struct>), CAMWAY_OK);
+  EXPECT_EQ(longer.known.struct_size, c::kFirstSize<Struct>);
+  EXPECT_EQ(reinterpret_cast<const unsigned char*>(&longer)[c::kFirstSize<Struct>], 0xff)
+      << "it wrote behind the struct";
   EXPECT_EQ(init(&longer.known, sizeof(Struct)), CAMWAY_OK);
   EXPECT_EQ(longer.known.struct_size, sizeof(Struct));
   EXPECT_EQ(longer.more[0], 0xff) << "it wrote behind the struct";

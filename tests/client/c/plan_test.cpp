@@ -17,6 +17,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "lcmtypes/wire/channels.h"
+#include "tests/client/c/answered_twice.h"
 #include "tests/client/c/c_client.h"
 #include "tests/client/client_fixture.h"
 #include "tests/client/fake_daemon.h"
@@ -25,8 +26,10 @@
 namespace camway {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing_support::answer_pages;
+using testing_support::AnsweredTwice;
 using testing_support::Bytes;
 using testing_support::CClient;
 using testing_support::CRequest;
@@ -129,6 +132,24 @@ TEST_F(CPlanTest, GivesAnAnswerWithoutAPathAndSaysWhy) {
   EXPECT_EQ(summary.scene_revision, 3);
   EXPECT_EQ(camway_answer_free(answer), CAMWAY_OK);
   EXPECT_EQ(camway_answer_free(answer), CAMWAY_BAD_ARGUMENT);
+}
+
+TEST_F(CPlanTest, TellsTheBoundsWithTheirOpenSides) {
+  const AnsweredTwice answer([](plan_response_t& bounded) {
+    for (int i = 0; i < 3; ++i) {
+      bounded.bounds.min_m[i] = -1.0 - i;
+      bounded.bounds.max_m[i] = 1.0 + i;
+    }
+    bounded.bounds.has_min[0] = bounded.bounds.has_min[1] = bounded.bounds.has_max[2] = 1;
+  });
+  constexpr double kInfinity_m = std::numeric_limits<double>::infinity();
+  double min_m[3];
+  double max_m[3];
+  ASSERT_EQ(camway_answer_bounds(answer.in_c(), min_m, max_m), CAMWAY_OK);
+  EXPECT_THAT(min_m, ElementsAre(-1.0, -2.0, -kInfinity_m));
+  EXPECT_THAT(max_m, ElementsAre(kInfinity_m, kInfinity_m, 3.0));
+  EXPECT_EQ(camway_answer_bounds(answer.in_c(), nullptr, max_m), CAMWAY_BAD_ARGUMENT);
+  EXPECT_EQ(camway_answer_bounds(answer.in_c(), min_m, nullptr), CAMWAY_BAD_ARGUMENT);
 }
 
 /// Handlers that keep their arguments.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/c/sized.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/client/c/c_client.h"
 #include "tests/client/client_fixture.h"
@@ -34,6 +35,10 @@ struct Setting {
   std::function<void(CRequest&)> in_c;
   std::function<void(PlanRequest&)> in_cxx;
 };
+
+const camway_path_frame kFrame = {
+    {1, 2, 3, 4}, {{5, 6, 7}, {8, 9, 10, 11}}, {{12, 13, 14}, {15, 16, 17, 18}}};
+const double kImages[] = {1, 2, 3, 4, 5, 6, 7, 8};
 
 #define CAMWAY_SAME(member, value)                                                                 \
   {                                                                                                \
@@ -73,6 +78,15 @@ std::vector<Setting> settings() {
        [](PlanRequest& cxx) { cxx.bounds.min_m[1] = -2.0; }},
       {"bounds_max_m", [](CRequest& c) { c.bounds_max_m[2] = 3.0; },
        [](PlanRequest& cxx) { cxx.bounds.max_m[2] = 3.0; }},
+      {"frame", [](CRequest& c) { c.frame = &kFrame; },
+       [](PlanRequest& cxx) {
+         cxx.frame = {{1, 2, 3, 4}, {{5, 6, 7}, {8, 9, 10, 11}}, {{12, 13, 14}, {15, 16, 17, 18}}};
+       }},
+      {"images", [](CRequest& c) { c.images = kImages; },
+       [](PlanRequest& cxx) {
+         cxx.keyframes[0].image = {1, 2, 3, 4};
+         cxx.keyframes[1].image = {5, 6, 7, 8};
+       }},
       {"level",
        [](CRequest& c) {
          c.orientation = CAMWAY_ORIENTATION_LEVEL;
@@ -231,6 +245,20 @@ TEST(CRequestDefaults, SayNothingThatTheClientOfCxxDoesNotSay) {
   EXPECT_FALSE(converted.bounds.min_m[0].has_value());
   EXPECT_EQ(request.bounds_max_m[0], std::numeric_limits<double>::infinity());
   EXPECT_TRUE(converted.method.empty());
+  EXPECT_FALSE(converted.frame.has_value());
+}
+
+TEST(CRequestDefaults, ARequestOfAnOlderProgramEndsBeforeTheFrame) {
+  CRequest request;
+  // Bytes of the program behind its shorter struct.
+  request.frame = &kFrame;
+  request.images = kImages;
+  request.struct_size = c::kFirstSize<camway_plan_request>;
+  const PlanRequest converted = c::request_of(&request);
+  EXPECT_FALSE(converted.frame.has_value());
+  EXPECT_EQ(converted.keyframes[0].image[0], 0.0);
+  request.struct_size = sizeof(camway_plan_request);
+  EXPECT_TRUE(c::request_of(&request).frame.has_value());
 }
 
 }  // namespace

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,7 +19,8 @@ namespace {
 
 constexpr double kWait_s = 30.0;
 
-/// A program in C that maps by scans, watches a path and takes events on its own thread.
+/// A program in C that maps by scans, watches a path and takes events on its own thread; edits
+/// answers and plans them again; and asks why there is no path.
 class CInterfaceTest : public IntegrationTest {
  protected:
   void SetUp() override {
@@ -65,19 +70,165 @@ class CInterfaceTest : public IntegrationTest {
     return found;
   }
 
+  /// Puts a box into the room.
+  void put_box(const char* name, const double (&size_m)[3], const camway_pose& place) {
+    EXPECT_EQ(camway_scene_put_box(client_, "room", name, size_m, &place, nullptr), CAMWAY_OK)
+        << camway_last_error();
+  }
+
   camway_client* client_ = nullptr;
   camway_event_queue* queue_ = nullptr;
   std::int64_t first_revision_ = 0;
 };
 
-TEST_F(CInterfaceTest, AScanBreaksAPathAndIsTakenBack) {
-  const camway_keyframe keyframes[] = {{0.0, {1, 2, 4}, {1, 0, 0, 0}},
+constexpr camway_keyframe kAcross[] = {{0.0, {1, 2, 4}, {1, 0, 0, 0}},
                                        {4.0, {8, 2, 4}, {1, 0, 0, 0}}};
+
+/// A request for a path through the room.
+camway_plan_request across() {
   camway_plan_request request;
   camway_plan_request_init(&request, sizeof request);
   request.scene = "room";
-  request.keyframes = keyframes;
+  request.keyframes = kAcross;
   request.num_keyframes = 2;
+  return request;
+}
+
+/// The keyframes, images and frame of an answer, for planning again.
+struct Copied {
+  explicit Copied(const camway_answer* answer) {
+    std::size_t count = 0;
+    EXPECT_EQ(camway_answer_keyframes(answer, nullptr, 0, &count), CAMWAY_OK);
+    std::vector<camway_path_keyframe> had(count);
+    EXPECT_EQ(camway_answer_keyframes(answer, had.data(), count, &count), CAMWAY_OK);
+    for (const camway_path_keyframe& from : had) {
+      camway_keyframe& keyframe = keyframes.emplace_back();
+      keyframe.time_s = from.time_s;
+      std::copy_n(from.position_m, 3, keyframe.position_m);
+      std::copy_n(from.orientation_wxyz, 4, keyframe.orientation_wxyz);
+    }
+    images.resize(4 * count);
+    EXPECT_EQ(camway_answer_images(answer, images.data(), count, &count), CAMWAY_OK);
+    EXPECT_EQ(camway_answer_frame(answer, &frame), CAMWAY_OK) << camway_last_error();
+  }
+  camway_plan_request request(const camway_plan_request& before) const {
+    camway_plan_request request = before;
+    request.keyframes = keyframes.data();
+    request.num_keyframes = keyframes.size();
+    request.images = images.data();
+    request.frame = &frame;
+    return request;
+  }
+
+  std::vector<camway_keyframe> keyframes;
+  std::vector<double> images;
+  camway_path_frame frame;
+};
+
+/// Returns the position and the orientation of an answer's path at a time.
+std::array<double, 7> pose_at(const camway_answer* answer, double time_s) {
+  std::array<double, 7> pose{};
+  EXPECT_EQ(camway_answer_poses(answer, &time_s, 1, pose.data(), pose.data() + 3), CAMWAY_OK);
+  return pose;
+}
+
+/// Returns the largest difference of a number in the poses of two answers at the same time.
+double largest_difference(const camway_answer* left, const camway_answer* right) {
+  double largest = 0.0;
+  for (double time_s = 0.0; time_s <= 4.0; time_s += 0.03125) {
+    const std::array<double, 7> poses[2] = {pose_at(left, time_s), pose_at(right, time_s)};
+    for (std::size_t i = 0; i < 7; ++i) {
+      largest = std::max(largest, std::abs(poses[0][i] - poses[1][i]));
+    }
+  }
+  return largest;
+}
+
+TEST_F(CInterfaceTest, AnAnswerIsPlannedAgainByItsFrame) {
+  put_box("post", {0.2, 4.0, 0.2}, {{4.5, 2.0, 3.9}, {1, 0, 0, 0}});
+  camway_plan_request request = across();
+  request.bounds_max_m[1] = 2.5;
+  camway_answer* answer = nullptr;
+  ASSERT_EQ(camway_plan(client_, &request, kWait_s, &answer), CAMWAY_OK) << camway_last_error();
+  double min_m[3];
+  double max_m[3];
+  ASSERT_EQ(camway_answer_bounds(answer, min_m, max_m), CAMWAY_OK);
+  EXPECT_EQ(max_m[1], 2.5);
+  EXPECT_EQ(min_m[1], -std::numeric_limits<double>::infinity());
+  camway_plan_timing timing;
+  ASSERT_EQ(camway_answer_timing(answer, &timing, sizeof timing), CAMWAY_OK);
+  EXPECT_GT(timing.correct_ms, 0.0);
+  EXPECT_GE(timing.total_ms, timing.correct_ms);
+
+  const Copied copied(answer);
+  const camway_plan_request same = copied.request(request);
+  camway_answer* again = nullptr;
+  ASSERT_EQ(camway_plan(client_, &same, kWait_s, &again), CAMWAY_OK) << camway_last_error();
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(again, &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_EQ(summary.corrected, 0);
+  EXPECT_LE(largest_difference(answer, again), 1e-9) << "docs/requests.md promises that";
+  camway_answer_free(again);
+
+  // Without the frame the path is another one.
+  camway_plan_request frameless = same;
+  frameless.frame = nullptr;
+  frameless.images = nullptr;
+  frameless.max_inserted_keyframes = 0;
+  camway_plan(client_, &frameless, kWait_s, &again);
+  EXPECT_GT(largest_difference(answer, again), 1e-6);
+  camway_answer_free(again);
+  camway_answer_free(answer);
+}
+
+TEST_F(CInterfaceTest, TheSlowedPartsMakeThePathLonger) {
+  camway_plan_request request = across();
+  request.max_speed_m_per_s = 1.0;
+  request.may_retime = 1;
+  camway_answer* answer = nullptr;
+  ASSERT_EQ(camway_plan(client_, &request, kWait_s, &answer), CAMWAY_OK) << camway_last_error();
+  camway_answer_summary summary;
+  ASSERT_EQ(camway_answer_summarize(answer, &summary, sizeof summary), CAMWAY_OK);
+  EXPECT_GE(summary.end_s, 7.0) << "7 m at 1 m/s";
+  std::vector<camway_slowed_stretch> slowed(64);
+  std::size_t count = 0;
+  ASSERT_EQ(camway_answer_slowed(answer, slowed.data(), slowed.size(), &count), CAMWAY_OK);
+  ASSERT_GT(count, 0u);
+  ASSERT_LE(count, slowed.size());
+  // Elsewhere times are only shifted.
+  double longer_s = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    longer_s += slowed[i].t_end_s - slowed[i].t_begin_s;
+    longer_s -= slowed[i].given_t_end_s - slowed[i].given_t_begin_s;
+  }
+  EXPECT_NEAR(summary.end_s - 4.0, longer_s, 1e-6);
+  EXPECT_NEAR(summary.time_scale, summary.end_s / 4.0, 1e-9);
+  camway_path_frame frame;
+  EXPECT_EQ(camway_answer_frame(answer, &frame), CAMWAY_INVALID) << "a slowed path has none";
+  camway_answer_free(answer);
+}
+
+TEST_F(CInterfaceTest, AKeyframeThatIsShutInIsProvedToBe) {
+  put_box("cell", {2.0, 2.0, 2.0}, {{8, 2, 4}, {1, 0, 0, 0}});
+  const camway_plan_request request = across();
+  camway_answer* answer = nullptr;
+  ASSERT_EQ(camway_plan(client_, &request, kWait_s, &answer), CAMWAY_INFEASIBLE)
+      << camway_last_error();
+  camway_infeasibility found;
+  ASSERT_EQ(camway_answer_infeasibility(answer, &found, sizeof found), CAMWAY_OK)
+      << camway_last_error();
+  EXPECT_EQ(found.proof, CAMWAY_PROOF_SURFACE);
+  EXPECT_EQ(found.keyframe_inside, 1);
+  EXPECT_EQ(found.keyframe_outside, 0);
+  std::size_t count = 0;
+  ASSERT_EQ(camway_answer_proof_triangles(answer, nullptr, 0, &count), CAMWAY_OK);
+  EXPECT_EQ(count, 12u) << "those of the box";
+  EXPECT_STRNE(camway_answer_message(answer), "");
+  camway_answer_free(answer);
+}
+
+TEST_F(CInterfaceTest, AScanBreaksAPathAndIsTakenBack) {
+  const camway_plan_request request = across();
   std::int64_t watch = 0;
   ASSERT_EQ(camway_watch_start_polled(client_, &request, queue_, &watch), CAMWAY_OK);
   EXPECT_EQ(next().kind, CAMWAY_EVENT_ANSWER);

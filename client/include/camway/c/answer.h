@@ -46,6 +46,10 @@ const char* camway_answer_error(const camway_answer* answer);
 /// Returns a sentence of the daemon, also for CAMWAY_OK; NULL if the handle is not live.
 const char* camway_answer_message(const camway_answer* answer);
 
+/// The box that the path was planned within, the intersection of the bounds of request and scene.
+/// A side without a limit is -infinity or infinity.
+camway_status camway_answer_bounds(const camway_answer* answer, double min_m[3], double max_m[3]);
+
 /// Evaluates the path at `count` times: three numbers each into `positions_m`, and four each into
 /// `orientations_wxyz`; either may be NULL. A time outside of the path gets its first or last pose.
 /// CAMWAY_INVALID if there is no path.

@@ -60,6 +60,37 @@ typedef struct camway_correction {
 camway_status camway_answer_corrections(const camway_answer* answer, camway_correction* corrections,
                                         size_t capacity, size_t* count);
 
+/// A time range of the path that was slowed to meet motion limits; elsewhere times are only
+/// shifted.
+typedef struct camway_slowed_stretch {
+  double t_begin_s;  ///< time range on the answer's path
+  double t_end_s;
+  double given_t_begin_s;  ///< the same by the times of the request
+  double given_t_end_s;
+} camway_slowed_stretch;
+
+/// Writes the first `capacity` slowed parts of the path, in order of time, and the number of all
+/// into `count`. The array may be NULL if `capacity` is 0. `camway_answer_summary::time_scale` is
+/// that of the whole path.
+camway_status camway_answer_slowed(const camway_answer* answer, camway_slowed_stretch* slowed,
+                                   size_t capacity, size_t* count);
+
+/// Wall-clock times of the stages of planning in the daemon, in milliseconds. 0 for a stage that
+/// did not run.
+typedef struct camway_plan_timing {
+  uint32_t struct_size;  ///< bytes that the library has set
+  uint32_t reserved;
+  double motion_ms;   ///< interpolation and the check of the keyframes
+  double detect_ms;   ///< search for collisions
+  double correct_ms;  ///< correction
+  double certify_ms;  ///< proof of the final path
+  double total_ms;
+} camway_plan_timing;
+
+/// `struct_size` is `sizeof(camway_plan_timing)`.
+camway_status camway_answer_timing(const camway_answer* answer, camway_plan_timing* timing,
+                                   size_t struct_size);
+
 #ifdef __cplusplus
 }
 #endif

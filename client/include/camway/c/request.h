@@ -2,7 +2,7 @@
 #ifndef CAMWAY_C_REQUEST_H
 #define CAMWAY_C_REQUEST_H
 
-#include <camway/c/base.h>
+#include <camway/c/frame.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -97,6 +97,13 @@ typedef struct camway_plan_request {
   int32_t may_retime;              ///< whether the path may be slowed to meet motion limits
   int32_t max_inserted_keyframes;  ///< negative: the daemon's default; 0: nothing is corrected
   int32_t repair_keyframes;  ///< whether keyframes that collide are moved to the nearest free pose
+
+  /// Frame of the answer whose keyframes these are, as they were or edited; NULL: none. The
+  /// keyframes have times then.
+  const camway_path_frame* frame;
+  /// Four numbers for each keyframe: those of `camway_answer_images`, zero for keyframes that are
+  /// new. All are zero without a frame. NULL: all zero, the default.
+  const double* images;
 } camway_plan_request;
 
 /// Sets all members to their defaults. `struct_size` is `sizeof(camway_plan_request)`.
