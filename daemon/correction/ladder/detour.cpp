@@ -38,8 +38,8 @@ constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ba
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
 constexpr int kFewSamples = 300;                       // of trees that turn less than those before
-constexpr std::size_t kMostBodyCells = 20'000;         // of ways on which the body does not turn
-constexpr std::size_t kBodyCells = 15'000;             // of those that may replace a way with turns
+constexpr std::size_t kMostBodyCells = 40'000;         // of ways on which the body does not turn
+constexpr std::size_t kBodyCells = 20'000;             // of those that may replace a way with turns
 constexpr double kHardlyTurned_rad = 0.02;  // a body turned by less can keep its orientation
 constexpr double kSmallTurn_rad = 0.35;     // limit of their turns
 /// A way that turns replaces one that does not if it costs less than this share: relaxation may
