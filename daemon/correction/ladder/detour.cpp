@@ -37,18 +37,18 @@ constexpr double kLeastMargin = 0.02;                        // share of the bal
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
-constexpr int kFewSamples = 300;                       // of trees that turn less than those before
+constexpr int kFewSamples = 300;                       // of trees that turn little or not at all
+constexpr double kSmallTurn_rad = 0.35;                // limit of the turns of the former
 constexpr std::size_t kMostBodyCells = 40'000;         // of ways on which the body does not turn
 constexpr std::size_t kBodyCells = 20'000;             // of those that may replace a way with turns
 constexpr double kHardlyTurned_rad = 0.02;  // a body turned by less can keep its orientation
-constexpr double kSmallTurn_rad = 0.35;     // limit of their turns
+constexpr double kFarTurn_rad = 0.7;        // from there on, a way without turns is searched longer
 /// A way that turns replaces one that does not if it costs less than this share: relaxation may
 /// change both costs, and a turn changes what is seen.
 constexpr double kTurnShare = 0.7;
 /// A way without turns that costs no more, for each second, is not compared with others.
 constexpr double kCheap_rad = 0.08;
-constexpr double kFarTurn_rad = 0.7;     // from there on, a way without turns is searched at length
-constexpr int kLegsAsInterpolated = 16;  // what lattices keep to, where there is a choice
+constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 
 class Detour {

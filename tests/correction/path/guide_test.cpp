@@ -65,6 +65,24 @@ TEST(SignedPoseAt, IsThePathsOwnAndContinuous) {
   }
 }
 
+TEST(PoseAtShare, IsBetweenItsNeighbours) {
+  const Vec3 axis = Vec3(1, -2, 2).normalized();
+  const auto turned = [&](double angle_rad) { return Quat(Eigen::AngleAxisd(angle_rad, axis)); };
+  const std::vector<motion::Pose> poses = {
+      {Vec3(0, 0, 0), turned(0.0)}, {Vec3(2, 0, 0), turned(0.4)}, {Vec3(2, 4, 0), turned(1.0)}};
+  const std::vector<std::pair<double, motion::Pose>> wanted = {
+      {0.0, poses[0]}, {0.25, {Vec3(1, 0, 0), turned(0.2)}},
+      {0.5, poses[1]}, {0.875, {Vec3(2, 3, 0), turned(0.85)}},
+      {1.0, poses[2]},
+  };
+  for (const auto& [share, pose] : wanted) {
+    const motion::Pose found = pose_at_share(poses, share);
+    EXPECT_LT((found.position - pose.position).norm(), kSumRounding_m) << share;
+    EXPECT_LT((found.orientation.coeffs() - pose.orientation.coeffs()).norm(), kSumRounding_m)
+        << share;
+  }
+}
+
 TEST(TimedGuide, BeginsAndEndsWithTheGuide) {
   testing::Random random(1);
   const SearchScene scene({});
