@@ -238,7 +238,9 @@ TEST_F(RecordTest, EachFileOfARotationReplaysAlone) {
     }
   }
   EXPECT_GT(files, 3U);
-  EXPECT_GT(agreeing, 40U);
+  // Requests that were planned in a scene of the file before are not compared: on a busy machine,
+  // where planning lags behind the changes of scenes, these are more.
+  EXPECT_GT(agreeing, 16U);
   const auto [code, text] = camway({"replay", folder(), "--no-timing"});
   EXPECT_EQ(code, 0) << text;
   EXPECT_THAT(text, HasSubstr("64 requests: 64 same,"));
