@@ -42,21 +42,6 @@ motion::BumpRow part_of(const Offsets& offsets, const collision::CollisionInterv
   return row;
 }
 
-/// Divides long motions, so that `shortened` can skip parts of them.
-Guide divided(const Guide& guide, const FreeSpace& space) {
-  Guide result = {guide.front()};
-  for (std::size_t i = 1; i < guide.size(); ++i) {
-    const double length_m = space.distance_m(guide[i - 1], guide[i]);
-    const int parts = std::clamp(
-        static_cast<int>(std::ceil(length_m / (kLongestStep * space.ball_radius_m()))), 1, 64);
-    for (int k = 1; k < parts; ++k) {
-      result.push_back(motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
-    }
-    result.push_back(guide[i]);
-  }
-  return result;
-}
-
 class Follower {
  public:
   Follower(const Problem& problem, Turning turning, base::Budget& budget, FreeSpace& space,
@@ -70,7 +55,8 @@ class Follower {
     for (const int count : kCoarse) {
       if (std::optional<Candidate> found = drawn(guide, count)) return found;
     }
-    const Guide fine = divided(guide, space_);
+    // `shortened` can then skip parts of long motions.
+    const Guide fine = divided(guide, space_, kLongestStep * space_.ball_radius_m());
     for (const double margin : kMargins) {
       const Guide direct = shortened(fine, space_, margin * space_.ball_radius_m());
       for (const int count : kFine) {

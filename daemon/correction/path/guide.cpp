@@ -175,6 +175,20 @@ BumpRow bumps_for(const Offsets& offsets, Ends ends) {
   return row;
 }
 
+Guide divided(const Guide& guide, const FreeSpace& space, double longest_m) {
+  Guide result = {guide.front()};
+  for (std::size_t i = 1; i < guide.size(); ++i) {
+    // A motion as long as coordinates permit may have more steps than an int can count.
+    const double wanted = std::ceil(space.distance_m(guide[i - 1], guide[i]) / longest_m);
+    const int parts = static_cast<int>(std::clamp(wanted, 1.0, double{kMostPartsOfMotion}));
+    for (int k = 1; k < parts; ++k) {
+      result.push_back(motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
+    }
+    result.push_back(guide[i]);
+  }
+  return result;
+}
+
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m) {
   Guide result = {guide.front()};
   for (std::size_t i = 0; i + 1 < guide.size();) {

@@ -85,6 +85,13 @@ motion::BumpRow bumps_for(const Offsets& offsets, Ends ends);
 motion::CubicPoint holding(const motion::KnotRow& knots, int knot, const motion::CubicPoint& before,
                            const motion::CubicPoint& after);
 
+/// Largest number of parts of a motion. Chosen by measurement.
+inline constexpr int kMostPartsOfMotion = 64;
+
+/// Divides the motions of `guide`, each into the fewest equal parts that are at most `longest_m`
+/// long, but no more than `kMostPartsOfMotion`. [Limit: 0 < longest_m]
+Guide divided(const Guide& guide, const FreeSpace& space, double longest_m);
+
 /// Removes poses of `guide` that a free straight motion can skip.
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m);
 

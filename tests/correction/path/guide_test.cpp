@@ -303,6 +303,38 @@ double length_m(const Guide& guide, const FreeSpace& space) {
   return sum_m;
 }
 
+TEST(Divided, HasTheFewestPartsThatAreShortEnough) {
+  constexpr double kLongest_m = 0.3;
+  testing::Random random(7);
+  const SearchScene scene({});
+  const FreeSpace space = scene.space();
+  for (int run = 0; run < 20; ++run) {
+    const Guide guide = some_guide(random, some_path(), 5, 1.0);
+    Guide expected = {guide.front()};
+    for (std::size_t i = 1; i < guide.size(); ++i) {
+      int parts = 1;
+      while (space.distance_m(guide[i - 1], guide[i]) > parts * kLongest_m) ++parts;
+      for (int k = 1; k < parts; ++k) {
+        expected.push_back(motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
+      }
+      expected.push_back(guide[i]);
+    }
+    EXPECT_GT(expected.size(), guide.size());
+    EXPECT_TRUE(same(divided(guide, space, kLongest_m), expected));
+  }
+}
+
+// The motion is as long as coordinates permit, with more of these steps than an int can count.
+TEST(Divided, HasNoMorePartsThanItMayHoweverLongTheMotion) {
+  constexpr double kLongest_m = 0.1;
+  const SearchScene scene({});
+  const Vec4 still(1, 0, 0, 0);
+  const Guide result =
+      divided({{Vec3(-1e9, 0, 0), still}, {Vec3(1e9, 0, 0), still}}, scene.space(), kLongest_m);
+  ASSERT_EQ(result.size(), kMostPartsOfMotion + 1U);
+  EXPECT_EQ(result[kMostPartsOfMotion / 2].position, Vec3::Zero());
+}
+
 TEST(Shortened, IsStraightInTheOpen) {
   testing::Random random(5);
   const SearchScene scene({});
