@@ -114,8 +114,9 @@ class RecordTest : public IntegrationTest {
     }
   }
 
-  /// Plans many paths while the scene changes. Returns the revisions that they met.
-  std::set<std::int64_t> work_on(int requests) {
+  /// Plans many paths while the scene changes; so many wait at once at most. Returns the revisions
+  /// that they met.
+  std::set<std::int64_t> work_on(int requests, int most_pending = kMostPending) {
     Client painter(patient());
     std::vector<std::unique_ptr<Client>> planners;
     // A request that is repeated while it waits is recorded twice, and the second time perhaps in
@@ -126,7 +127,7 @@ class RecordTest : public IntegrationTest {
     std::vector<PendingPlan> pending;
     for (int i = 0; i < requests; ++i) {
       // Requests that wait neither reach their deadline, nor are answered in a later file.
-      if (i >= kMostPending) pending[static_cast<std::size_t>(i - kMostPending)].answer.wait();
+      if (i >= most_pending) pending[static_cast<std::size_t>(i - most_pending)].answer.wait();
       PlanRequest request =
           request_of(kWays.at(static_cast<std::size_t>(i) % kWays.size()), "office");
       pending.push_back(planners.at(static_cast<std::size_t>(i) % 3)->plan_async(request));
@@ -222,7 +223,9 @@ TEST_F(RecordTest, WhatIsRecordedUnderLoadReplaysBitIdentically) {
 TEST_F(RecordTest, EachFileOfARotationReplaysAlone) {
   std::ofstream(file("camwayd.toml")) << "[record]\nfile_bytes = 65536\nmost_bytes = 268435456\n";
   start({"--config", file("camwayd.toml")});
-  work_on(64);
+  // Requests that were planned in a scene of the file before are not compared. With few that wait,
+  // these are few, however far planning lags behind the changes of scenes on a busy machine.
+  work_on(64, 4);
   stop();
   std::size_t files = 0;
   std::size_t agreeing = 0;
@@ -238,9 +241,7 @@ TEST_F(RecordTest, EachFileOfARotationReplaysAlone) {
     }
   }
   EXPECT_GT(files, 3U);
-  // Requests that were planned in a scene of the file before are not compared: on a busy machine,
-  // where planning lags behind the changes of scenes, these are more.
-  EXPECT_GT(agreeing, 16U);
+  EXPECT_GT(agreeing, 32U);
   const auto [code, text] = camway({"replay", folder(), "--no-timing"});
   EXPECT_EQ(code, 0) << text;
   EXPECT_THAT(text, HasSubstr("64 requests: 64 same,"));
