@@ -22,6 +22,7 @@ namespace camway::tools {
 namespace {
 
 constexpr double kUsualRate = 24.0;
+constexpr double kMostPixels = 1e6;  // of a side of the picture
 
 constexpr std::array<CameraFormat, 12> kFormats = {{
     {"gltf", ".glb", "glTF 2.0, an animated camera", read_gltf, write_gltf, nullptr, true},
@@ -93,7 +94,6 @@ FormatTraits traits_of(const CameraFormat& format) {
 }
 
 void set_size(double width, double height, FileFacts& facts) {
-  constexpr double kMostPixels = 1e6;
   if (!(width >= 1.0 && width <= kMostPixels && height >= 1.0 && height <= kMostPixels)) return;
   facts.width_px = static_cast<int>(std::lround(width));
   facts.height_px = static_cast<int>(std::lround(height));
@@ -107,7 +107,8 @@ std::string image_name(const CameraWriteOptions& options, std::size_t frame, std
 int height_px(const CameraWriteOptions& options) {
   if (options.facts.height_px > 0) return options.facts.height_px;
   const double ratio = std::tan(0.5 * options.fov_y_rad) / std::tan(0.5 * options.fov_x_rad);
-  return std::max(1, static_cast<int>(std::lround(options.width_px * ratio)));
+  // A field of view of nearly half a turn in one direction alone has more rows than an int counts.
+  return static_cast<int>(std::lround(std::clamp(options.width_px * ratio, 1.0, kMostPixels)));
 }
 
 }  // namespace camway::tools

@@ -230,6 +230,18 @@ TEST(CameraFormats, TakeNoAngleOfWhatIsNoFlatPicture) {
   EXPECT_THAT(error_of("chan", "1 0 0 0 0 0 0 200\n"), HasSubstr("200 degrees"));
 }
 
+TEST(CameraFormats, GiveAPictureItsHeight) {
+  CameraWriteOptions options{.fov_x_rad = 1.2, .fov_y_rad = 1.2};
+  EXPECT_EQ(height_px(options), options.width_px);
+  options.fov_y_rad = 1e-9;
+  EXPECT_EQ(height_px(options), 1);
+  options.fov_x_rad = 1e-9;
+  options.fov_y_rad = 3.1415;
+  EXPECT_EQ(height_px(options), 1'000'000) << "more rows than an int counts";
+  options.facts.height_px = 720;
+  EXPECT_EQ(height_px(options), 720);
+}
+
 TEST(CameraFormats, NameWhatIsWrong) {
   EXPECT_THAT(error_of("colmap", "1 1 0 0 0 0 0\n"), HasSubstr("line 1: has 7 words, not 10"));
   EXPECT_THAT(error_of("transforms", "{"), HasSubstr("f: line 1"));
