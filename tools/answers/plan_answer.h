@@ -22,7 +22,7 @@ struct PlanAnswer {
   std::string scene_digest;  ///< empty if no scene was planned in
   /// How this process read the file of the scene; nothing if it did not read it.
   std::optional<scene::ImportOptions> scene_reading;
-  std::optional<scene::VerticalAxis> vertical_axis;  ///< nothing if no scene was planned in
+  std::optional<scene::VerticalAxis> vertical_axis;  ///< nothing if it is not known
   std::vector<std::string> scene_warnings;           ///< warnings of the scene's import
   std::vector<std::string> request_warnings;         ///< a sentence each
 };

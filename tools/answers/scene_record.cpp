@@ -28,7 +28,8 @@ double uprightness(const planning::PlanRequest& request, const Vec3& axis_W) {
 
 }  // namespace
 
-VerticalAxis vertical_axis(std::optional<scene::UpAxis> up, const planning::PlanRequest& request) {
+std::optional<VerticalAxis> vertical_axis(std::optional<scene::UpAxis> up,
+                                          const planning::PlanRequest& request) {
   if (up == scene::UpAxis::kZToY) return VerticalAxis::kY;
   if (up == scene::UpAxis::kYToZ) return VerticalAxis::kZ;
   const correction::OrientationPolicy& policy = request.options.orientation;
@@ -36,6 +37,7 @@ VerticalAxis vertical_axis(std::optional<scene::UpAxis> up, const planning::Plan
     if (policy.up_W.y() > kNearlyAxis) return VerticalAxis::kY;
     if (policy.up_W.z() > kNearlyAxis) return VerticalAxis::kZ;
   }
+  if (planning::moving_camera(request) == nullptr) return std::nullopt;
   const bool is_z = uprightness(request, Vec3::UnitZ()) > uprightness(request, Vec3::UnitY());
   return is_z ? VerticalAxis::kZ : VerticalAxis::kY;
 }

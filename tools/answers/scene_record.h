@@ -15,10 +15,11 @@ namespace camway::tools {
 /// Returns the axis that points up where a request was planned: the one that the axes of the scene
 /// were turned to (`up`); else the direction `options.orientation.up` of the policy `level`, if
 /// that is nearly an axis; else the one that the cameras of the keyframes show, which stand upright
-/// more often than not; y if they show neither. `up` is nothing if it is not known how the scene
-/// was read.
-scene::VerticalAxis vertical_axis(std::optional<scene::UpAxis> up,
-                                  const planning::PlanRequest& request);
+/// more often than not; y if they show neither. Returns nothing if it would be for the cameras to
+/// tell and the body is none: the frame of a robot may have any axis up. `up` is nothing if it is
+/// not known how the scene was read.
+std::optional<scene::VerticalAxis> vertical_axis(std::optional<scene::UpAxis> up,
+                                                 const planning::PlanRequest& request);
 
 /// Returns the sentence that the path of `file` was made for another scene; empty if it was made
 /// for the scene with the digest `digest`, or if it is not known for which one (`made_for` is

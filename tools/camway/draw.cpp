@@ -113,6 +113,17 @@ ExitCode draw_scene_alone(const DrawFlags& flags) {
   return drawn(draw::draw_scene_plan(plan, files_of(flags)));
 }
 
+/// Returns the axis that points up in the picture of a response.
+draw::SceneUp vertical_of_response(const DrawFlags& flags, const ResponseFile& response,
+                                   const RequestFile& request, const SceneReading& reading,
+                                   const scene::Mesh& mesh) {
+  if (flags.vertical) return *flags.vertical;
+  if (response.vertical_axis) return *response.vertical_axis;
+  const std::optional<draw::SceneUp> told =
+      vertical_axis(flags.scene.import_options(reading).up, request);
+  return told ? *told : draw::up_of(mesh);
+}
+
 /// Draws a response in its scene.
 ExitCode draw_response(const DrawFlags& flags) {
   const base::Result<RequestFile> request = read_request(flags.request);
@@ -145,10 +156,7 @@ ExitCode draw_response(const DrawFlags& flags) {
   }
   draw::FloorPlan plan = draw::plan_of_answer(*request, *response, *snapshot.mesh.share());
   plan.title = std::filesystem::path(flags.response).stem().string();
-  plan.up = flags.vertical ? *flags.vertical
-            : response->vertical_axis
-                ? *response->vertical_axis
-                : vertical_axis(flags.scene.import_options(reading).up, *request);
+  plan.up = vertical_of_response(flags, *response, *request, reading, plan.mesh);
   return drawn(flags.is_side_by_side ? draw::draw_side_by_side(plan, files_of(flags))
                                      : draw::draw_floor_plan(plan, files_of(flags)));
 }

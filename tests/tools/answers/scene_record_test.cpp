@@ -48,6 +48,19 @@ TEST(SceneRecord, TurnedAxesCountMostThenTheLevelPolicy) {
   EXPECT_EQ(vertical_axis(scene::UpAxis::kZToY, request), VerticalAxis::kY);
 }
 
+/// The frame of a robot may have any axis up, so its keyframes show nothing; all else still counts.
+TEST(SceneRecord, OtherBodiesDoNotShowTheAxis) {
+  planning::PlanRequest request = tour(VerticalAxis::kY, 0.0);
+  request.body = motion::Camera{};
+  EXPECT_EQ(vertical_axis(std::nullopt, request), VerticalAxis::kY);
+  request.body = motion::BoxShape{};
+  EXPECT_EQ(vertical_axis(std::nullopt, request), std::nullopt);
+  EXPECT_EQ(vertical_axis(scene::UpAxis::kYToZ, request), VerticalAxis::kZ);
+  request.options.orientation = {.rule = correction::OrientationRule::kLevel,
+                                 .up_W = Vec3::UnitZ()};
+  EXPECT_EQ(vertical_axis(std::nullopt, request), VerticalAxis::kZ);
+}
+
 TEST(SceneRecord, SaysThatAPathIsOfAnotherScene) {
   EXPECT_EQ(another_scene("P.json", "", "office.obj", "11"), "");
   EXPECT_EQ(another_scene("P.json", "11", "office.obj", "11"), "");

@@ -14,6 +14,7 @@ namespace camway::tools {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string read(const std::string& file) {
@@ -28,10 +29,20 @@ class CliDraw : public ::testing::Test {
     return run_camway({"draw", "--scene", scene_, "--request", request_, "--response", response_,
                        "--picture", picture});
   }
-  void plan(double x) {
-    request_ =
-        folder_.write("r.json", request_json({keyframe_json(x, 0, 1), keyframe_json(x, 0, -1)}));
+  void plan(double x) { plan(request_json({keyframe_json(x, 0, 1), keyframe_json(x, 0, -1)})); }
+  void plan(const std::string& request) {
+    request_ = folder_.write("r.json", request);
     run_camway({"plan", "--request", request_, "--response", response_});
+  }
+  /// The picture of the answer, drawn with more flags.
+  std::string picture_with(const std::vector<std::string>& more) {
+    const std::string picture = folder_.file("axis.svg");
+    std::vector<std::string> arguments{"draw",    "--request", request_, "--response",
+                                       response_, "-o",        picture};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read(picture);
   }
 
   TemporaryFolder folder_;
@@ -137,15 +148,6 @@ TEST_F(CliDraw, ReadsTheSceneAsTheResponseNames) {
 /// from the request.
 TEST_F(CliDraw, VerticalAxisFollowsTheResponse) {
   plan(0.5);
-  const auto picture_with = [&](const std::vector<std::string>& more) {
-    const std::string picture = folder_.file("axis.svg");
-    std::vector<std::string> arguments{"draw",    "--request", request_, "--response",
-                                       response_, "-o",        picture};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const CliRun run = run_camway(arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return read(picture);
-  };
   const std::string y = picture_with({"--vertical", "y"});
   const std::string z = picture_with({"--vertical", "z"});
   EXPECT_NE(y, z);
@@ -158,6 +160,18 @@ TEST_F(CliDraw, VerticalAxisFollowsTheResponse) {
   EXPECT_EQ(picture_with({}), y);
   folder_.write("answer.json", answer.replace(at, member.size(), "\"vertical_axis\": \"z\","));
   EXPECT_EQ(picture_with({}), z);
+}
+
+/// A robot does not show which axis points up, so the picture has the axis of the scene's faces:
+/// this wall lies across z.
+TEST_F(CliDraw, VerticalAxisOfARobotFollowsTheScene) {
+  std::string request = request_json({keyframe_json(5, 0, 1), keyframe_json(5, 0, -1)});
+  const std::size_t at = request.find("\"keyframes\"");
+  plan(request.insert(at, R"("body": {"type": "box", "size": [0.1, 0.1, 0.1]}, )"));
+  EXPECT_THAT(read(response_), Not(HasSubstr("vertical_axis")));
+  const std::string own = picture_with({});
+  EXPECT_EQ(own, picture_with({"--vertical", "z"}));
+  EXPECT_NE(own, picture_with({"--vertical", "y"}));
 }
 
 TEST_F(CliDraw, DrawsASceneAlone) {

@@ -11,6 +11,7 @@
 #include "tools/answers/scene_record.h"
 #include "tools/drawing/answer_plan.h"
 #include "tools/drawing/floor_plan.h"
+#include "tools/drawing/storeys.h"
 
 namespace camway::tools {
 namespace {
@@ -55,7 +56,8 @@ std::string picture_of(const ComparedRequest& compared, const SceneOf& scene_of,
   if (const auto scene = scene_of(recorded)) plan.mesh = *scene->mesh.share();
   plan.path_names = {head.then, head.now};
   if (recorded.request) {
-    plan.up = vertical_axis(std::nullopt, *recorded.request);
+    const std::optional<draw::SceneUp> told = vertical_axis(std::nullopt, *recorded.request);
+    plan.up = told ? *told : draw::up_of(plan.mesh);
     draw::set_body(*recorded.request, plan);
   }
   if (!then.path.empty()) plan.before = draw::sample(then.path, kPictureSamples);

@@ -4,7 +4,7 @@
 
 import { Quaternion, Vector3 } from 'three';
 import type { Pose } from '../model/actions.js';
-import type { Quat, Vec3 } from '../contract/request.js';
+import type { PlanRequest, Quat, Vec3 } from '../contract/request.js';
 
 export type UpAxis = 'y' | 'z';
 
@@ -40,15 +40,19 @@ export function upVector(up: UpAxis): Vector3 {
   return up === 'y' ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
 }
 
-/** The axis that is up for most of the cameras: their picture's upward direction leans to it. */
-export function uprightAxis(orientations: readonly Quat[]): UpAxis | undefined {
+/**
+ * The axis that is up for most of the cameras of a request: their picture's upward direction leans to it. Undefined
+ * where another body moves, whose frame may have any axis up.
+ */
+export function uprightAxis(request: Pick<PlanRequest, 'body' | 'keyframes'> | undefined): UpAxis | undefined {
+  const isCamera = !request?.body || request.body['type'] === 'camera';
+  if (!request || !isCamera || request.keyframes.length === 0) return undefined;
   let y = 0;
   let z = 0;
-  for (const orientation of orientations) {
+  for (const { orientation } of request.keyframes) {
     const up = new Vector3(0, 1, 0).applyQuaternion(toQuaternion(orientation));
     y += Math.abs(up.y);
     z += Math.abs(up.z);
   }
-  if (orientations.length === 0) return undefined;
   return y >= z ? 'y' : 'z';
 }

@@ -339,7 +339,7 @@ export class Viewport {
     if (!this.isUpChosen) {
       const { min, max } = scene.scene.bounds;
       const isFlat = max[2] - min[2] < 0.5 * (max[1] - min[1]);
-      this.applyUp(uprightAxis(request?.keyframes.map(({ orientation }) => orientation) ?? []) ?? (isFlat ? 'z' : 'y'));
+      this.applyUp(uprightAxis(request) ?? (isFlat ? 'z' : 'y'));
     }
     this.home(false);
   }
