@@ -11,6 +11,8 @@
 #include "daemon/correction/narrow/centering.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/hole_line.h"
+#include "daemon/correction/narrow/hole_motion.h"
+#include "daemon/correction/narrow/least_turn.h"
 #include "daemon/correction/narrow/way_places.h"
 #include "daemon/correction/path/orientation_rule.h"
 
@@ -33,21 +35,23 @@ constexpr double kWide = 0.9;               // room from which a line counts as 
 constexpr std::size_t kMostTried = 24;      // fitting poses from which a motion is tried
 constexpr std::size_t kMostThinTried = 24;  // poses of scaled-down bodies that grow
 constexpr double kFarthest = 3.0;  // motion to either side, unless the narrow place is longer
-constexpr double kNearest = 1.05;  // least motion that leaves a thin wall
 
 class Threader {
  public:
-  Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to, double margin_m,
+  Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to,
+           std::span<const motion::Pose> interpolated, double margin_m,
            const base::Deadline& deadline)
       : space_(space),
         from_(from),
         to_(to),
         margin_m_(margin_m),
         deadline_(deadline),
-        radius_m_(space.ball_radius_m()) {}
+        radius_m_(space.ball_radius_m()),
+        least_turn_(space, from_, to_, interpolated, margin_m, deadline) {}
 
   /// Returns a motion along the narrow place `way_W`.
   std::optional<NarrowPassage> through(std::span<const Vec3> way_W) {
+    way_W_ = way_W;
     farthest_m_ = std::max(kFarthest * radius_m_, length_m(way_W));
     const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
     std::vector<Vec3> middles_W = {tightest(space_, way_W)};
@@ -56,17 +60,19 @@ class Threader {
       middles_W.push_back(way_W[at]);
     }
     // A motion along a wall beside the narrow place does not lead through it.
-    std::optional<NarrowPassage> beside;
+    std::optional<Guide> beside;
     for (const Vec3& middle_W : middles_W) {
       for (const double half_length : kFirstHalfLengths) {
-        std::optional<NarrowPassage> found = along_grown(middle_W, along_W, half_length);
+        std::optional<Guide> found = along_grown(middle_W, along_W, half_length);
         if (!found) continue;
-        if (leads_through(found->poses, way_W, space_)) return found;
+        if (leads_through(*found, way_W, space_)) return NarrowPassage{*std::move(found)};
         if (!beside) beside = std::move(found);
       }
     }
-    auto fitted = fitted_in(line_about(space_, middles_W.front(), along_W, kHalfLength), way_W);
-    return fitted ? std::move(fitted) : std::move(beside);
+    std::optional<Guide> found =
+        fitted_in(line_about(space_, middles_W.front(), along_W, kHalfLength));
+    if (!found) found = std::move(beside);
+    return found ? std::optional(NarrowPassage{*std::move(found)}) : std::nullopt;
   }
 
  private:
@@ -76,13 +82,9 @@ class Threader {
     return sum_m;
   }
 
-  static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
-    return {pose.position + by_W, pose.orientation};
-  }
-
   /// Returns a motion along a line that is shifted to where it has room, and grows: a longer line
   /// shows better where a hole leads.
-  std::optional<NarrowPassage> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
+  std::optional<Guide> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
     for (; half_length < kLongest && !deadline_.passed(); half_length *= kGrowth) {
       HoleLine line = line_about(space_, center_W, along_W, half_length);
       if (!(room_m(space_, line) > 0.0)) return std::nullopt;
@@ -97,33 +99,33 @@ class Threader {
     return std::nullopt;
   }
 
-  std::optional<NarrowPassage> along(const HoleLine& line) {
-    const Vec3 along_W = line.direction_W();
-    for (const auto& [likeness, pose] : fitting(line)) {
+  std::optional<Guide> along(const HoleLine& line) {
+    const std::vector<Side> sides = sides_of(space_, line);
+    const LinePlace place{line, shifts_of(sides.front(), sides[kSides / 4]), way_W_, farthest_m_};
+    if (std::optional<Guide> unturned = least_turn_.unturned(place)) return unturned;
+    for (const SignedLikeEnds& fit : fitting(line, sides)) {
       if (deadline_.passed()) return std::nullopt;
-      const double back_m = freely_moved_m(pose, -along_W);
-      if (back_m < kNearest * radius_m_) continue;
-      const double forth_m = freely_moved_m(pose, along_W);
-      if (forth_m < kNearest * radius_m_) continue;
-      return NarrowPassage{{moved(pose, -back_m * along_W), moved(pose, forth_m * along_W)}};
+      std::optional<Guide> found =
+          straight_motion(space_, fit.pose, line.direction_W(), farthest_m_, margin_m_);
+      if (!found) continue;
+      if (!leads_through(*found, way_W_, space_)) return found;
+      return least_turn_.reduced(place, *std::move(found));
     }
     return std::nullopt;
   }
 
   /// Returns a motion through the narrow place in which the middle of `line` is, from a pose that
   /// fits only if the body is turned more finely than `fitting` does.
-  std::optional<NarrowPassage> fitted_in(const HoleLine& line, std::span<const Vec3> way_W) {
+  std::optional<Guide> fitted_in(const HoleLine& line) {
     Fitter fitter(space_, deadline_);
     for (const ThinFit& fit : thin_fits(widened(space_, line), fitter)) {
       if (deadline_.passed()) return std::nullopt;
       const std::optional<Centered> found = fitter.fitted(fit.pose);
       if (!found) continue;
-      const SignedPose pose = signed_as_ends(found->pose).pose;
+      const SignedPose pose = signed_as_ends(found->pose, from_, to_).pose;
       const double margin_m = std::min(margin_m_, kMarginOfGap * found->gap_m);
       std::optional<Guide> poses = corridor(space_, pose, line.direction_W(), margin_m, deadline_);
-      if (!poses) continue;
-      NarrowPassage passage{*std::move(poses)};
-      if (leads_through(passage.poses, way_W, space_)) return passage;
+      if (poses && leads_through(*poses, way_W_, space_)) return poses;
     }
     return std::nullopt;
   }
@@ -137,20 +139,21 @@ class Threader {
   /// The poses at which scaled-down bodies are free, the largest first.
   [[nodiscard]] std::vector<ThinFit> thin_fits(const HoleLine& line, Fitter& fitter) {
     std::vector<ThinFit> fits;
-    for_each_orientation(line, [&](const Quat& orientation, const Side& side, const Side& other) {
-      const Vec3 both_W = side.to_middle_W + other.to_middle_W;
-      ThinFit best{0.0, 0.0, {}};
-      for (const Vec3& shift_W :
-           {Vec3(Vec3::Zero()), side.to_middle_W, other.to_middle_W, both_W}) {
-        const motion::Pose pose = space_.pose_around(line.center_W() + shift_W, orientation);
-        // Where the body is free, `fitting` has been there.
-        const double scale = fitter.free_scale(pose);
-        if (scale == 1.0) continue;
-        const double worth = scale - kBesideLine * shift_W.norm() / radius_m_;
-        if (scale > 0.0 && worth > best.worth) best = {worth, signed_as_ends(pose).likeness, pose};
-      }
-      if (best.worth > 0.0) fits.push_back(best);
-    });
+    const std::vector<Side> sides = sides_of(space_, line);
+    for_each_orientation(
+        line, sides, [&](const Quat& orientation, const Side& side, const Side& other) {
+          ThinFit best{0.0, 0.0, {}};
+          for (const Vec3& shift_W : shifts_of(side, other)) {
+            const motion::Pose pose = space_.pose_around(line.center_W() + shift_W, orientation);
+            // Where the body is free, `fitting` has been there.
+            const double scale = fitter.free_scale(pose);
+            if (scale == 1.0) continue;
+            const double worth = scale - kBesideLine * shift_W.norm() / radius_m_;
+            if (scale == 0.0 || worth <= best.worth) continue;
+            best = {worth, signed_as_ends(pose, from_, to_).likeness, pose};
+          }
+          if (best.worth > 0.0) fits.push_back(best);
+        });
     std::ranges::stable_sort(fits, [](const ThinFit& a, const ThinFit& b) {
       return a.worth != b.worth ? a.worth > b.worth : a.likeness > b.likeness;
     });
@@ -158,20 +161,18 @@ class Threader {
     return fits;
   }
 
-  struct Fit {
-    double likeness;  ///< cosine to the less similar end orientation
-    SignedPose pose;
-  };
-
   /// Free poses with an axis of the body along the line, on it or in the middle of the free space
   /// beside it; least turned first.
-  [[nodiscard]] std::vector<Fit> fitting(const HoleLine& line) {
-    std::vector<Fit> fits;
-    for_each_orientation(line, [&](const Quat& orientation, const Side& side, const Side& other) {
-      const std::optional<Vec3> place_W = fitting_place_W(line, orientation, side, other);
-      if (place_W) fits.push_back(signed_as_ends(space_.pose_around(*place_W, orientation)));
-    });
-    std::ranges::stable_sort(fits, std::greater(), &Fit::likeness);
+  [[nodiscard]] std::vector<SignedLikeEnds> fitting(const HoleLine& line,
+                                                    std::span<const Side> sides) {
+    std::vector<SignedLikeEnds> fits;
+    for_each_orientation(
+        line, sides, [&](const Quat& orientation, const Side& side, const Side& other) {
+          const std::optional<Vec3> place_W = fitting_place_W(line, orientation, side, other);
+          if (!place_W) return;
+          fits.push_back(signed_as_ends(space_.pose_around(*place_W, orientation), from_, to_));
+        });
+    std::ranges::stable_sort(fits, std::greater(), &SignedLikeEnds::likeness);
     if (fits.size() > kMostTried) fits.resize(kMostTried);
     return fits;
   }
@@ -179,8 +180,8 @@ class Threader {
   /// Calls `use` for orientations with an axis of the body along the line: each axis, either way,
   /// rotated about the line step by step. `side` and `other` are across the line.
   template <class Use>
-  void for_each_orientation(const HoleLine& line, const Use& use) const {
-    const std::vector<Side> sides = sides_of(space_, line);
+  void for_each_orientation(const HoleLine& line, std::span<const Side> sides,
+                            const Use& use) const {
     const Vec3 along_W = line.direction_W();
     for (const auto& [first, second] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
       for (std::size_t i = 0; i < 2 * kSides && !deadline_.passed(); ++i) {
@@ -198,8 +199,7 @@ class Threader {
 
   [[nodiscard]] std::optional<Vec3> fitting_place_W(const HoleLine& line, const Quat& orientation,
                                                     const Side& side, const Side& other) {
-    const Vec3 both_W = side.to_middle_W + other.to_middle_W;
-    for (const Vec3& shift_W : {Vec3(Vec3::Zero()), side.to_middle_W, other.to_middle_W, both_W}) {
+    for (const Vec3& shift_W : shifts_of(side, other)) {
       const std::array<Vec3, 3> places_W = {line.center_W() + shift_W, line.begin_W + shift_W,
                                             line.end_W + shift_W};
       const bool fits = std::ranges::all_of(places_W, [&](const Vec3& place_W) {
@@ -210,29 +210,15 @@ class Threader {
     return std::nullopt;
   }
 
-  [[nodiscard]] Fit signed_as_ends(const motion::Pose& pose) const {
-    SignedPose result = motion::signed_pose(pose);
-    const double from = result.orientation.dot(from_.orientation);
-    const double to = result.orientation.dot(to_.orientation);
-    if (from + to >= 0.0) return {std::min(from, to), result};
-    result.orientation *= -1.0;
-    return {std::min(-from, -to), result};
-  }
-
-  /// How far the body can move in that direction.
-  [[nodiscard]] double freely_moved_m(const SignedPose& pose, const Vec3& direction_W) {
-    const std::optional<double> hit =
-        space_.first_hit(pose, moved(pose, farthest_m_ * direction_W), margin_m_);
-    return farthest_m_ * (hit ? 0.9 * *hit : 1.0);
-  }
-
   FreeSpace& space_;
   const SignedPose from_;
   const SignedPose to_;
   const double margin_m_;
   const base::Deadline& deadline_;
   const double radius_m_;
-  double farthest_m_ = 0.0;  ///< largest motion to either side
+  LeastTurn least_turn_;
+  std::span<const Vec3> way_W_;  ///< the way through the narrow place
+  double farthest_m_ = 0.0;      ///< largest motion to either side
 };
 
 /// Ranges where the ball does not fit. Leaves out those at the ends of the way: the body is there
@@ -257,10 +243,11 @@ bool leads_through(const Guide& poses, std::span<const Vec3> way_W, const FreeSp
 
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec3> way_W,
                                            const SignedPose& from, const SignedPose& to,
+                                           std::span<const motion::Pose> interpolated,
                                            double margin_m, const base::Deadline& deadline) {
   if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
   const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
-  Threader threader(space, from, to, margin_m, deadline);
+  Threader threader(space, from, to, interpolated, margin_m, deadline);
   std::vector<NarrowPassage> passages;
   for (const PlaceRange& narrow : narrow_places(space, places)) {
     if (deadline.passed()) return {};

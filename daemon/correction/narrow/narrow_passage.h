@@ -29,16 +29,20 @@ bool leads_through(const Guide& poses, std::span<const geometry::Vec3> way_W,
 /// From the tightest point of a narrow place a line is grown and shifted to where it has the most
 /// room. The body is put there, or in the middle of the free space beside it, with one of its axes
 /// along the line; it is rotated about the line step by step, and moved along the line to both
-/// sides. Where no such pose is free, scaled-down bodies are tried at the same poses and grow
-/// (`centering.h`), and the narrow place is followed to both sides (`corridor.h`). The motions are
-/// proved free with `margin_m` beyond the required clearance.
+/// sides. Orientations that the interpolated path has are tried before these, and turns are made
+/// smaller after them (`least_turn.h`). Where no such pose is free, scaled-down bodies are tried at
+/// the same poses and grow (`centering.h`), and the narrow place is followed to both sides
+/// (`corridor.h`). The motions are proved free with `margin_m` beyond the required clearance.
 ///
-/// `from` and `to` are the poses at the ends; of all orientations that fit, the one turned least
-/// from both is taken. Returns nothing if a narrow place was not passed, if there is none, or if
-/// the orientation policy limits orientations. Deterministic, unless the deadline strikes.
+/// `from` and `to` are the poses at the ends, `interpolated` those of the interpolated path between
+/// them at equal steps in time, at least two. Of the orientations with an axis along the line, the
+/// one turned least from both ends is taken. Returns nothing if a narrow place was not passed, if
+/// there is none, or if the orientation policy limits orientations. Deterministic, unless the
+/// deadline strikes.
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const geometry::Vec3> way_W,
                                            const motion::SignedPose& from,
-                                           const motion::SignedPose& to, double margin_m,
-                                           const base::Deadline& deadline);
+                                           const motion::SignedPose& to,
+                                           std::span<const motion::Pose> interpolated,
+                                           double margin_m, const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -34,7 +34,7 @@ TreeResult threaded_guide(FreeSpace& space, std::span<const geometry::Vec3> way_
                           const SignedPose& from, const SignedPose& to, const TreeOptions& trees,
                           const base::Deadline& deadline) {
   const std::vector<NarrowPassage> passages =
-      narrow_passages(space, way_W, from, to, trees.margin_m, deadline);
+      narrow_passages(space, way_W, from, to, trees.interpolated, trees.margin_m, deadline);
   if (passages.empty()) return {};
   TreeResult result{{from}};
   std::size_t begin = 0;

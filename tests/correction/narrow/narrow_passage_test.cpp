@@ -39,6 +39,14 @@ std::vector<Vec3> turned(std::vector<Vec3> way_W, const Quat& turn_W) {
   return way_W;
 }
 
+/// The passages where the interpolated path turns from the one end orientation to the other.
+std::vector<NarrowPassage> passages_of(FreeSpace& space, const std::vector<Vec3>& way_W,
+                                       const SignedPose& from, const SignedPose& to) {
+  const std::vector<motion::Pose> interpolated = {motion::unsigned_pose(from),
+                                                  motion::unsigned_pose(to)};
+  return narrow_passages(space, way_W, from, to, interpolated, kPassageMargin_m, Deadline::never());
+}
+
 // Expects a free motion from one side of every plate to the other.
 void expect_passed(const SearchScene& scene, const std::vector<NarrowPassage>& passages,
                    const std::vector<double>& plates_m, const Quat& turn_W) {
@@ -76,8 +84,7 @@ TEST(NarrowPassages, LeadThroughHolesLittleWiderThanTheShortSide) {
         turned({{x_m, 0.2, 1.5}, {x_m, y_m, 0.2}, {-x_m, y_m, -0.2}, {-x_m, 0.3, -1.5}}, turn_W);
     const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
     const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
-    const std::vector<NarrowPassage> passages =
-        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+    const std::vector<NarrowPassage> passages = passages_of(space, way_W, from, to);
     expect_passed(scene, passages, {0.0}, turn_W);
   }
 }
@@ -123,8 +130,7 @@ TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
         turned({{0, 0.2, 1.5}, {0, y_m, 0.2}, {0, y_m, -0.2}, {0, 0.3, -1.5}}, turn_W);
     const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
     const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
-    const std::vector<NarrowPassage> passages =
-        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+    const std::vector<NarrowPassage> passages = passages_of(space, way_W, from, to);
     expect_passed(scene, passages, {0.0}, turn_W);
   }
 }
@@ -146,8 +152,7 @@ TEST(NarrowPassages, LeadABoxThroughAHoleThatIsLittleLarger) {
         turned({{0, 0.2, 2.0}, {0, 0, 0.2}, {0, 0, -0.2}, {0, 0.3, -2.0}}, turn_W);
     const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
     const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
-    const std::vector<NarrowPassage> passages =
-        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+    const std::vector<NarrowPassage> passages = passages_of(space, way_W, from, to);
     ASSERT_EQ(passages.size(), 1U);
     const Guide& poses = passages.front().poses;
     EXPECT_TRUE(is_proved_free(scene, poses, 0.1 * 0.01 * side_m));
@@ -166,8 +171,7 @@ TEST(NarrowPassages, AreInTheOrderOfTheWay) {
   const std::vector<Vec3> way_W = {{0, 0, 2.5}, {0, 0, 0.5}, {0, 0, -0.5}, {0, 0, -2.5}};
   const SignedPose from{way_W.front(), Vec4::UnitX()};
   const SignedPose to{way_W.back(), Vec4::UnitX()};
-  const std::vector<NarrowPassage> passages =
-      narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+  const std::vector<NarrowPassage> passages = passages_of(space, way_W, from, to);
   expect_passed(scene, passages, {1.0, -1.0}, Quat::Identity());
   EXPECT_EQ(passages[0].first, 0U);
   EXPECT_EQ(passages[1].first, 2U);
@@ -182,7 +186,7 @@ std::vector<NarrowPassage> passages_of_hole(double hole_m) {
   const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}};
   const SignedPose from{way_W.front(), Vec4::UnitX()};
   const SignedPose to{way_W.back(), Vec4::UnitX()};
-  return narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never());
+  return passages_of(space, way_W, from, to);
 }
 
 TEST(NarrowPassages, NoneWhereTheBodyCannotPassOrItsBallFits) {
@@ -201,8 +205,7 @@ TEST(NarrowPassages, NoneOnWaysWithoutAnEnd) {
     const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}, {0, 0, -far_m}};
     const SignedPose from{way_W.front(), Vec4::UnitX()};
     const SignedPose to{way_W.back(), Vec4::UnitX()};
-    EXPECT_TRUE(
-        narrow_passages(space, way_W, from, to, kPassageMargin_m, Deadline::never()).empty());
+    EXPECT_TRUE(passages_of(space, way_W, from, to).empty());
   }
 }
 
