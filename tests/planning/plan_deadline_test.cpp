@@ -117,6 +117,33 @@ TEST(PlanDeadline, WhatIsSaidIsTrueWhereverItStrikes) {
   EXPECT_TRUE(left.contains(2)) << "what was corrected by then was kept";
 }
 
+// The ends are in two halls, whose door the camera passes only if it turns.
+TEST(PlanDeadline, ASearchThatItEndsSaysNothingOfWhereItBegan) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-4, -0.1, 0}, {0, 0.1, 3});
+  testing::add_cuboid(mesh, {1, -0.1, 0}, {4, 0.1, 3});
+  testing::add_cuboid(mesh, {0, -0.1, 2}, {1, 0.1, 3});
+  for (const double side : {-1.0, 1.0}) {
+    testing::add_cuboid(mesh, {side * 4 - 0.1, -4, 0}, {side * 4 + 0.1, 4, 3});
+    testing::add_cuboid(mesh, {-4, side * 4 - 0.1, 0}, {4, side * 4 + 0.1, 3});
+    testing::add_cuboid(mesh, {-4, -4, 1.5 + side * 1.5}, {4, 4, 1.5 + side * 1.6});
+  }
+  const auto snapshot = scene::make_snapshot("test", std::move(mesh)).snapshot;
+  PlanRequest request;
+  request.camera = {.fov_x_rad = 1.745, .fov_y_rad = 0.698, .near_m = 0.59};
+  for (const double y_m : {-2.0, 2.0}) {
+    request.keyframes.push_back({0.0, {{0.3, y_m, 1.2}, Quat::Identity()}});
+  }
+  int timeouts = 0;
+  for (int looks = 10; looks < 20'000; looks += looks / 3) {
+    const PlanResult result = plan(*snapshot, request, Deadline::after_looks(looks));
+    if (result.status != Status::kTimeout) continue;
+    ++timeouts;
+    EXPECT_THAT(result.message, ::testing::Not(HasSubstr("no search found"))) << looks;
+  }
+  EXPECT_GT(timeouts, 3);
+}
+
 // There are more stretches to check than checks of the deadline that are kept for that at least.
 TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
   constexpr int kPosts = 40;

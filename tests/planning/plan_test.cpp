@@ -216,10 +216,27 @@ TEST(Plan, MeasuresTheClearanceBeforeAndAfter) {
   EXPECT_EQ(free.measures_before, free.measures);
 }
 
+/// Two walls with doors on different sides, across the way of `bulging_tour`.
+std::shared_ptr<const scene::Snapshot> two_doors() {
+  Mesh mesh;
+  for (const double side : {1.0, -1.0}) {
+    const double z_m = 0.8 * side;
+    for (const auto& [from_m, to_m] : {std::pair{-6.0, 2.0}, {3.5, 9.0}}) {
+      const auto [left_m, right_m] = std::minmax(side * from_m, side * to_m);
+      testing::add_cuboid(mesh, {left_m, -8, z_m - 0.05}, {right_m, 8, z_m + 0.05});
+    }
+  }
+  return snapshot_of(std::move(mesh));
+}
+
+std::int32_t count_inserted(const PlanResult& result) {
+  return static_cast<std::int32_t>(std::ranges::count(
+      result.keyframes, motion::KeyframeOrigin::kInserted, &motion::Keyframe::origin));
+}
+
 TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
   PlanRequest request = bulging_tour();
-  const auto needed = planned(*column_scene(), request).keyframes.size() - 3;
-  ASSERT_GT(needed, 0U);
+  ASSERT_GT(count_inserted(planned(*column_scene(), request)), 0);
   request.options.max_inserted_keyframes = 0;
   const PlanResult none = planned(*column_scene(), request);
   EXPECT_EQ(none.status, Status::kPartial);
@@ -227,17 +244,42 @@ TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
   for (const correction::Correction& correction : none.corrections) {
     EXPECT_EQ(correction.tried, correction::Effort{});
   }
-  // A path through a door needs more than one keyframe.
-  Mesh mesh;
-  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
-  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
-  const auto wall = snapshot_of(std::move(mesh));
   request.keyframes.erase(request.keyframes.begin() + 1);
   request.options.max_inserted_keyframes = 1;
-  const PlanResult few = planned(*wall, request);
+  const PlanResult few = planned(*two_doors(), request);
   EXPECT_EQ(few.status, Status::kPartial);
   EXPECT_THAT(few.message,
               ::testing::ContainsRegex("options.max_inserted_keyframes allows 1, .* need [1-9]"));
+}
+
+/// Of all answers within a limit, none has more inserted keyframes, those included that the
+/// interpolation of far turns has of its own. A limit that an answer keeps does not change it,
+/// though making it took more.
+TEST(Plan, InsertsNoMoreKeyframesThanAllowed) {
+  PlanRequest through_doors = bulging_tour();
+  through_doors.keyframes.erase(through_doors.keyframes.begin() + 1);
+  PlanRequest turning = bulging_tour();
+  turning.body = motion::SphereShape{Vec3::Zero(), 0.15};
+  turning.keyframes[1].pose.orientation = Quat(Eigen::AngleAxisd(2.9, Vec3::UnitY()));
+  for (auto [snapshot, request] :
+       {std::pair{two_doors(), through_doors}, {column_scene(), turning}}) {
+    request.options.max_inserted_keyframes = PlanOptions().max_inserted_keyframes;
+    const PlanResult unlimited = planned(*snapshot, request);
+    ASSERT_EQ(unlimited.status, Status::kOk);
+    const std::int32_t needed = count_inserted(unlimited);
+    ASSERT_GT(needed, 1);
+    for (std::int32_t limit = 1; limit <= needed + 1; ++limit) {
+      SCOPED_TRACE(limit);
+      request.options.max_inserted_keyframes = limit;
+      const PlanResult limited = planned(*snapshot, request);
+      EXPECT_LE(count_inserted(limited), limit);
+      if (limit < needed) continue;
+      EXPECT_EQ(limited.status, Status::kOk);
+      EXPECT_EQ(count_inserted(limited), needed);
+      EXPECT_EQ(limited.certificate.clearance_lower_bound_m,
+                unlimited.certificate.clearance_lower_bound_m);
+    }
+  }
 }
 
 // The gap is narrower than the near quadrilateral at any orientation, and the walls are endless.

@@ -189,7 +189,7 @@ void CorrectedPath::count_refused(const Candidate& candidate) {
 }
 
 std::size_t CorrectedPath::count_inserted() const {
-  return path_.pieces.size() - interpolated_.pieces.size();
+  return path_.pieces.size() + 1 - keyframes_s_.size();
 }
 
 // The inserted keyframes of the path with the candidate.

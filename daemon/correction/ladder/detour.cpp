@@ -215,14 +215,24 @@ class Detour {
     std::optional<Candidate> kept = along_way_with_turns(0.0);
     if (!space_.may_turn()) return kept ? std::move(kept) : along_cells_of_body();
     if (kept && is_cheap(*kept)) return kept;
-    std::optional<Candidate> turned = followed(
-        threaded_guide(space_, small_way_W_, from_, to_, tree_about(small_way_W_), deadline_),
-        space_);
+    std::optional<Candidate> turned = followed(threaded(), space_);
     if (!turned) return kept;
     if (kept) return cost(*turned) < kTurnShare * cost(*kept) ? std::move(turned) : std::move(kept);
     std::optional<Candidate> less = along_way_with_turns(kSmallTurn_rad);
     if (less && cost(*less) < cost(*turned)) return less;
     return turned_less(*std::move(turned));
+  }
+
+  // A guide through the narrow places. Where turns are limited, those that fit are searched as if
+  // they were not: the path that follows the guide obeys the limit, or there is none.
+  TreeResult threaded() {
+    const TreeOptions trees = tree_about(small_way_W_);
+    const bool limits_turns_alone = space_.policy().rule == OrientationRule::kFree;
+    if (!is_limited(space_.policy()) || !limits_turns_alone) {
+      return threaded_guide(space_, small_way_W_, from_, to_, trees, deadline_);
+    }
+    FreeSpace any_turn(space_.query(), OrientationPolicy(), space_.closeness());
+    return threaded_guide(any_turn, small_way_W_, from_, to_, trees, deadline_);
   }
 
   // The path, or one on which the body does not turn, if it turns far.

@@ -2,6 +2,7 @@
 #include "daemon/planning/stages/correct.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "daemon/correction/ladder/ladder.h"
@@ -16,10 +17,11 @@ namespace {
 
 using motion::Keyframe;
 
-correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared) {
+correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared,
+                                         std::int32_t most_inserted) {
   correction::LadderOptions options;
   options.origin = prepared.origin;
-  options.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  options.max_inserted_keyframes = most_inserted;
   options.seed = request.options.seed;
   options.viewing_distance_m = request.options.viewing_distance_m.value_or(0.0);
   options.objective = request.options.objective;
@@ -49,18 +51,42 @@ void add_keyframes(const std::vector<double>& inserted_s, PlanResult& result) {
   std::ranges::stable_sort(result.keyframes, {}, &Keyframe::time_s);
 }
 
+// While corrections are made, they need more keyframes than once they are drawn again. So they are
+// made without a limit first, and within it only where the answer would exceed it.
+correction::LadderResult within_keyframe_limit(
+    const scene::Snapshot& snapshot, const collision::Query& query, const PlanRequest& request,
+    const PreparedPlan& prepared, const base::Deadline& deadline, const PlanResult& result) {
+  const auto run = [&](std::int32_t most_inserted) {
+    return correction::correct_by_ladder(snapshot.mesh, query, result.keyframes,
+                                         prepared.interpolated, result.collisions,
+                                         ladder_options(request, prepared, most_inserted),
+                                         deadline.share_of_rest(kShareOfCorrection));
+  };
+  const std::int32_t limit = request.options.max_inserted_keyframes;
+  const std::int32_t usual_limit = PlanOptions().max_inserted_keyframes;
+  if (limit == 0 || limit >= usual_limit) return run(limit);
+  correction::LadderResult unlimited = run(usual_limit);
+  const std::size_t knots = unlimited.path.pieces.size() + 1;
+  const bool fits =
+      std::cmp_less_equal(knots, result.keyframes.size() + static_cast<std::size_t>(limit));
+  return fits ? std::move(unlimited) : run(limit);
+}
+
 CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision::Query& query,
                                 const PlanRequest& request, const PreparedPlan& prepared,
                                 const base::Deadline& deadline, PlanResult& result) {
-  correction::LadderResult corrected = correction::correct_by_ladder(
-      snapshot.mesh, query, result.keyframes, prepared.interpolated, result.collisions,
-      ladder_options(request, prepared), deadline.share_of_rest(kShareOfCorrection));
+  correction::LadderResult corrected =
+      within_keyframe_limit(snapshot, query, request, prepared, deadline, result);
   CorrectedPlan plan;
   plan.timed_out = corrected.timed_out;
   plan.needed_keyframes = corrected.needed_keyframes;
   plan.is_polished = corrected.is_polished;
   plan.closeness = corrected.closeness;
   result.shut_in = std::move(corrected.shut_in);
+  // A search that the deadline ended says nothing about the place that it began in.
+  if (plan.timed_out) {
+    std::erase_if(result.shut_in, [](const auto& shut_in) { return !shut_in.is_complete; });
+  }
   result.corrections = std::move(corrected.corrections);
   result.infeasibility = infeasibility_of(corrected);
   // Corrections of less than the tolerance insert no keyframes, and are corrections.
