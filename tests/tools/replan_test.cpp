@@ -222,5 +222,35 @@ TEST(Replan, OutsideOfCorrectionsThePathIsAsInterpolated) {
   EXPECT_GE(cut, 2);
 }
 
+/// A limit of turns that the answer keeps anyway may change it, but does not make it much worse.
+TEST(LimitedTurns, CostLittleWhereTheAnswerKeepsTheLimit) {
+  constexpr double kDegree = 0.017453292519943295;
+  int turning = 0;
+  for (const fs::path& file : own_requests()) {
+    SCOPED_TRACE(file.filename());
+    json request = document(file);
+    const RequestFile asked = parsed(request);
+    if (asked.options.orientation != correction::OrientationPolicy()) continue;
+    const scene::Snapshot& scene = scene_of(asked.scene);
+    const PlanResult free = planning::plan(scene, asked);
+    double turned_rad = 0.0;
+    double shift_rad = 0.0;
+    for (const correction::Correction& each : free.corrections) {
+      turned_rad = std::max(turned_rad, each.turned_rad);
+      shift_rad = std::max(shift_rad, each.shift.mean_rad);
+    }
+    if (free.status != planning::Status::kOk || turned_rad < 2.0 * kDegree) continue;
+    ++turning;
+    request["options"]["orientation"] = {{"policy", "free"},
+                                         {"max_turn_deg", turned_rad / kDegree + 10.0}};
+    const PlanResult limited = planning::plan(scene, parsed(request));
+    EXPECT_EQ(limited.status, planning::Status::kOk) << limited.message;
+    for (const correction::Correction& each : limited.corrections) {
+      EXPECT_LE(each.shift.mean_rad, 1.5 * shift_rad) << turned_rad / kDegree << " degrees";
+    }
+  }
+  EXPECT_GE(turning, 1);
+}
+
 }  // namespace
 }  // namespace camway::tools

@@ -117,8 +117,9 @@ inline constexpr FieldSpec kMaxInsertedKeyframes{
     .name = "max_inserted_keyframes",
     .range = {.least = 0.0},
     .help =
-        "most keyframes that corrections may insert; 0 corrects and shrinks nothing, and "
-        "repairs keyframes all the same"};
+        "most inserted keyframes of an answer, with those that the interpolation needs where a "
+        "corrected path turns far; 0 corrects and shrinks nothing, and repairs keyframes all the "
+        "same"};
 inline constexpr FieldSpec kObjective{
     .name = "objective", .help = "what corrected stretches are improved for", .has_section = true};
 inline constexpr FieldSpec kOrientation{.name = "orientation",
