@@ -4,14 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <thread>
 #include <utility>
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/path/viewing_distance.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/planning/plan_fixture.h"
 #include "tests/support/body_motion.h"
 #include "tests/support/random.h"
