@@ -117,7 +117,7 @@ TEST(PlanDeadline, WhatIsSaidIsTrueWhereverItStrikes) {
   EXPECT_TRUE(left.contains(2)) << "what was corrected by then was kept";
 }
 
-// The ends are in two halls, whose door the camera passes only if it turns.
+// Each keyframe is in an open hall; the camera passes the door between them only if it turns.
 TEST(PlanDeadline, ASearchThatItEndsSaysNothingOfWhereItBegan) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-4, -0.1, 0}, {0, 0.1, 3});
@@ -126,8 +126,9 @@ TEST(PlanDeadline, ASearchThatItEndsSaysNothingOfWhereItBegan) {
   for (const double side : {-1.0, 1.0}) {
     testing::add_cuboid(mesh, {side * 4 - 0.1, -4, 0}, {side * 4 + 0.1, 4, 3});
     testing::add_cuboid(mesh, {-4, side * 4 - 0.1, 0}, {4, side * 4 + 0.1, 3});
-    testing::add_cuboid(mesh, {-4, -4, 1.5 + side * 1.5}, {4, 4, 1.5 + side * 1.6});
   }
+  testing::add_cuboid(mesh, {-4, -4, -0.1}, {4, 4, 0});
+  testing::add_cuboid(mesh, {-4, -4, 3}, {4, 4, 3.1});
   const auto snapshot = scene::make_snapshot("test", std::move(mesh)).snapshot;
   PlanRequest request;
   request.camera = {.fov_x_rad = 1.745, .fov_y_rad = 0.698, .near_m = 0.59};

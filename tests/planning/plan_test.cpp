@@ -256,9 +256,9 @@ TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
               ::testing::ContainsRegex("options.max_inserted_keyframes allows 1, .* need [1-9]"));
 }
 
-/// Of all answers within a limit, none has more inserted keyframes, those included that the
-/// interpolation of far turns has of its own. A limit that an answer keeps does not change it,
-/// though making it took more.
+/// No answer has more inserted keyframes than its limit; the knots count, too, that the
+/// interpolation has of its own where the camera turns far. A limit that the unlimited answer keeps
+/// does not change it, though more were needed while it was made.
 TEST(Plan, InsertsNoMoreKeyframesThanAllowed) {
   PlanRequest through_doors = bulging_tour();
   through_doors.keyframes.erase(through_doors.keyframes.begin() + 1);

@@ -79,6 +79,7 @@ std::optional<Guide> LeastTurn::turned_little(const LinePlace& place, double mos
     if (angle_rad > most_rad || deadline_.passed()) break;
     for (const double share : kSharesOfTurns) {
       const Quat unturned = pose_at_share(interpolated_, share).orientation;
+      // About each axis, either way.
       for (int i = 0; i < 6; ++i) {
         const Vec3 axis_C = i % 2 == 0 ? Vec3::Unit(i / 2) : Vec3(-Vec3::Unit(i / 2));
         const Quat turn_C(Eigen::AngleAxisd(angle_rad, axis_C));
@@ -136,8 +137,8 @@ Quat LeastTurn::nearest(const Quat& orientation) const {
       ->orientation;
 }
 
-double LeastTurn::turn_rad(const Guide& straight) const {
-  const Quat orientation = geometry::from_wxyz(straight.front().orientation);
+double LeastTurn::turn_rad(const Guide& guide) const {
+  const Quat orientation = geometry::from_wxyz(guide.front().orientation);
   return nearest(orientation).angularDistance(orientation);
 }
 

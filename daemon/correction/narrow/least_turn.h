@@ -46,7 +46,7 @@ class LeastTurn {
  private:
   /// The nearest orientation that the interpolated path has.
   [[nodiscard]] geometry::Quat nearest(const geometry::Quat& orientation) const;
-  [[nodiscard]] double turn_rad(const Guide& straight) const;
+  [[nodiscard]] double turn_rad(const Guide& guide) const;
   /// A straight motion with one orientation, with the middle of the body on the line or beside it.
   [[nodiscard]] std::optional<Guide> straight(const LinePlace& place,
                                               const geometry::Quat& orientation);

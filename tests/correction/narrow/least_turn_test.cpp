@@ -16,13 +16,19 @@
 namespace camway::correction {
 namespace {
 
-using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::SignedPose;
+using testing_search::is_proved_free;
+using testing_search::SearchScene;
 
 constexpr double kTurnMargin_m = 0.002;
 constexpr double kPictureWide_m = 0.4;
 constexpr double kPictureHigh_m = 0.3;
 constexpr std::uint64_t kTurnSeed = 5201;
+/// Rounding of the angle between two equal orientations, a few epsilons, and to spare.
+constexpr double kSameOrientation_rad = 1e-12;
 
 motion::Body camera() {
   return motion::Body(
@@ -126,7 +132,7 @@ TEST(LeastTurn, IsNoneWherePathsHaveAnOrientationThatFits) {
     const std::optional<Guide> found = slit.least_turn().unturned(slit.place());
     ASSERT_TRUE(found);
     slit.expect_leads_through(*found);
-    EXPECT_LT(slit.turn_rad(*found), 1e-6);
+    EXPECT_LT(slit.turn_rad(*found), kSameOrientation_rad);
   }
 }
 
@@ -148,8 +154,8 @@ TEST(LeastTurn, IsAboutTheLeastThatFits) {
   }
 }
 
-/// Wherever the camera looks, a quarter of a turn is enough to stand edge-on in the slit. The
-/// search is none for the least turn, but few turn farther.
+/// A quarter of a turn is always enough to stand edge-on in the slit. The search does not promise
+/// to find it, but few answers turn farther.
 TEST(LeastTurn, IsRarelyMoreThanAQuarterOfATurn) {
   testing::Random random(kTurnSeed + 2);
   constexpr int kRuns = 40;
@@ -166,11 +172,14 @@ TEST(LeastTurn, IsRarelyMoreThanAQuarterOfATurn) {
   EXPECT_LE(turned_farther, kRuns / 8);
 }
 
-/// Where no orientation fits, nothing is found, and what was found stays.
+/// The slit fits the camera only if it is rolled by a quarter of a turn, to 4 milliradians. The
+/// path has it rolled by less, so no orientation on the way back fits, and the motion stays as it
+/// was.
 TEST(LeastTurn, KeepsWhatCannotTurnLess) {
   testing::Random random(kTurnSeed + 3);
   Slit slit(1.005 * kPictureHigh_m + 2.0 * kTurnMargin_m, random.rotation());
-  slit.interpolate(0.5 * std::numbers::pi - 0.02, 0.5 * std::numbers::pi - 0.02, 0.0);
+  constexpr double kRoll_rad = 0.5 * std::numbers::pi - 0.25;
+  slit.interpolate(kRoll_rad, kRoll_rad, 0.0);
   const std::optional<Guide> rolled = slit.rolled(0.5 * std::numbers::pi);
   ASSERT_TRUE(rolled);
   const Guide found = slit.least_turn().reduced(slit.place(), *rolled);

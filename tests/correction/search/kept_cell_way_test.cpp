@@ -9,8 +9,14 @@
 namespace camway::correction {
 namespace {
 
-using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::SignedPose;
+using testing_search::is_proved_free;
+using testing_search::same;
+using testing_search::scattered_cuboids;
+using testing_search::SearchScene;
 
 constexpr std::size_t kCells = 60'000;
 const OrientationPolicy kKept{.rule = OrientationRule::kKeep};

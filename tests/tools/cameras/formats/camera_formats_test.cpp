@@ -231,12 +231,14 @@ TEST(CameraFormats, TakeNoAngleOfWhatIsNoFlatPicture) {
 }
 
 TEST(CameraFormats, GiveAPictureItsHeight) {
+  constexpr double kTiny_rad = 1e-9;
+  constexpr double kNearlyHalfATurn_rad = 3.1415;
   CameraWriteOptions options{.fov_x_rad = 1.2, .fov_y_rad = 1.2};
   EXPECT_EQ(height_px(options), options.width_px);
-  options.fov_y_rad = 1e-9;
+  options.fov_y_rad = kTiny_rad;
   EXPECT_EQ(height_px(options), 1);
-  options.fov_x_rad = 1e-9;
-  options.fov_y_rad = 3.1415;
+  options.fov_x_rad = kTiny_rad;
+  options.fov_y_rad = kNearlyHalfATurn_rad;
   EXPECT_EQ(height_px(options), 1'000'000) << "more rows than an int counts";
   options.facts.height_px = 720;
   EXPECT_EQ(height_px(options), 720);
