@@ -28,7 +28,7 @@ inline constexpr double kClearanceTolerance = 0.1;
 inline constexpr double kLargestClearance_m = 100.0;
 
 /// Computes the clearance by branch and bound over the path. A stretch is final once
-/// `Probe::check_refined` proves that its distance is at least (1 - `kClearanceTolerance`) times
+/// `Probe::check` proves that its distance is at least (1 - `kClearanceTolerance`) times
 /// the least distance found so far. The result holds at every instant, rounding included. The
 /// bounds of the scene (`Obstacles::bounds`) are not considered. Returns nothing if the deadline
 /// strikes first.

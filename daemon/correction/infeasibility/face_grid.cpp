@@ -279,48 +279,60 @@ std::size_t FaceGrid::block_parts(const Window& window, std::vector<std::uint8_t
   for (int v = window.v0; v <= window.v1; ++v) {
     for (int u = window.u0; u <= window.u1; ++u) {
       if (touched[window.at(u, v)] != 0) continue;
-      const std::vector<Element> part = take_part(window, {u, v}, touched);
+      const std::vector<Run> part = take_part(window, u, v, touched);
       const std::optional<Point> point = point_in(part);
       if (!point) continue;
       ++parts;
       if (!is_blocked(*point)) continue;
-      for (const auto& [part_u, part_v] : part) {
-        if (part_u % 2 == 0 || part_v % 2 == 0) continue;
-        blocked_[cell(static_cast<std::size_t>(part_u / 2), static_cast<std::size_t>(part_v / 2))] =
-            1;
+      for (const Run& run : part) {
+        if (run.v % 2 == 0) continue;
+        for (int cell_u = run.u0 | 1; cell_u <= run.u1; cell_u += 2) {
+          blocked_[cell(static_cast<std::size_t>(cell_u / 2),
+                        static_cast<std::size_t>(run.v / 2))] = 1;
+        }
       }
     }
   }
   return parts;
 }
 
-std::optional<FaceGrid::Point> FaceGrid::point_in(const std::vector<Element>& part) const {
-  for (const auto& [u, v] : part) {
-    if (u % 2 == 0 || v % 2 == 0) continue;
-    const auto [left, right] = ends_of(0, u);
-    const auto [low, high] = ends_of(1, v);
-    const Point middle(0.5 * (left + right), 0.5 * (low + high));
-    if (left < middle.x() && middle.x() < right && low < middle.y() && middle.y() < high) {
-      return middle;
+std::optional<FaceGrid::Point> FaceGrid::point_in(const std::vector<Run>& part) const {
+  for (const Run& run : part) {
+    if (run.v % 2 == 0) continue;
+    for (int u = run.u0 | 1; u <= run.u1; u += 2) {
+      const auto [left, right] = ends_of(0, u);
+      const auto [low, high] = ends_of(1, run.v);
+      const Point middle(0.5 * (left + right), 0.5 * (low + high));
+      if (left < middle.x() && middle.x() < right && low < middle.y() && middle.y() < high) {
+        return middle;
+      }
     }
   }
   return std::nullopt;
 }
 
-std::vector<FaceGrid::Element> FaceGrid::take_part(const Window& window, Element first,
-                                                   std::vector<std::uint8_t>& done) {
-  std::vector<Element> part = {first};
-  done[window.at(first.first, first.second)] = 1;
+FaceGrid::Run FaceGrid::take_run(const Window& window, int u, int v,
+                                 std::vector<std::uint8_t>& done) {
+  Run run{v, u, u};
+  while (run.u0 > window.u0 && done[window.at(run.u0 - 1, v)] == 0) --run.u0;
+  while (run.u1 < window.u1 && done[window.at(run.u1 + 1, v)] == 0) ++run.u1;
+  const auto first = done.begin() + static_cast<std::ptrdiff_t>(window.at(run.u0, v));
+  std::fill(first, first + (run.u1 - run.u0 + 1), std::uint8_t{1});
+  return run;
+}
+
+// Run by run: a part has many elements, but few runs.
+std::vector<FaceGrid::Run> FaceGrid::take_part(const Window& window, int u, int v,
+                                               std::vector<std::uint8_t>& done) {
+  std::vector<Run> part = {take_run(window, u, v, done)};
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const auto [u, v] = part[i];
-    for (const auto& [du, dv] : {Element(-1, 0), Element(1, 0), Element(0, -1), Element(0, 1)}) {
-      const Element next(u + du, v + dv);
-      if (next.first < window.u0 || next.first > window.u1 || next.second < window.v0 ||
-          next.second > window.v1) {
-        continue;
-      }
-      if (std::exchange(done[window.at(next.first, next.second)], std::uint8_t{1}) == 0) {
-        part.push_back(next);
+    const Run run = part[i];
+    for (const int next_v : {run.v - 1, run.v + 1}) {
+      if (next_v < window.v0 || next_v > window.v1) continue;
+      for (int next_u = run.u0; next_u <= run.u1; ++next_u) {
+        if (done[window.at(next_u, next_v)] != 0) continue;
+        part.push_back(take_run(window, next_u, next_v, done));
+        next_u = part.back().u1;
       }
     }
   }

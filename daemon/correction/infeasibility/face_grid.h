@@ -98,7 +98,10 @@ class FaceGrid {
       return static_cast<std::size_t>(v - v0) * width() + static_cast<std::size_t>(u - u0);
     }
   };
-  using Element = std::pair<int, int>;
+  /// Neighbouring elements of a row.
+  struct Run {
+    int v, u0, u1;  ///< the row, and the first and last element
+  };
 
   [[nodiscard]] int element_of(int k, double x) const;
   [[nodiscard]] std::array<double, 2> ends_of(int k, int element) const;
@@ -109,13 +112,16 @@ class FaceGrid {
   [[nodiscard]] Window window_of(const Flat& bounds) const;
   [[nodiscard]] Window whole() const { return {0, 0, last_element(0), last_element(1)}; }
   /// Returns a point inside a cell of the part; nothing if there is none.
-  [[nodiscard]] std::optional<Point> point_in(const std::vector<Element>& part) const;
+  [[nodiscard]] std::optional<Point> point_in(const std::vector<Run>& part) const;
   [[nodiscard]] geometry::Vec3 in_space(const Point& point) const;
   [[nodiscard]] double rounding_m(const geometry::Triangle& triangle) const;
   [[nodiscard]] Section section(const geometry::Triangle& triangle) const;
   void mark(const Section& section, const Window& window, std::vector<std::uint8_t>& touched) const;
-  static std::vector<Element> take_part(const Window& window, Element first,
-                                        std::vector<std::uint8_t>& done);
+  /// Marks the elements that are not done about (u, v) in its row as done, and returns them.
+  static Run take_run(const Window& window, int u, int v, std::vector<std::uint8_t>& done);
+  /// Does this for all elements that are connected with (u, v) by elements that are not done.
+  static std::vector<Run> take_part(const Window& window, int u, int v,
+                                    std::vector<std::uint8_t>& done);
   /// Blocks each connected untouched part for one of whose points `is_blocked` returns true.
   /// Returns the number of parts.
   std::size_t block_parts(const Window& window, std::vector<std::uint8_t> touched,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -27,6 +26,7 @@ constexpr double kKeptShare = 0.95;   // share of the keyframes' gap that is ask
 constexpr double kWorth = 1.05;       // least growth of the least gap
 constexpr double kMostShift = 2.0;    // times the shift of the corrections and of `kComfort`
 constexpr int kAttempts = 5;          // with different clearances, for each range
+constexpr double kNextShare = 0.4;    // of the way to the gap that failed: the next one
 constexpr double kLeastShare = 0.01;  // of the gap that failed: the least that is tried
 
 /// Intervals between keyframes that no changed part joins to others.
@@ -102,8 +102,8 @@ class RoomMaker {
            part.end_s > keyframes_s_[legs.first_keyframe];
   }
 
-  /// Asks for the largest gap first. Then bisects between the least gap that is known and one that
-  /// failed, on a logarithmic scale until an attempt succeeds.
+  /// Asks for the largest gap first. Then divides the range between the least gap that is known and
+  /// one that failed, on a logarithmic scale until an attempt succeeds.
   bool widen(const LegRange& legs) {
     double kept_m = least_gap_m(corrected_, legs);
     double tried_m = most_gap_m(legs);
@@ -117,7 +117,7 @@ class RoomMaker {
       } else {
         gains = true;
       }
-      tried_m = gains ? std::midpoint(kept_m, failed_m)
+      tried_m = gains ? std::lerp(kept_m, failed_m, kNextShare)
                       : std::sqrt(std::max(kept_m, kLeastShare * failed_m) * failed_m);
     }
     return gains;

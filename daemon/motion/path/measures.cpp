@@ -36,6 +36,8 @@ Vec3 position(const Path& path, double time_s) {
   return position_at(segment, segment_parameter(segment, time_s));
 }
 
+void raise(double& largest, double value) { largest = std::max(largest, value); }
+
 }  // namespace
 
 PathMeasures measure(const Path& path, const Path& original) {
@@ -50,13 +52,14 @@ PathMeasures measure(const Path& path, const Path& original) {
     for (int i = 0; i <= steps; ++i) {
       const double u = static_cast<double>(i) / steps;
       const SegmentDerivatives at = derivatives_at(segment, u);
-      const Vec3 here = position_at(segment, u);
       const double weight = i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
       measures.length_m += weight * third_s * at.velocity_m_per_s.norm();
-      const double share = (segment_time_s(segment, u) - begin_s) / duration_s;
-      const Vec3 before = position(original, original.begin_s() + share * original_duration_s);
-      const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
-      raise(measures.largest_deviation_m, (here - before).norm());
+      // A path as it was made is its own original.
+      if (&path != &original) {
+        const double share = (segment_time_s(segment, u) - begin_s) / duration_s;
+        const Vec3 before = position(original, original.begin_s() + share * original_duration_s);
+        raise(measures.largest_deviation_m, (position_at(segment, u) - before).norm());
+      }
       raise(measures.largest_speed_m_per_s, at.velocity_m_per_s.norm());
       raise(measures.largest_acceleration_m_per_s2, at.acceleration_m_per_s2.norm());
       // A quaternion moves on the sphere at half the rate of the rotation. The tangential part of

@@ -2,6 +2,7 @@
 #include "daemon/planning/stages/fixed_place.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace {
 
 constexpr double kMeasuredShare = 0.99;  // the true distance is at least this share
 constexpr std::size_t kKeyframesPerClock = 256;
+// Upper bound of the rounding of a difference, a product and a quotient, which the bound of
+// `kClearanceTolerance` does not count.
+constexpr double kRoundUp = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Returns the given keyframe that is nearest to the scene, if that is nearer than `limit_m`.
 std::optional<FixedPlace> nearest_given_keyframe(const collision::Query& query,
@@ -71,13 +75,14 @@ std::optional<FixedPlace> limiting_place(const collision::Query& query, const Pl
     return keyframe;
   }
   std::optional<FixedPlace> nearest;
-  double limit_m = least_m / (1.0 - collision::kClearanceTolerance);
+  // The path comes at least as near as this. Where a part surely does not, it is not the nearest.
+  const double nearest_m = kRoundUp * least_m / (1.0 - collision::kClearanceTolerance);
   for (const motion::Path& part : unchanged_parts(result)) {
     const auto clearance = collision::path_clearance(query.obstacles, part, query.body, deadline);
     if (!clearance) return std::nullopt;
-    if (clearance->upper_bound_m > limit_m) continue;
-    limit_m = clearance->upper_bound_m;
-    nearest = FixedPlace{std::nullopt, clearance->closest_s, limit_m};
+    if (clearance->lower_bound_m > nearest_m) continue;
+    if (nearest && clearance->upper_bound_m >= nearest->distance_m) continue;
+    nearest = FixedPlace{std::nullopt, clearance->closest_s, clearance->upper_bound_m};
   }
   return nearest;
 }

@@ -45,10 +45,16 @@ Box BodySearch::bounds_of(std::size_t part) const {
 void BodySearch::consider(std::uint32_t triangle) {
   if (!candidates_) candidates_.emplace();
   if (candidates_->was_met(triangle)) return;
-  const double squared_m2 = box_.axes_bound_m2(part_->triangle(triangle));
+  const double squared_m2 = bound_m2(part_->triangle(triangle));
   if (cannot_win(squared_m2, triangle)) return;
   if (candidates_->waiting_count == candidates_->waiting.size()) settle();
   candidates_->waiting[candidates_->waiting_count++] = {squared_m2, triangle};
+}
+
+// Around a point all axes are alike, and those of the world cost least.
+double BodySearch::bound_m2(const Triangle& triangle) const {
+  if (!is_point_) return box_.axes_bound_m2(triangle);
+  return geometry::squared_box_distance_m2(Box(hull_.front().front()), geometry::bounds(triangle));
 }
 
 void BodySearch::settle() {

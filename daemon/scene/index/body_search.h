@@ -63,6 +63,9 @@ class BodySearch {
   static constexpr std::size_t kMaxOriented = 4;  ///< most parts that get an oriented box each
   static constexpr std::size_t kGroupSize = 8;    ///< parts of larger bodies that share a box
   static constexpr std::size_t kMaxGroups = 128;
+  /// Triangles that are sorted together, by measurement: the best of them shrinks the reach before
+  /// others of a large leaf are looked at.
+  static constexpr std::size_t kMostWaiting = 8;
 
   struct Waiting {
     double squared_m2;  ///< lower bound of the squared distance
@@ -79,7 +82,7 @@ class BodySearch {
 
     std::array<std::uint32_t, 64> met;
     std::size_t waiting_count = 0;
-    std::array<Waiting, 64> waiting;
+    std::array<Waiting, kMostWaiting> waiting;
   };
 
   class PartOrder;
@@ -96,6 +99,7 @@ class BodySearch {
     return hull_.subspan(part * of_part_, of_part_);
   }
   [[nodiscard]] geometry::Box bounds_of(std::size_t part) const;
+  [[nodiscard]] double bound_m2(const geometry::Triangle& triangle) const;
   void ask(std::uint32_t index);
   void ask_two(const geometry::Triangle& triangle, std::uint32_t index);
   void ask_few(const geometry::Triangle& triangle, std::uint32_t index);

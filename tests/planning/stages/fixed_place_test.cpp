@@ -7,6 +7,7 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/stages/path_check.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -83,6 +84,22 @@ TEST_F(LimitingPlace, IsAnInstantThatNothingChanged) {
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->keyframe);
   EXPECT_NEAR(found->time_s, 3.0, 0.5 * kGap_m);
+}
+
+// The distances of the whole path and of a part of it are measured at different times.
+TEST_F(LimitingPlace, IsFoundWhereverThePathIsNearest) {
+  testing::Random random(2291);
+  correct(0.0, 2.0);
+  for (int run = 0; run < 100; ++run) {
+    mesh_ = {};
+    const double time_s = random.uniform(2.3, 3.7);
+    const double gap_m = random.uniform(0.2, 1.0) * kGap_m;
+    add_post(time_s, gap_m);
+    add_post(1.5, random.uniform(1.3, 2.0) * gap_m);
+    const auto found = place();
+    ASSERT_TRUE(found) << "run " << run;
+    EXPECT_NEAR(found->time_s, time_s, gap_m) << "run " << run;
+  }
 }
 
 TEST_F(LimitingPlace, IsNoneWhereACorrectionIsNearest) {
