@@ -215,7 +215,7 @@ class Detour {
     std::optional<Candidate> kept = along_way_with_turns(0.0);
     if (!space_.may_turn()) return kept ? std::move(kept) : along_cells_of_body();
     if (kept && is_cheap(*kept)) return kept;
-    std::optional<Candidate> turned = followed(threaded(), space_);
+    std::optional<Candidate> turned = along_threaded();
     if (!turned) return kept;
     if (kept) return cost(*turned) < kTurnShare * cost(*kept) ? std::move(turned) : std::move(kept);
     std::optional<Candidate> less = along_way_with_turns(kSmallTurn_rad);
@@ -223,16 +223,25 @@ class Detour {
     return turned_less(*std::move(turned));
   }
 
-  // A guide through the narrow places. Where turns are limited, those that fit are searched as if
-  // they were not: the path that follows the guide obeys the limit, or there is none.
-  TreeResult threaded() {
+  // A detour through the narrow places by motions that fit. Where turns are limited, and nothing
+  // else, a guide is searched as if they were not: the path that follows it may obey the limit.
+  std::optional<Candidate> along_threaded() {
     const TreeOptions trees = tree_about(small_way_W_);
-    const bool limits_turns_alone = space_.policy().rule == OrientationRule::kFree;
-    if (!is_limited(space_.policy()) || !limits_turns_alone) {
-      return threaded_guide(space_, small_way_W_, from_, to_, trees, deadline_);
+    const OrientationPolicy& policy = space_.policy();
+    if (!is_limited(policy) || policy.rule != OrientationRule::kFree) {
+      return followed(threaded_guide(space_, small_way_W_, from_, to_, trees, deadline_), space_);
     }
     FreeSpace any_turn(space_.query(), OrientationPolicy(), space_.closeness());
-    return threaded_guide(any_turn, small_way_W_, from_, to_, trees, deadline_);
+    const TreeResult tree = threaded_guide(any_turn, small_way_W_, from_, to_, trees, deadline_);
+    if (std::optional<Candidate> found = followed(tree, space_)) return found;
+    // Relaxed, a path turns less than its guide, on whose way it would break the limit.
+    std::optional<Candidate> relaxed = followed(tree.guide, Turning::kAsGuide, any_turn);
+    if (relaxed && obeys_policy(relaxed->path)) return relaxed;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool obeys_policy(const motion::CubicPath& path) const {
+    return !first_breach(space_.policy(), path, problem_.original, path.begin_s(), path.end_s());
   }
 
   // The path, or one on which the body does not turn, if it turns far.
@@ -244,16 +253,16 @@ class Detour {
   }
 
   std::optional<Candidate> followed(const Guide& guide, Turning turning) {
-    Followed found = follow(problem_, guide, turning, budget_, space_, deadline_);
+    return followed(guide, turning, space_);
+  }
+  std::optional<Candidate> followed(const Guide& guide, Turning turning, FreeSpace& space) {
+    Followed found = follow(problem_, guide, turning, budget_, space, deadline_);
     result_.effort.paths += found.paths;
     return std::move(found.candidate);
   }
   std::optional<Candidate> followed(const TreeResult& tree, FreeSpace& space) {
     result_.effort.tree_samples += tree.samples;
-    const Turning turning = space.may_turn() ? Turning::kAsGuide : Turning::kAsPath;
-    Followed found = follow(problem_, tree.guide, turning, budget_, space, deadline_);
-    result_.effort.paths += found.paths;
-    return std::move(found.candidate);
+    return followed(tree.guide, space.may_turn() ? Turning::kAsGuide : Turning::kAsPath, space);
   }
 
   // A detour along the way of the small ball on which the body turns by no more than `most_rad`, if

@@ -170,6 +170,22 @@ TEST(OrientationPolicy, TurnsWithinTheLimit) {
     EXPECT_NEAR(correction.turned_rad / kDegree, outcome.turned_deg, 1.0);
 }
 
+// A limit takes nothing away that the answer without it does not need.
+TEST(OrientationPolicy, LetsWhatTurnsLessPass) {
+  testing::Random random(8117);
+  for (int run = 0; run < 12; ++run) {
+    PolicyCase c = slanted_slit();
+    c.mesh = wall_with_slit(random.uniform(15.0, 75.0), random.uniform(0.056, 0.09),
+                            random.uniform(0.05, 0.5));
+    c.keyframes[0].pose.orientation = yawed_and_pitched(random.uniform(-20, 20), 0.0);
+    c.keyframes[1].pose.orientation = yawed_and_pitched(random.uniform(-20, 20), 0.0);
+    const Outcome outcome = corrected(c, {}, Objective::kClosest);
+    EXPECT_TRUE(outcome.is_free);
+    SCOPED_TRACE(::testing::Message() << "run " << run << ", turned " << outcome.turned_deg);
+    expect_free(c, limited(outcome.turned_deg + 1.0));
+  }
+}
+
 TEST(OrientationPolicy, DoesNotTurnBeyondTheLimit) { expect_stuck(slanted_slit(), limited(10)); }
 
 TEST(OrientationPolicy, YawsWhereTheHorizonHasToStayLevel) {
