@@ -49,6 +49,7 @@ void join_close_intervals(std::vector<CollisionInterval>& intervals, double gap_
 enum class Goal : std::uint8_t {
   kAll,
   kFirst,  ///< at the end of the first interval
+  kBegin,  ///< after the first stretch of the first interval
   kAny,    ///< at the first stretch that collides at its middle, or that is resolved
 };
 
@@ -249,14 +250,15 @@ class Detector {
   void extend(const Piece& piece, double gap_m, bool surely) {
     if (!open_.is_open()) hit_.restart();
     open_.extend(piece, gap_m, surely);
+    // An interval keeps its beginning, whatever follows.
+    if (goal_ == Goal::kBegin) close();
   }
 
   void close() {
     if (!open_.is_open()) return;
     const Piece last = open_.last();
-    const SegmentMotion motion(*last.segment);
-    const double end_s =
-        open_.is_last_sure() ? last.end_s() : last_not_free(motion, last).value_or(last.end_s());
+    const bool is_exact = goal_ == Goal::kBegin || open_.is_last_sure();
+    const double end_s = is_exact ? last.end_s() : last_not_free(last).value_or(last.end_s());
     const double begin_s = open_.begin_s();
     if (timed_out_) {
       until_s_ = begin_s;
@@ -272,7 +274,8 @@ class Detector {
 
   // Walks `piece` backwards from its end, which is free, and returns the end of the last part that
   // is not free at the finest resolution. Nothing if all of it is free.
-  std::optional<double> last_not_free(const SegmentMotion& motion, const Piece& piece) {
+  std::optional<double> last_not_free(const Piece& piece) {
+    const SegmentMotion motion(*piece.segment);
     double width = piece.u1 - piece.u0;
     for (double u = piece.u1; u > piece.u0 && !out_of_time();) {
       const double from = std::min(u - width, std::nextafter(u, piece.u0));
@@ -352,6 +355,11 @@ FirstCollision searched(const Query& query, const motion::Path& path, double t_b
 FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
                                double t_end_s, const base::Deadline& deadline) {
   return searched(query, path, t_begin_s, t_end_s, deadline, Goal::kFirst);
+}
+
+FirstCollision first_contact(const Query& query, const motion::Path& path, double t_begin_s,
+                             double t_end_s, const base::Deadline& deadline) {
+  return searched(query, path, t_begin_s, t_end_s, deadline, Goal::kBegin);
 }
 
 FirstCollision any_collision(const Query& query, const motion::Path& path, double t_begin_s,

@@ -38,7 +38,7 @@ struct Search {
 Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
                          double t_end_s, const base::Deadline& deadline);
 
-/// Result of `first_collision` and of `any_collision`.
+/// Result of `first_collision`, `first_contact` and `any_collision`.
 struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
   /// The collision, without a witness; nothing if there is none. Meaningful if `decided`.
@@ -48,10 +48,16 @@ struct FirstCollision {
 FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
                                double t_end_s, const base::Deadline& deadline);
 
+/// Returns the beginning of the first collision interval: `t_begin_s` is that of `first_collision`,
+/// and `t_end_s` the end of the first stretch that is not free. Cheaper than `first_collision` if
+/// there is a collision.
+FirstCollision first_contact(const Query& query, const motion::Path& path, double t_begin_s,
+                             double t_end_s, const base::Deadline& deadline);
+
 /// Decides whether [t_begin_s, t_end_s] is free. Returns no interval if all of it is proved free;
 /// then `first_collision` returns none either. Otherwise returns a short time range at whose middle
 /// the body collides, or for which it could not be decided at the tolerance whether it collides.
-/// Cheaper than `first_collision` if there is a collision.
+/// Cheaper than `first_contact` if there is a collision.
 FirstCollision any_collision(const Query& query, const motion::Path& path, double t_begin_s,
                              double t_end_s, const base::Deadline& deadline);
 

@@ -108,7 +108,7 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
       near.push_back(path_.segments()[i]);
     }
     const motion::Path part(std::move(near));
-    const collision::FirstCollision found = collision::first_collision(
+    const collision::FirstCollision found = collision::any_collision(
         {added, body_, detect_}, part, part.begin_s(), part.end_s(), deadline);
     if (!found.decided || found.interval) return false;
   }

@@ -27,7 +27,7 @@ namespace camway::planning {
 /// the box of the control points grown by these, by `Body::slack_m` and the required clearance, all
 /// rounded up. A segment whose grown box does not meet the box of an added object is free of that
 /// object. Every other segment has to be proved free of the added part alone, by
-/// `collision::first_collision`. The path stays within the bounds as long as they are the same. If
+/// `collision::any_collision`. The path stays within the bounds as long as they are the same. If
 /// the bounds of the scene change, nothing is known. Smooth surfaces of the scene are kept at the
 /// distance of its `surface_error_m` from their triangles; as long as that does not grow, what
 /// stayed is kept at the same distance. If it grows, nothing is known.

@@ -141,7 +141,8 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
 }
 
-// Both searches walk alike, so they must agree on whether there is a collision.
+// All searches walk alike, so they must agree on whether there is a collision, and where the first
+// begins.
 TEST(AnyCollision, IsFoundExactlyWhereThereIsAFirstOne) {
   testing::Random random(7);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
@@ -158,7 +159,13 @@ TEST(AnyCollision, IsFoundExactlyWhereThereIsAFirstOne) {
     if (is_bounded) query.obstacles.bounds = {Vec3::Constant(-1.2), Vec3::Constant(1.2)};
     const FirstCollision first = first_collision(query, path, 0.0, 1.0, base::Deadline::never());
     const FirstCollision any = any_collision(query, path, 0.0, 1.0, base::Deadline::never());
-    ASSERT_TRUE(any.decided);
+    const FirstCollision contact = first_contact(query, path, 0.0, 1.0, base::Deadline::never());
+    ASSERT_TRUE(any.decided && contact.decided);
+    ASSERT_EQ(contact.interval.has_value(), first.interval.has_value()) << "run " << run;
+    if (first.interval) {
+      EXPECT_EQ(contact.interval->t_begin_s, first.interval->t_begin_s) << "run " << run;
+      EXPECT_LE(contact.interval->t_begin_s, contact.interval->t_end_s) << "run " << run;
+    }
     ASSERT_EQ(any.interval.has_value(), first.interval.has_value()) << "run " << run;
     if (!any.interval) continue;
     ++colliding;

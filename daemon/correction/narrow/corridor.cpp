@@ -130,7 +130,7 @@ class Walker {
   }
 
   [[nodiscard]] bool is_free(const SignedPose& from, const SignedPose& to) {
-    return !space_.first_hit(from, to, margin_m_);
+    return space_.passes(from, to, margin_m_);
   }
 
   FreeSpace& space_;

@@ -132,7 +132,7 @@ class GrowingGuide {
 
   [[nodiscard]] bool add(std::span<const SignedPose> poses) {
     return std::ranges::all_of(poses, [&](const SignedPose& pose) {
-      if (space_.first_hit(guide_.back(), pose, margin_m_)) return false;
+      if (!space_.passes(guide_.back(), pose, margin_m_)) return false;
       guide_.push_back(pose);
       return true;
     });

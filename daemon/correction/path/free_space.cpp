@@ -59,8 +59,7 @@ std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, doubl
   return found;
 }
 
-std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
-                                           double margin_m) {
+collision::Query FreeSpace::with_margin(double margin_m) const {
   collision::Query query = query_;
   collision::DetectOptions& options = query.options;
   options.clearance_m += margin_m;
@@ -69,11 +68,22 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
   options.joining_distance_m = std::max(options.joining_distance_m, options.tolerance_m);
   // The required clearance does not apply to the bounds.
   query.obstacles.bounds = query.obstacles.bounds.shrunk_by(margin_m);
+  return query;
+}
+
+std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
+                                           double margin_m) const {
   const motion::Path path({motion::straight_motion(from, to)});
   const collision::FirstCollision found =
-      collision::first_collision(query, path, 0.0, 1.0, base::Deadline::never());
+      collision::first_contact(with_margin(margin_m), path, 0.0, 1.0, base::Deadline::never());
   if (!found.interval) return std::nullopt;
   return found.interval->t_begin_s;
+}
+
+bool FreeSpace::passes(const SignedPose& from, const SignedPose& to, double margin_m) const {
+  const motion::Path path({motion::straight_motion(from, to)});
+  return !collision::any_collision(with_margin(margin_m), path, 0.0, 1.0, base::Deadline::never())
+              .interval;
 }
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {

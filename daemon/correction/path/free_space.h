@@ -53,7 +53,11 @@ class FreeSpace {
   /// Returns the fraction of the straight motion at which the body first collides or its gap cannot
   /// be proved to be at least `margin_m`; nothing if that is proved for the whole motion.
   [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
-                                                const motion::SignedPose& to, double margin_m);
+                                                const motion::SignedPose& to,
+                                                double margin_m) const;
+  /// Returns whether there is no such fraction. Cheaper than `first_hit` if there is one.
+  [[nodiscard]] bool passes(const motion::SignedPose& from, const motion::SignedPose& to,
+                            double margin_m) const;
 
   /// Gap of a ball about `point_W`, at most `up_to_m`; 0 or less where the ball collides. The sign
   /// is exact. To save time, the true distance of the centre may be as little as `kBallShare` times
@@ -111,6 +115,9 @@ class FreeSpace {
                                            const motion::Pose& interpolated) const;
 
  private:
+  /// The query with `margin_m` more clearance, to the scene and to the bounds.
+  [[nodiscard]] collision::Query with_margin(double margin_m) const;
+
   const collision::Query query_;
   OrientationPolicy policy_;
   Closeness closeness_;

@@ -197,7 +197,7 @@ Guide shortened(const Guide& guide, FreeSpace& space, double margin_m) {
     for (std::size_t leap = 2; leap > 0;) {
       const std::size_t next = std::min(reached + leap, guide.size() - 1);
       const bool grows = next > reached && turns_little(guide[i], guide[next]) &&
-                         !space.first_hit(guide[i], guide[next], margin_m);
+                         space.passes(guide[i], guide[next], margin_m);
       if (grows) reached = next;
       leap = grows && next + 1 < guide.size() ? 2 * leap : leap / 2;
       if (reached + 1 == guide.size()) break;

@@ -20,7 +20,7 @@ std::optional<SignedPose> ball_escape(FreeSpace& space, const SignedPose& pose,
           Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() * (share * radius_m);
       if (!(space.ball_gap_m(middle_W + step, ball_radius_m, horizon_m) > 0.0)) continue;
       const SignedPose there{pose.position + step, pose.orientation};
-      if (!space.first_hit(pose, there, 0.0)) return there;
+      if (space.passes(pose, there, 0.0)) return there;
     }
   }
   return std::nullopt;

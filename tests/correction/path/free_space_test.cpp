@@ -97,6 +97,7 @@ TEST(FreeSpace, FirstHitIsTheFirst) {
     SignedPose to = motion::signed_pose(any_pose(random));
     if (from.orientation.dot(to.orientation) < 0.0) to.orientation = -to.orientation;
     const std::optional<double> hit = space.first_hit(from, to, kMargin_m);
+    EXPECT_EQ(space.passes(from, to, kMargin_m), !hit) << "run " << run;
     const double end = hit.value_or(1.0);
     if (end > 0.0) {
       const SignedPose last = motion::between(from, to, end * (1.0 - 1e-9));
