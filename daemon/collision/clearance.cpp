@@ -94,8 +94,8 @@ class ClearanceSearch {
   Verdict settle(const Stretch& stretch, double middle_s, bool splittable) {
     ProbeResult seen = check(stretch);
     // If rounding alone hides the difference, splitting does not help.
-    const bool hopeless = !seen.free && (!(seen.reach_m > 2.0 * seen.rounding_m) || !splittable);
-    const bool is_measured = measure(stretch, middle_s, hopeless, seen);
+    const bool is_hopeless = !seen.free && (!(seen.reach_m > 2.0 * seen.rounding_m) || !splittable);
+    const bool is_measured = measure(stretch, middle_s, /*must=*/is_hopeless, seen);
     const double enough_m = enough();
     if (seen.free) {
       lower_m_ = std::min(lower_m_, asked_m_);
@@ -106,10 +106,10 @@ class ClearanceSearch {
         is_measured ? kRoundDown * (kShare * (seen.gap_m + probe_.keep_m()) - probe_.keep_m()) -
                           (seen.reach_m + seen.rounding_m) / kRoundDown
                     : 0.0;
-    if (hopeless && !(everywhere_m > 0.0)) return Verdict::kTouches;
+    if (is_hopeless && !(everywhere_m > 0.0)) return Verdict::kTouches;
     if (!(seen.gap_m > 0.0)) return Verdict::kTouches;
     target_reach_m_ = std::max(kApproach * (seen.gap_m - enough_m), 1.5 * seen.rounding_m);
-    if (hopeless || everywhere_m >= enough_m) {
+    if (is_hopeless || everywhere_m >= enough_m) {
       lower_m_ = std::min({lower_m_, everywhere_m, asked_m_});
       return Verdict::kSettled;
     }
@@ -124,10 +124,10 @@ class ClearanceSearch {
     return probe_.check(stretch, asked_m_);
   }
 
-  // Measures the distance at the middle of a stretch whose check failed, if `must` or if it may
-  // lower the upper bound. The check stopped at a triangle, and nothing is farther than that. So it
-  // mostly tells that the distance is of no interest, and to measure it takes five times as long as
-  // to check a shorter stretch. Returns whether `seen.gap_m` is measured.
+  // Measures the distance at the middle of a stretch that was checked, if `must` or if that may
+  // lower the upper bound. A check that fails stops at one triangle, and the distance is at most
+  // that of the triangle. Elsewhere the distance is of no use: measuring it takes five times as
+  // long as the check of a shorter stretch. Returns whether `seen.gap_m` was measured.
   bool measure(const Stretch& stretch, double middle_s, bool must, ProbeResult& seen) {
     if (!seen.is_measured) return false;
     const bool is_near = std::max(0.0, seen.gap_m) + seen.rounding_m < upper_m_;

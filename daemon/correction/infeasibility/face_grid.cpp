@@ -330,9 +330,8 @@ std::vector<FaceGrid::Run> FaceGrid::take_part(const Window& window, int u, int 
     for (const int next_v : {run.v - 1, run.v + 1}) {
       if (next_v < window.v0 || next_v > window.v1) continue;
       for (int next_u = run.u0; next_u <= run.u1; ++next_u) {
-        if (done[window.at(next_u, next_v)] != 0) continue;
-        part.push_back(take_run(window, next_u, next_v, done));
-        next_u = part.back().u1;
+        if (done[window.at(next_u, next_v)] == 0)
+          part.push_back(take_run(window, next_u, next_v, done));
       }
     }
   }
