@@ -226,7 +226,7 @@ std::shared_ptr<const scene::Snapshot> two_doors() {
   for (const double side : {1.0, -1.0}) {
     const double z_m = 0.8 * side;
     for (const auto& [from_m, to_m] : {std::pair{-6.0, 2.0}, {3.5, 9.0}}) {
-      const auto [left_m, right_m] = std::minmax(side * from_m, side * to_m);
+      const auto [left_m, right_m] = std::minmax({side * from_m, side * to_m});
       testing::add_cuboid(mesh, {left_m, -8, z_m - 0.05}, {right_m, 8, z_m + 0.05});
     }
   }

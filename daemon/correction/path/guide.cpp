@@ -93,18 +93,21 @@ void TimedGuide::choose_shares(const motion::CubicPath& path) {
   Places cost{};
   cost.fill(std::numeric_limits<double>::infinity());
   cost[0] = 0.0;
-  for (std::size_t t = 1; t <= kTimes; ++t) {
+  for (int t = 1; t <= kTimes; ++t) {
     const geometry::Vec3 old_W =
         path.at(std::lerp(begin_s_, end_s_, static_cast<double>(t) / kTimes)).position;
     const Places last = cost;
-    for (int p = 0; p <= kPlaces; ++p) {
+    // Other places cannot be reached from the beginning, or the end not from them.
+    const int nearest = std::max(0, kPlaces - (kTimes - t) * kLongestStep);
+    const int farthest = std::min(kPlaces, t * kLongestStep);
+    for (int p = nearest; p <= farthest; ++p) {
       const auto place = static_cast<std::size_t>(p);
       double best = std::numeric_limits<double>::infinity();
       for (int q = std::max(0, p - kLongestStep); q <= p; ++q) {
         const double sum = last[static_cast<std::size_t>(q)] + hurry * (p - q) * (p - q);
         if (sum < best) {
           best = sum;
-          before[t][place] = q;
+          before[static_cast<std::size_t>(t)][place] = q;
         }
       }
       cost[place] = best + (old_W - places_W[place]).squaredNorm();
