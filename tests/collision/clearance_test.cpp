@@ -114,6 +114,26 @@ TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
   EXPECT_GE(found.lower_bound_m, 0.99 * (1.0 - kClearanceTolerance) * distance_m);
 }
 
+// Where the distance is a few roundings, shorter stretches do not help, and so it is measured all
+// along the path.
+TEST(PathClearance, IsKnownWhereItIsAFewRoundings) {
+  constexpr double kStored_m = 2e-10;  // of coordinates of 1e6 m
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Vec3 far(1e6, -1e6, 1e6);
+  const Path path =
+      motion::interpolate(std::vector<Keyframe>{{0.0, {far + Vec3(0, 0, 1e-5), Quat::Identity()}},
+                                                {1.0, {far - Vec3(0, 0, 1e-5), Quat::Identity()}}});
+  for (const double distance_m : {1e-8, 2e-8, 4e-8, 1e-7}) {
+    Mesh mesh;
+    const double wall_x = far.x() + corners_C[0].x() + distance_m;
+    testing::add_triangle(mesh, {wall_x, far.y() - 9, far.z() - 9},
+                          {wall_x, far.y() + 9, far.z() - 9}, {wall_x, far.y(), far.z() + 9});
+    const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
+    EXPECT_LE(found.lower_bound_m, distance_m + kStored_m);
+    EXPECT_GT(found.lower_bound_m, 0.4 * distance_m);
+  }
+}
+
 TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});

@@ -102,6 +102,17 @@ TEST_P(IndexQueries, NearestIsTheNearestOfAll) {
   EXPECT_GT(zero, 10);
 }
 
+// A point has bounds of its own.
+TEST_P(IndexQueries, NearestToAPointIsTheNearestOfAll) {
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 at = point();
+    const std::array<Triangle, 1> body = {Triangle{at, at, at}};
+    const double cutoff_m = i % 4 == 0 ? random_.log_uniform(1e-3, 10.0) : kInfinity;
+    expect_equal(tree_.nearest(body, cutoff_m), brute_nearest(tree_, body, cutoff_m));
+    if (HasFatalFailure() || HasNonfatalFailure()) return;
+  }
+}
+
 TEST_P(IndexQueries, NearestIsExclusiveAtItsCutoff) {
   for (int i = 0; i < 200; ++i) {
     const std::array<Triangle, 1> body = {triangle()};
