@@ -131,6 +131,8 @@ class RecordTest : public IntegrationTest {
       PlanRequest request =
           request_of(kWays.at(static_cast<std::size_t>(i) % kWays.size()), "office");
       pending.push_back(planners.at(static_cast<std::size_t>(i) % 3)->plan_async(request));
+      // A log tells of the scene before all changes by an answer about it alone.
+      if (i == 0) pending.front().answer.wait();
       if (i % 4 == 3) change(painter, i / 4);
     }
     std::set<std::int64_t> revisions;
