@@ -258,7 +258,8 @@ TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
 
 /// No answer has more inserted keyframes than its limit; the knots count, too, that the
 /// interpolation has of its own where the camera turns far. A limit that the unlimited answer keeps
-/// does not change it, though more were needed while it was made.
+/// does not change it, though more were needed while it was made. A smaller one is told how many
+/// that answer has.
 TEST(Plan, InsertsNoMoreKeyframesThanAllowed) {
   PlanRequest through_doors = bulging_tour();
   through_doors.keyframes.erase(through_doors.keyframes.begin() + 1);
@@ -277,7 +278,11 @@ TEST(Plan, InsertsNoMoreKeyframesThanAllowed) {
       request.options.max_inserted_keyframes = limit;
       const PlanResult limited = planned(*snapshot, request);
       EXPECT_LE(count_inserted(limited), limit);
-      if (limit < needed) continue;
+      if (limit < needed) {
+        EXPECT_EQ(limited.status, Status::kPartial);
+        EXPECT_THAT(limited.message, ::testing::HasSubstr("need " + std::to_string(needed)));
+        continue;
+      }
       EXPECT_EQ(limited.status, Status::kOk);
       EXPECT_EQ(count_inserted(limited), needed);
       EXPECT_EQ(limited.certificate.clearance_lower_bound_m,

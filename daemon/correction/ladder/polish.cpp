@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/collision/clearance.h"
+#include "daemon/correction/ladder/spare_keyframes.h"
 #include "daemon/correction/smoothing/objective_cost.h"
 #include "daemon/correction/smoothing/relaxation.h"
 
@@ -129,7 +130,10 @@ class Polisher {
 bool polish(Objective objective, const motion::TimeOrigin& origin, FreeSpace& space,
             CorrectedPath& corrected, CollisionList& collisions) {
   if (objective == Objective::kClosest) return false;
-  return Polisher(origin, space, corrected, collisions).pursue(objective);
+  const motion::CubicPath before = corrected.path();
+  const bool gains = Polisher(origin, space, corrected, collisions).pursue(objective);
+  if (gains) spare_keyframes(objective, before, origin, space, corrected, collisions);
+  return gains;
 }
 
 }  // namespace camway::correction

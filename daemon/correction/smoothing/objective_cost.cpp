@@ -70,21 +70,15 @@ void for_each_gap(const motion::CubicPath& path, double step_m, double up_to_m, 
 
 // Integrates over the curve's length and not over time: otherwise lingering in a safe place would
 // lower the cost of danger elsewhere.
-ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
-                     const base::Deadline& deadline) {
+double danger(const motion::CubicPath& path, FreeSpace& space) {
   const double comfort_m = kComfort * space.ball_radius_m();
-  ObjectiveCost cost{0.0, comfort_m};
+  double danger_m = 0.0;
   for_each_gap(path, kSampleStep * space.ball_radius_m(), comfort_m, space,
                [&](double gap_m, double way_m) {
                  const double missing = 1.0 - std::clamp(gap_m / comfort_m, 0.0, 1.0);
-                 cost.value += missing * missing * way_m;
+                 danger_m += missing * missing * way_m;
                });
-  // Answers report this bound, which does not depend on samples.
-  const auto clearance =
-      collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
-  if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};
-  cost.least_gap_m = std::min(comfort_m, clearance->lower_bound_m);
-  return cost;
+  return danger_m;
 }
 
 }  // namespace
@@ -95,20 +89,32 @@ double bending_energy(const motion::CubicPath& path) {
   return sum;
 }
 
-ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
-                             const motion::CubicPath& original, FreeSpace& space,
-                             const base::Deadline& deadline) {
+double objective_value(Objective objective, const motion::CubicPath& path,
+                       const motion::CubicPath& original, FreeSpace& space) {
   switch (objective) {
     case Objective::kClosest:
-      return {closeness_cost(path, original, space.closeness()), 0.0};
+      return closeness_cost(path, original, space.closeness());
     case Objective::kShortest:
-      return {length_m(path), 0.0};
+      return length_m(path);
     case Objective::kSmoothest:
-      return {bending_energy(path), 0.0};
+      return bending_energy(path);
     case Objective::kSafest:
       break;
   }
-  return danger(path, space, deadline);
+  return danger(path, space);
+}
+
+ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
+                             const motion::CubicPath& original, FreeSpace& space,
+                             const base::Deadline& deadline) {
+  ObjectiveCost cost{objective_value(objective, path, original, space), 0.0};
+  if (objective != Objective::kSafest) return cost;
+  // Answers report this bound, which does not depend on samples.
+  const auto clearance =
+      collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
+  if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};
+  cost.least_gap_m = std::min(kComfort * space.ball_radius_m(), clearance->lower_bound_m);
+  return cost;
 }
 
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before) {

@@ -66,10 +66,12 @@ correction::LadderResult within_keyframe_limit(
   const std::int32_t usual_limit = PlanOptions().max_inserted_keyframes;
   if (limit == 0 || limit >= usual_limit) return run(limit);
   correction::LadderResult unlimited = run(usual_limit);
-  const std::size_t knots = unlimited.path.pieces.size() + 1;
-  const bool fits =
-      std::cmp_less_equal(knots, result.keyframes.size() + static_cast<std::size_t>(limit));
-  return fits ? std::move(unlimited) : run(limit);
+  const std::size_t inserted = unlimited.path.pieces.size() + 1 - result.keyframes.size();
+  if (std::cmp_less_equal(inserted, limit)) return unlimited;
+  correction::LadderResult limited = run(limit);
+  // Until they are drawn again, corrections seem to need more than the answer does without a limit.
+  if (limited.needed_keyframes) limited.needed_keyframes = inserted;
+  return limited;
 }
 
 CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision::Query& query,
