@@ -2,6 +2,7 @@
 #include "daemon/correction/ladder/corrected_path.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -171,10 +172,14 @@ bool CorrectedPath::take_instead(const ChangedPart& part, const Candidate& candi
 void CorrectedPath::restore(std::size_t first_keyframe, std::size_t last_keyframe) {
   const double begin_s = keyframes_s_[first_keyframe];
   const double end_s = keyframes_s_[last_keyframe];
-  path_.replace(interpolated_.around(begin_s, end_s));
-  std::erase_if(changed_, [&](const ChangedPart& part) {
+  const auto is_within = [&](const ChangedPart& part) {
     return begin_s <= part.begin_s && part.end_s <= end_s;
-  });
+  };
+  assert(std::ranges::all_of(changed_, [&](const ChangedPart& part) {
+    return is_within(part) || part.end_s <= begin_s || end_s <= part.begin_s;
+  }));
+  path_.replace(interpolated_.around(begin_s, end_s));
+  std::erase_if(changed_, is_within);
   leave_time_for_the_rest();
 }
 

@@ -108,9 +108,10 @@ class RoomMaker {
     double kept_m = least_gap_m(corrected_, legs);
     double tried_m = most_gap_m(legs);
     double failed_m = tried_m;
+    const CorrectedPath before = corrected_;
     bool gains = false;
     for (int i = 0; i < kAttempts && failed_m > kWorth * kept_m && !deadline().passed(); ++i) {
-      if (!attempt(legs, tried_m, kept_m)) {
+      if (!attempt(legs, before, tried_m, kept_m)) {
         failed_m = tried_m;
       } else if (i == 0) {
         return true;
@@ -159,14 +160,16 @@ class RoomMaker {
   }
 
   /// Moves the corrected path, or else corrects the path as interpolated anew, so that the legs
-  /// have a gap. Raises `kept_m` if the result replaces the path.
-  bool attempt(const LegRange& legs, double gap_m, double& kept_m) {
+  /// have a gap. Raises `kept_m` if the result replaces the path. `before`: the path before all
+  /// attempts. Theirs may reach beyond the legs, so it is not in `corrected_` that the legs can
+  /// become as interpolated.
+  bool attempt(const LegRange& legs, const CorrectedPath& before, double gap_m, double& kept_m) {
     collision::Query query = space_.query();
     query.options.clearance_m += gap_m;
     OrientationPolicy policy = space_.policy();
     if (!legs.turns) policy.max_turn_rad = 0.0;
     FreeSpace roomy(query, policy, space_.closeness());
-    CorrectedPath anew = corrected_;
+    CorrectedPath anew = before;
     anew.restore(legs.first_keyframe, legs.last_keyframe);
     return attempt_on(corrected_, Method::kMoves, legs, roomy, kept_m) ||
            attempt_on(std::move(anew), Method::kAllRungs, legs, roomy, kept_m);

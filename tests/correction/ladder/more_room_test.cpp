@@ -57,6 +57,58 @@ TEST(MoreRoom, GoesThroughTheMiddleOfADoor) {
   }
 }
 
+/// The largest jump of velocity or acceleration between two pieces. [Units: m/s or m/s²]
+double largest_jump(const motion::CubicPath& path) {
+  double jump = 0.0;
+  const auto velocity = [](const motion::CubicPiece& piece, std::size_t i) -> geometry::Vec3 {
+    return 3.0 / (piece.t1_s - piece.t0_s) * (piece.position[i + 1] - piece.position[i]);
+  };
+  const auto acceleration = [&](const motion::CubicPiece& piece, std::size_t i) -> geometry::Vec3 {
+    return 2.0 / (piece.t1_s - piece.t0_s) * (velocity(piece, i + 1) - velocity(piece, i));
+  };
+  for (std::size_t i = 0; i + 1 < path.pieces.size(); ++i) {
+    const motion::CubicPiece& before = path.pieces[i];
+    const motion::CubicPiece& after = path.pieces[i + 1];
+    jump = std::max({jump, (velocity(after, 0) - velocity(before, 2)).norm(),
+                     (acceleration(after, 0) - acceleration(before, 1)).norm()});
+  }
+  return jump;
+}
+
+// With more room, corrections of one interval reach over its keyframes. The attempts after that
+// must not cut them off there: `CorrectedPath::restore` would not allow it.
+TEST(MoreRoom, KeepsThePathTwiceDifferentiable) {
+  testing::Random random(4534);
+  int polished = 0;
+  for (int run = 0; run < 150; ++run) {
+    scene::Mesh mesh;
+    std::vector<motion::Keyframe> keyframes = {
+        at(0, {0, random.uniform(-0.1, 0.1), 1.1}),
+        at(4, {random.uniform(-0.3, 0.3), random.uniform(-0.1, 0.1), 0}),
+        at(8, {random.uniform(0.8, 1.2), random.uniform(-0.3, 0.1), random.uniform(-0.3, 0.3)})};
+    for (motion::Keyframe& keyframe : keyframes) {
+      keyframe.pose.orientation =
+          geometry::Quat(Eigen::AngleAxisd(random.uniform(-2, 2), geometry::Vec3::UnitY()));
+    }
+    for (int i = 0; i < 10; ++i) {
+      const geometry::Vec3 post(random.uniform(-0.4, 1.2), 0, random.uniform(-0.6, 1.1));
+      const bool is_beside = std::ranges::all_of(keyframes, [&](const motion::Keyframe& keyframe) {
+        const geometry::Vec3 away = keyframe.pose.position - post;
+        return std::hypot(away.x(), away.z()) > 0.27;
+      });
+      if (is_beside) {
+        testing::add_cuboid(mesh, post - geometry::Vec3(0.05, 2, 0.05),
+                            post + geometry::Vec3(0.05, 2, 0.05));
+      }
+    }
+    const LadderCase c = case_with(mesh, keyframes);
+    const LadderResult safest = corrected_for(Objective::kSafest, c);
+    polished += safest.is_polished ? 1 : 0;
+    EXPECT_LT(largest_jump(safest.path), 1e-9) << run;
+  }
+  EXPECT_GT(polished, 75);
+}
+
 // A way round is refused if it leads much farther off than the corrections and the sufficient gap.
 TEST(MoreRoom, StaysWithTheShot) {
   scene::Mesh mesh;
