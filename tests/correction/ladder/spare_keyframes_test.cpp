@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <vector>
 
 #include "daemon/collision/clearance.h"
 #include "daemon/correction/path/viewing_distance.h"
@@ -41,8 +41,7 @@ class SpareKeyframes : public ::testing::TestWithParam<Objective> {
     return FreeSpace(c_.query(), OrientationPolicy{}, closeness_of(straight_, plain, 3.0));
   }
 
-  /// The hill with wrinkles, which make it longer and rougher. It is lower, too, by twice as much
-  /// at most.
+  /// The hill with wrinkles, which make it longer and rougher, and up to `wrinkle_m` lower.
   [[nodiscard]] Candidate hill(Draw& draw, double wrinkle_m) const {
     const Problem problem = testing::problem_of_leg(c_.keyframes, 0);
     Offsets offsets{problem.knots(kManyKnots), 1, {}};
@@ -67,6 +66,23 @@ class SpareKeyframes : public ::testing::TestWithParam<Objective> {
     return std::min(clearance_m, radii * space().ball_radius_m());
   }
 
+  /// The straight path changed by `hill`, after keyframes were spared.
+  [[nodiscard]] CorrectedPath spared(const Candidate& hill, const CubicPath& before) const {
+    CorrectedPath corrected(straight_, c_.keyframes, {1000, 0.0}, never_);
+    CollisionList list(c_.collisions(straight_), corrected.keyframes_s());
+    EXPECT_TRUE(corrected.take(hill));
+    EXPECT_EQ(corrected.inserted_s().size(), std::size_t{kManyKnots} - 1);
+    FreeSpace free = space();
+    spare_keyframes(GetParam(), before, {}, free, corrected, list);
+    return corrected;
+  }
+
+  [[nodiscard]] double value_of(const CubicPath& path) const {
+    FreeSpace free = space();
+    return objective_value(GetParam(), path, straight_, free);
+  }
+
+  const Deadline never_ = Deadline::never();
   LadderCase c_;
   CubicPath straight_;
   double height_m_ = 0.0;
@@ -78,21 +94,15 @@ TEST_P(SpareKeyframes, DrawsOnFewKnotsWhatIsHardlyWorse) {
     draw_case(draw);
     const Candidate smooth = hill(draw, 0.0);
     const CubicPath before = hill(draw, 0.05).path;
-    const Deadline never = Deadline::never();
-    CorrectedPath corrected(straight_, c_.keyframes, {1000, 0.0}, never);
-    CollisionList list(c_.collisions(straight_), corrected.keyframes_s());
-    ASSERT_TRUE(corrected.take(smooth));
-    ASSERT_EQ(corrected.inserted_s().size(), std::size_t{kManyKnots} - 1);
-    FreeSpace free = space();
-    spare_keyframes(GetParam(), before, {}, free, corrected, list);
+    const CorrectedPath corrected = spared(smooth, before);
 
     const CubicPath& path = corrected.path();
     EXPECT_LE(corrected.inserted_s().size(), 5U) << i;
     EXPECT_TRUE(c_.collisions(path).empty()) << i;
-    const double value = objective_value(GetParam(), smooth.path, straight_, free);
-    const double gained = objective_value(GetParam(), before, straight_, free) - value;
+    const double value = value_of(smooth.path);
+    const double gained = value_of(before) - value;
     ASSERT_GT(gained, 0.0) << i;
-    EXPECT_LE(objective_value(GetParam(), path, straight_, free), value + 0.1 * gained) << i;
+    EXPECT_LE(value_of(path), value + 0.1 * gained) << i;
     EXPECT_GE(clearance(path).upper_bound_m, 0.98 * wanted_m(clearance(smooth.path).lower_bound_m))
         << i;
     for (const motion::Keyframe& keyframe : c_.keyframes) {
@@ -106,14 +116,7 @@ TEST_P(SpareKeyframes, LeavesWhatIsNoBetterThanBefore) {
   draw_case(draw);
   const Candidate rough = hill(draw, 0.05);
   const CubicPath before = hill(draw, 0.0).path;
-  const Deadline never = Deadline::never();
-  CorrectedPath corrected(straight_, c_.keyframes, {1000, 0.0}, never);
-  CollisionList list(c_.collisions(straight_), corrected.keyframes_s());
-  ASSERT_TRUE(corrected.take(rough));
-  const std::vector<double> inserted_s = corrected.inserted_s();
-  FreeSpace free = space();
-  spare_keyframes(GetParam(), before, {}, free, corrected, list);
-  EXPECT_EQ(corrected.inserted_s(), inserted_s);
+  EXPECT_EQ(spared(rough, before).inserted_s().size(), std::size_t{kManyKnots} - 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, SpareKeyframes,
