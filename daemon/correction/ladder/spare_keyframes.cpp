@@ -20,7 +20,7 @@ using motion::CubicPath;
 // Chosen by measurement; none changes what is proved.
 constexpr double kMostGivenBack = 0.1;         // share of what was gained
 constexpr double kSparseGrowthOfCurve = 0.02;  // of a measure of the curve alone
-constexpr double kSparseGap = 0.98;            // share of the least distance that is kept
+constexpr double kSparseGap = 0.995;           // share of the least distance that is kept
 
 /// The largest value of the objective that is accepted for fewer keyframes.
 double most_cost(Objective objective, double cost, double cost_before) {
