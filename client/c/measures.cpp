@@ -49,6 +49,10 @@ camway_slowed_stretch slowed_of(const SlowedStretch& from) {
   return {from.t_begin_s, from.t_end_s, from.given_t_begin_s, from.given_t_end_s};
 }
 
+camway_clearance_stretch clearance_of(const ClearanceStretch& from) {
+  return {from.t_begin_s, from.t_end_s, from.clearance_m};
+}
+
 camway_plan_timing timing_of(const PlanTiming& from) {
   camway_plan_timing timing{};
   timing.motion_ms = from.motion_ms;
@@ -89,6 +93,15 @@ camway_status camway_answer_slowed(const camway_answer* answer, camway_slowed_st
                                    size_t capacity, size_t* count) {
   return guarded([&] {
     return write_list(Handles::all().find(answer)->slowed, slowed, capacity, count, slowed_of);
+  });
+}
+
+camway_status camway_answer_clearance_profile(const camway_answer* answer,
+                                              camway_clearance_stretch* stretches, size_t capacity,
+                                              size_t* count) {
+  return guarded([&] {
+    return write_list(Handles::all().find(answer)->clearance_profile, stretches, capacity, count,
+                      clearance_of);
   });
 }
 

@@ -154,6 +154,7 @@ PlanRequest request_of(const camway_plan_request* pointer) {
   request.bounds = bounds_of(given);
   request.max_shrink = given.max_shrink;
   request.repair_keyframes = given.repair_keyframes != 0;
+  request.clearance_profile = given.clearance_profile != 0;
   request.seed = given.seed;
   return request;
 }

@@ -140,6 +140,28 @@ TEST_F(CMeasuresTest, SlowedPartsAreThoseOfTheClientOfCxx) {
   EXPECT_EQ(summary.time_scale, 1.75);
 }
 
+TEST_F(CMeasuresTest, TheClearanceProfileIsThatOfTheClientOfCxx) {
+  const AnsweredTwice answer([](plan_response_t& profiled) {
+    for (int i = 0; i < 3; ++i) {
+      clearance_stretch_t stretch{};
+      stretch.t_begin_s = i;
+      stretch.t_end_s = i + 1;
+      stretch.clearance_m = 0.125 * i;
+      profiled.clearance_profile.push_back(stretch);
+    }
+    profiled.num_clearance_stretches = 3;
+  });
+  ASSERT_EQ(answer.in_cxx().clearance_profile.size(), 3u);
+  camway_clearance_stretch stretches[3] = {};
+  std::size_t count = 0;
+  ASSERT_EQ(camway_answer_clearance_profile(answer.in_c(), stretches, 3, &count), CAMWAY_OK);
+  EXPECT_EQ(count, 3u);
+  // The members are in the same order, so all are compared at once.
+  static_assert(sizeof stretches[0] == sizeof(ClearanceStretch));
+  EXPECT_EQ(std::memcmp(stretches, answer.in_cxx().clearance_profile.data(), sizeof stretches), 0);
+  EXPECT_EQ(stretches[2].clearance_m, 0.25);
+}
+
 TEST_F(CMeasuresTest, TimingIsThatOfTheClientOfCxx) {
   const AnsweredTwice answer([](plan_response_t& timed) {
     timed.motion_ms = 1.25;

@@ -59,6 +59,7 @@ std::vector<Setting> settings() {
       CAMWAY_SAME(least_revision, 17),
       CAMWAY_SAME(seed, 99),
       CAMWAY_SAME(repair_keyframes, 1),
+      CAMWAY_SAME(clearance_profile, 1),
       CAMWAY_SAME(max_inserted_keyframes, 0),
       {"fov_x_rad", [](CRequest& c) { c.fov_x_rad = 1.1; },
        [](PlanRequest& cxx) { cxx.camera.fov_x_rad = 1.1; }},

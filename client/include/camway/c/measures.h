@@ -75,6 +75,20 @@ typedef struct camway_slowed_stretch {
 camway_status camway_answer_slowed(const camway_answer* answer, camway_slowed_stretch* slowed,
                                    size_t capacity, size_t* count);
 
+/// A stretch of the path with a proved distance between body and scene.
+typedef struct camway_clearance_stretch {
+  double t_begin_s;
+  double t_end_s;
+  double clearance_m;  ///< 0 where nothing is proved; at most 100 unless more is required
+} camway_clearance_stretch;
+
+/// Writes the first `capacity` stretches, which follow each other without gaps over all of the
+/// path, and the number of all into `count`. There are none unless
+/// `camway_plan_request::clearance_profile` is set. The array may be NULL if `capacity` is 0.
+camway_status camway_answer_clearance_profile(const camway_answer* answer,
+                                              camway_clearance_stretch* stretches, size_t capacity,
+                                              size_t* count);
+
 /// Wall-clock times of the stages of planning in the daemon, in milliseconds. 0 for a stage that
 /// did not run.
 typedef struct camway_plan_timing {

@@ -104,6 +104,8 @@ typedef struct camway_plan_request {
   /// Four numbers for each keyframe: those of `camway_answer_images`, zero for keyframes that are
   /// new. All are zero without a frame. NULL: all zero, the default.
   const double* images;
+  int32_t clearance_profile;  ///< whether the answer has a profile of the clearance
+  int32_t reserved;           ///< 0
 } camway_plan_request;
 
 /// Sets all members to their defaults. `struct_size` is `sizeof(camway_plan_request)`.
