@@ -291,6 +291,29 @@ TEST(Plan, InsertsNoMoreKeyframesThanAllowed) {
   }
 }
 
+// A limit that the closest path keeps is no reason to have no path, whatever the objective.
+TEST(Plan, HasTheClosestPathWhereAnotherTakesTooManyKeyframes) {
+  PlanRequest request = bulging_tour();
+  const PlanResult closest = planned(*column_scene(), request);
+  ASSERT_EQ(closest.status, Status::kOk);
+  request.options.max_inserted_keyframes = count_inserted(closest);
+  const std::string limit = std::to_string(count_inserted(closest));
+  int closest_taken = 0;
+  for (const correction::Objective objective :
+       {correction::Objective::kShortest, correction::Objective::kSmoothest,
+        correction::Objective::kSafest}) {
+    request.options.objective = objective;
+    const PlanResult limited = planned(*column_scene(), request);
+    EXPECT_EQ(limited.status, Status::kOk) << limited.message;
+    EXPECT_LE(count_inserted(limited), count_inserted(closest));
+    if (limited.message.find("than the closest one") == std::string::npos) continue;
+    ++closest_taken;
+    EXPECT_THAT(limited.message, ::testing::HasSubstr("; none with at most " + limit));
+    EXPECT_EQ(limited.measures->length_m, closest.measures->length_m);
+  }
+  EXPECT_GT(closest_taken, 0);
+}
+
 // The gap is narrower than the near quadrilateral at any orientation, and the walls are endless.
 TEST(Plan, SaysHowHardItTried) {
   Mesh mesh;

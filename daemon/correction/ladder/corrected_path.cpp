@@ -30,6 +30,9 @@ std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& part,
       (part.path.at(part.leg_end_s()).position - part.path.at(part.leg_begin_s()).position).norm();
   // If the camera only turns, corrections move it by about its own size.
   places.same_s = motion::least_piece_s(leg_s, std::max(chord_m, ball_radius_m), size_m);
+  // Knots are keyframes of the answer, which a request must be able to hold.
+  places.same_s = std::max(places.same_s,
+                           motion::kTimesBetweenKeyframes * origin.resolution_s(part.path.end_s()));
   return std::make_shared<const motion::KnotPlaces>(std::move(places));
 }
 

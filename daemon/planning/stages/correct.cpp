@@ -17,11 +17,10 @@ namespace {
 
 using motion::Keyframe;
 
-correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared,
-                                         std::int32_t most_inserted) {
+correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared) {
   correction::LadderOptions options;
   options.origin = prepared.origin;
-  options.max_inserted_keyframes = most_inserted;
+  options.max_inserted_keyframes = request.options.max_inserted_keyframes;
   options.seed = request.options.seed;
   options.viewing_distance_m = request.options.viewing_distance_m.value_or(0.0);
   options.objective = request.options.objective;
@@ -52,25 +51,34 @@ void add_keyframes(const std::vector<double>& inserted_s, PlanResult& result) {
 }
 
 // While corrections are made, they need more keyframes than once they are drawn again. So they are
-// made without a limit first, and within it only where the answer would exceed it.
+// made without a limit first, and within it only where the answer would exceed it. The closest path
+// may have fewer keyframes than what another objective makes of it.
 correction::LadderResult within_keyframe_limit(
     const scene::Snapshot& snapshot, const collision::Query& query, const PlanRequest& request,
     const PreparedPlan& prepared, const base::Deadline& deadline, const PlanResult& result) {
-  const auto run = [&](std::int32_t most_inserted) {
+  const correction::LadderOptions asked = ladder_options(request, prepared);
+  const auto run = [&](const correction::LadderOptions& options) {
     return correction::correct_by_ladder(snapshot.mesh, query, result.keyframes,
-                                         prepared.interpolated, result.collisions,
-                                         ladder_options(request, prepared, most_inserted),
+                                         prepared.interpolated, result.collisions, options,
                                          deadline.share_of_rest(kShareOfCorrection));
   };
-  const std::int32_t limit = request.options.max_inserted_keyframes;
-  const std::int32_t usual_limit = PlanOptions().max_inserted_keyframes;
-  if (limit == 0 || limit >= usual_limit) return run(limit);
-  correction::LadderResult unlimited = run(usual_limit);
-  const std::size_t inserted = unlimited.path.pieces.size() + 1 - result.keyframes.size();
-  if (std::cmp_less_equal(inserted, limit)) return unlimited;
-  correction::LadderResult limited = run(limit);
+  const int limit = asked.max_inserted_keyframes;
+  correction::LadderOptions free = asked;
+  free.max_inserted_keyframes = PlanOptions().max_inserted_keyframes;
+  if (limit == 0 || limit >= free.max_inserted_keyframes) return run(asked);
+  const auto inserted_by = [&](const correction::LadderResult& corrected) {
+    return corrected.path.pieces.size() + 1 - result.keyframes.size();
+  };
+  correction::LadderResult unlimited = run(free);
+  if (std::cmp_less_equal(inserted_by(unlimited), limit)) return unlimited;
+  if (free.objective != correction::Objective::kClosest) {
+    free.objective = correction::Objective::kClosest;
+    unlimited = run(free);
+    if (std::cmp_less_equal(inserted_by(unlimited), limit)) return unlimited;
+  }
+  correction::LadderResult limited = run(asked);
   // Until they are drawn again, corrections seem to need more than the answer does without a limit.
-  if (limited.needed_keyframes) limited.needed_keyframes = inserted;
+  if (limited.needed_keyframes) limited.needed_keyframes = inserted_by(unlimited);
   return limited;
 }
 

@@ -24,20 +24,32 @@ std::string note_of_clearance(double clearance_m) {
                            : "";
 }
 
+/// How the path would be if it were better by the objective than the closest one.
+const char* better_by(correction::Objective objective) {
+  switch (objective) {
+    case correction::Objective::kShortest:
+      return "is shorter";
+    case correction::Objective::kSmoothest:
+      return "is smoother";
+    case correction::Objective::kSafest:
+      return "keeps more room";
+    case correction::Objective::kClosest:
+      break;
+  }
+  return nullptr;
+}
+
 /// Says that the path is the closest one, where the request asks for another and none was found.
 std::string note_of_objective(const PlanRequest& request, const CorrectedPlan& corrected) {
-  if (!corrected.path || corrected.is_polished) return {};
-  switch (request.options.objective) {
-    case correction::Objective::kClosest:
-      return {};
-    case correction::Objective::kShortest:
-      return "; none was found that is shorter than the closest one";
-    case correction::Objective::kSmoothest:
-      return "; none was found that is smoother than the closest one";
-    case correction::Objective::kSafest:
-      return "; none was found that keeps more room than the closest one";
-  }
-  return {};
+  const char* better = better_by(request.options.objective);
+  if (better == nullptr || !corrected.path || corrected.is_polished) return {};
+  const std::int32_t limit = request.options.max_inserted_keyframes;
+  const std::string within =
+      limit < PlanOptions().max_inserted_keyframes
+          ? fmt::format(" with at most {}",
+                        counted(static_cast<std::size_t>(limit), "inserted keyframe"))
+          : "";
+  return fmt::format("; none{} was found that {} than the closest one", within, better);
 }
 
 /// Says why the path keeps no more room, where that is known.
