@@ -29,26 +29,30 @@ double most_cost(Objective objective, double cost, double cost_before) {
   return cost + std::min(growth, kSparseGrowthOfCurve * cost);
 }
 
-/// The free space of paths that come hardly nearer to the scene than `part` does.
-FreeSpace keeping_gap(Objective objective, const CubicPath& part, const FreeSpace& space,
-                      const base::Deadline& deadline) {
+/// The free space of paths that come no nearer to the scene than `least_m`, as far as the objective
+/// asks for it.
+FreeSpace keeping_gap(Objective objective, double least_m, const FreeSpace& space) {
   const double radii = measures_curve(objective) ? kTightGap : kComfort;
-  const auto clearance =
-      collision::path_clearance(space.obstacles(), part.path(), space.body(), deadline);
-  const double least_m = clearance ? kSparseGap * clearance->lower_bound_m : 0.0;
   collision::Query query = space.query();
   query.options.clearance_m =
       std::max(query.options.clearance_m, std::min(least_m, radii * space.ball_radius_m()));
   return FreeSpace(query, space.policy(), space.closeness());
 }
 
-/// Returns `part` of `path` on fewer knots; nothing if none can be spared.
-std::optional<Candidate> sparser(const Problem& problem, const ChangedPart& part,
-                                 const CubicPath& path, const CubicPath& before,
-                                 Objective objective, FreeSpace& space,
-                                 const base::Deadline& deadline) {
-  FreeSpace keeping =
-      keeping_gap(objective, path.around(part.begin_s, part.end_s), space, deadline);
+/// A part of a path that was improved for an objective.
+struct ImprovedPart {
+  const Problem& problem;
+  const ChangedPart& part;
+  const CubicPath& path;
+  const CubicPath& before;  ///< the path before it was improved
+};
+
+/// Returns the part on fewer knots, with a distance of at least `least_m` from the scene; nothing
+/// if none can be spared.
+std::optional<Candidate> sparser(const ImprovedPart& improved, Objective objective, double least_m,
+                                 FreeSpace& space, const base::Deadline& deadline) {
+  const auto& [problem, part, path, before] = improved;
+  FreeSpace keeping = keeping_gap(objective, least_m, space);
   PartDrawer drawer(problem, part, part, objective, keeping, space, deadline);
   const double cost = drawer.cost(path);
   const double cost_before = drawer.cost(before);
@@ -62,6 +66,22 @@ std::optional<Candidate> sparser(const Problem& problem, const ChangedPart& part
   return std::move(best->drawn.candidate);
 }
 
+/// The same with nearly all of the distance that the part has now. The upper bound of that distance
+/// is nearer to it as a rule, but only the lower one is certain.
+std::optional<Candidate> sparser(const ImprovedPart& improved, Objective objective,
+                                 FreeSpace& space, const base::Deadline& deadline) {
+  const CubicPath part = improved.path.around(improved.part.begin_s, improved.part.end_s);
+  const auto now =
+      collision::path_clearance(space.obstacles(), part.path(), space.body(), deadline);
+  if (!now) return std::nullopt;
+  for (const double bound_m : {now->upper_bound_m, now->lower_bound_m}) {
+    std::optional<Candidate> found =
+        sparser(improved, objective, kSparseGap * bound_m, space, deadline);
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void spare_keyframes(Objective objective, const CubicPath& before, const motion::TimeOrigin& origin,
@@ -73,7 +93,7 @@ void spare_keyframes(Objective objective, const CubicPath& before, const motion:
         collisions.with_open_collisions(corrected.restored(part, origin, space.ball_radius_m()));
     const CubicPath path = corrected.path().around(problem.path.begin_s(), problem.path.end_s());
     const std::optional<Candidate> drawn =
-        sparser(problem, part, path, before, objective, space, corrected.deadline());
+        sparser({problem, part, path, before}, objective, space, corrected.deadline());
     if (drawn && corrected.take_instead(part, *drawn)) {
       collisions.set_range(part, corrected.range_of(*drawn));
     }

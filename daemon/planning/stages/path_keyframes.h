@@ -28,9 +28,10 @@ void drop_frame(PlanResult& result);
 
 /// Largest differences of the two paths, in position and in orientation, at any instant. The
 /// rounding of coordinates adds `kReplanRoundings` epsilons of the largest coordinate to
-/// `kMostReplanned_m`.
+/// `kMostReplanned_m`: short steps beside long ones amplify it, to 1,100 epsilons at most in 400
+/// requests in scenes of 10 to 100 km.
 inline constexpr double kMostReplanned_m = 5e-10;
 inline constexpr double kMostReplanned_rad = 5e-10;
-inline constexpr double kReplanRoundings = 16.0;
+inline constexpr double kReplanRoundings = 4096.0;
 
 }  // namespace camway::planning

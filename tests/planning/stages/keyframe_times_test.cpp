@@ -213,6 +213,34 @@ TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
   }
 }
 
+// Where times are coarse, rows of many short steps could leave knots too near to one another for a
+// request that holds them as keyframes. The answer then has no frame.
+TEST(KeyframeTimes, FastPathsSince1970CanBePlannedAgain) {
+  const auto scene = columns();
+  testing::Random random(75);
+  int corrected = 0;
+  for (int run = 0; run < 12; ++run) {
+    PlanRequest request = tour(random);
+    for (const correction::Objective objective :
+         {correction::Objective::kShortest, correction::Objective::kSmoothest,
+          correction::Objective::kSafest}) {
+      SCOPED_TRACE(run);
+      request.options.objective = objective;
+      set_times(request, 1.7e9, 0.02);
+      const PlanResult result = planned(*scene, request);
+      ASSERT_EQ(result.status, Status::kOk) << result.message;
+      if (result.collisions.empty()) continue;
+      ++corrected;
+      EXPECT_TRUE(result.frame.has_value());
+      for (std::size_t i = 1; i < result.keyframes.size(); ++i) {
+        EXPECT_GE(result.keyframes[i].time_s - result.keyframes[i - 1].time_s,
+                  kLeastRelativeTimeStep * 1.7e9);
+      }
+    }
+  }
+  EXPECT_GT(corrected, 20);
+}
+
 /// Returns the answer with limits that the path breaks, slowed.
 PlanRequest limited(const scene::Snapshot& scene, PlanRequest request) {
   const PlanResult free = planned(scene, request);
