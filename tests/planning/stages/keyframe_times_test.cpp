@@ -26,12 +26,12 @@ using testing_plan::planned;
 
 constexpr int kCells = 5;  // in a row of columns, 2 m apart
 
-std::shared_ptr<const scene::Snapshot> columns() {
+std::shared_ptr<const scene::Snapshot> columns(double scale = 1.0) {
   scene::Mesh mesh;
   for (int i = 0; i < kCells; ++i) {
     for (int k = 0; k < kCells; ++k) {
-      testing::add_cuboid(mesh, {2.0 * i - 0.3, -3, 2.0 * k - 0.3},
-                          {2.0 * i + 0.3, 3, 2.0 * k + 0.3});
+      testing::add_cuboid(mesh, scale * Vec3(2.0 * i - 0.3, -3, 2.0 * k - 0.3),
+                          scale * Vec3(2.0 * i + 0.3, 3, 2.0 * k + 0.3));
     }
   }
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
@@ -239,6 +239,32 @@ TEST(KeyframeTimes, FastPathsSince1970CanBePlannedAgain) {
     }
   }
   EXPECT_GT(corrected, 20);
+}
+
+// Roundings grow with coordinates.
+TEST(KeyframeTimes, PathsOfKilometresCanBePlannedAgain) {
+  constexpr double kScale = 4000.0;
+  const auto scene = columns(kScale);
+  testing::Random random(76);
+  int corrected = 0;
+  for (int run = 0; run < 30; ++run) {
+    PlanRequest request = tour(random);
+    request.camera.near_m *= kScale;
+    request.options.interval_tolerance_m *= kScale;
+    for (Keyframe& keyframe : request.keyframes) keyframe.pose.position *= kScale;
+    set_times(request, 0.0, 1.0);
+    for (const correction::Objective objective :
+         {correction::Objective::kClosest, correction::Objective::kSmoothest}) {
+      SCOPED_TRACE(run);
+      request.options.objective = objective;
+      const PlanResult result = planned(*scene, request);
+      ASSERT_EQ(result.status, Status::kOk) << result.message;
+      if (result.collisions.empty()) continue;
+      ++corrected;
+      EXPECT_TRUE(result.frame.has_value());
+    }
+  }
+  EXPECT_GT(corrected, 30);
 }
 
 /// Returns the answer with limits that the path breaks, slowed.
