@@ -367,4 +367,16 @@ FirstCollision any_collision(const Query& query, const motion::Path& path, doubl
   return searched(query, path, t_begin_s, t_end_s, deadline, Goal::kAny);
 }
 
+void remove_undecided(const Query& query, const motion::Path& path, const base::Deadline& deadline,
+                      std::vector<CollisionInterval>& collisions) {
+  Query finer = query;
+  finer.options.tolerance_m *= kFinerTolerance;
+  std::erase_if(collisions, [&](const CollisionInterval& interval) {
+    if (!(interval.t_begin_s < interval.t_end_s)) return false;
+    const FirstCollision found =
+        any_collision(finer, path, interval.t_begin_s, interval.t_end_s, deadline);
+    return found.decided && !found.interval;
+  });
+}
+
 }  // namespace camway::collision

@@ -38,6 +38,14 @@ struct Search {
 Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
                          double t_end_s, const base::Deadline& deadline);
 
+/// Removes from `collisions`, which one of the above found on `path`, those that are proved free if
+/// the tolerance is `kFinerTolerance` of that of `query`. It is partly chance which stretches of a
+/// path that almost touches the scene can be proved free at a tolerance, so a path that was proved
+/// free in parts may seem to collide as a whole. Stops at the deadline.
+void remove_undecided(const Query& query, const motion::Path& path, const base::Deadline& deadline,
+                      std::vector<CollisionInterval>& collisions);
+inline constexpr double kFinerTolerance = 1.0 / 64.0;
+
 /// Result of `first_collision`, `first_contact` and `any_collision`.
 struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first

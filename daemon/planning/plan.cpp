@@ -111,7 +111,10 @@ class Planner {
                                            result_.path.end_s(),
                                            budget.share_of_rest(kShareOfWholeSearch));
     }
-    if (whole.complete) return std::move(whole.collisions);
+    if (whole.complete) {
+      collision::remove_undecided(query_, result_.path, budget, whole.collisions);
+      return std::move(whole.collisions);
+    }
     corrected_.timed_out = true;
     // Keyframe insertion changes the path everywhere.
     const motion::Path before = corrected_.path ? prepared_.interpolated.path() : motion::Path();

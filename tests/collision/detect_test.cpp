@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/collision/clearance.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/random.h"
@@ -113,6 +114,42 @@ TEST(DetectCollisions, AClearPassIsFreeDownToTheTolerance) {
                    corners_C)
                 .size(),
             1u);
+}
+
+// Straight passes beside a triangle, nearer by and nearer by until they touch it.
+TEST(RemoveUndecided, LeavesWhatCollidesAndNothingElse) {
+  const motion::Body body(motion::near_corners_C(testing::small_camera()));
+  testing::Random random(15);
+  int undecided = 0;
+  for (int run = 0; run < 100; ++run) {
+    Mesh mesh;
+    testing::add_triangle(mesh, random.in_cube(0.1), random.in_cube(0.1), random.in_cube(0.1));
+    const SceneIndex index = SceneIndex::build(mesh);
+    const Query query{Obstacles(index), body, {}};
+    const Quat orientation = random.rotation();
+    const auto collisions = [&](double beside_m) {
+      const Path path = straight({-1, beside_m, 0}, {1, beside_m, 0}, orientation);
+      std::vector<CollisionInterval> found =
+          detect_collisions(query, path, 0.0, 1.0, base::Deadline::never()).value();
+      const std::size_t before = found.size();
+      remove_undecided(query, path, base::Deadline::never(), found);
+      EXPECT_LE(found.size(), before);
+      undecided += found.size() < before ? 1 : 0;
+      const bool touches =
+          path_clearance(query.obstacles, path, body, base::Deadline::never())->lower_bound_m ==
+          0.0;
+      EXPECT_TRUE(!touches || !found.empty()) << run;
+      return found.size();
+    };
+    double hits_m = 0.0;
+    double clear_m = 1.0;
+    if (collisions(hits_m) == 0) continue;
+    while (clear_m - hits_m > 1e-6) {
+      const double middle_m = 0.5 * (hits_m + clear_m);
+      (collisions(middle_m) > 0 ? hits_m : clear_m) = middle_m;
+    }
+  }
+  EXPECT_GT(undecided, 5);
 }
 
 TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
