@@ -120,6 +120,7 @@ TEST(DetectCollisions, AClearPassIsFreeDownToTheTolerance) {
 TEST(RemoveUndecided, LeavesWhatCollidesAndNothingElse) {
   const motion::Body body(motion::near_corners_C(testing::small_camera()));
   testing::Random random(15);
+  constexpr double kNearest_m = 1e-6;  // a thousandth of the tolerance
   int undecided = 0;
   for (int run = 0; run < 100; ++run) {
     Mesh mesh;
@@ -144,7 +145,7 @@ TEST(RemoveUndecided, LeavesWhatCollidesAndNothingElse) {
     double hits_m = 0.0;
     double clear_m = 1.0;
     if (collisions(hits_m) == 0) continue;
-    while (clear_m - hits_m > 1e-6) {
+    while (clear_m - hits_m > kNearest_m) {
       const double middle_m = 0.5 * (hits_m + clear_m);
       (collisions(middle_m) > 0 ? hits_m : clear_m) = middle_m;
     }

@@ -95,8 +95,8 @@ struct KnotRow {
 
 /// Least number of sender's times in a step between knots (`KnotRow::fits`).
 inline constexpr double kLeastTimesAStep = 16.0;
-/// Number of sender's times between knots that a request may hold as keyframes: 64 epsilons of a
-/// time are at most 128 doubles.
+/// Number of sender's times from one knot to the next that a request can hold both as keyframes
+/// (`planning::kLeastRelativeTimeStep`).
 inline constexpr double kTimesBetweenKeyframes = 128.0;
 
 /// The four pieces of the cubic B-spline on five increasing knots, as Bézier points (Farin 2002,

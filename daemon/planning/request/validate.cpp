@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "daemon/motion/spline/knot_row.h"
 #include "daemon/planning/request/request.h"
 
 namespace camway::planning {
@@ -19,6 +21,10 @@ using Fault = std::optional<InvalidRequest>;
 
 static_assert(motion::kMaxBodyCoordinate_m == kMaxCoordinate_m);
 static_assert(geometry::kMaxBound_m == kMaxCoordinate_m);
+// Doubles about t are at least epsilon / 2 · t apart, so knots that corrections keep apart may be
+// keyframes of a request.
+static_assert(kLeastRelativeTimeStep <=
+              0.5 * std::numeric_limits<double>::epsilon() * motion::kTimesBetweenKeyframes);
 
 InvalidRequest invalid(std::string field, std::string_view reason,
                        std::optional<std::size_t> keyframe = std::nullopt) {

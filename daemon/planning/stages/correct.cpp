@@ -63,17 +63,17 @@ correction::LadderResult within_keyframe_limit(
                                          deadline.share_of_rest(kShareOfCorrection));
   };
   const int limit = asked.max_inserted_keyframes;
-  correction::LadderOptions free = asked;
-  free.max_inserted_keyframes = PlanOptions().max_inserted_keyframes;
-  if (limit == 0 || limit >= free.max_inserted_keyframes) return run(asked);
+  correction::LadderOptions without_limit = asked;
+  without_limit.max_inserted_keyframes = PlanOptions().max_inserted_keyframes;
+  if (limit == 0 || limit >= without_limit.max_inserted_keyframes) return run(asked);
   const auto inserted_by = [&](const correction::LadderResult& corrected) {
     return corrected.path.pieces.size() + 1 - result.keyframes.size();
   };
-  correction::LadderResult unlimited = run(free);
+  correction::LadderResult unlimited = run(without_limit);
   if (std::cmp_less_equal(inserted_by(unlimited), limit)) return unlimited;
-  if (free.objective != correction::Objective::kClosest) {
-    free.objective = correction::Objective::kClosest;
-    unlimited = run(free);
+  if (without_limit.objective != correction::Objective::kClosest) {
+    without_limit.objective = correction::Objective::kClosest;
+    unlimited = run(without_limit);
     if (std::cmp_less_equal(inserted_by(unlimited), limit)) return unlimited;
   }
   correction::LadderResult limited = run(asked);

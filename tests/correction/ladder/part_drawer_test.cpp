@@ -18,7 +18,7 @@ using testing::Draw;
 /// The hill of a case as a changed part that is to be drawn again.
 class PartDrawerTest : public ::testing::Test {
  protected:
-  explicit PartDrawerTest(std::uint32_t seed = 7811) : draw_(seed), c_(draw_) {
+  PartDrawerTest() {
     corrected_.emplace(c_.straight, c_.ladder.keyframes, CorrectionLimits{1000, 0.0}, never_);
     const Candidate hill = c_.hill(draw_, 0.0);
     EXPECT_TRUE(corrected_->take(hill));
@@ -27,8 +27,8 @@ class PartDrawerTest : public ::testing::Test {
     path_ = corrected_->path();
   }
 
-  Draw draw_;
-  HillCase c_;
+  Draw draw_{7811};
+  HillCase c_{draw_};
   const Deadline never_ = Deadline::never();
   std::optional<CorrectedPath> corrected_;
   ChangedPart part_;
