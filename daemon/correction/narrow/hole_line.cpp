@@ -17,7 +17,7 @@ using geometry::Vec3;
 constexpr double kFirstShift = 0.4;  // shift of the ends of a line
 constexpr double kLeastShift = 0.01;
 constexpr double kMostTurn = 0.25;  // share of the length: shift of one end alone
-constexpr int kMostShifts = 200;
+constexpr int kMostShifts = 270;
 constexpr int kPlaces = 16;           // places on the line
 constexpr int kMostStepsBeside = 32;  // to find the free space beside the line
 
@@ -58,9 +58,10 @@ HoleLine widened(const FreeSpace& space, HoleLine line) {
     const Vec3 other_W = along_W.cross(across_W);
     bool any = false;
     for (const Vec3& side_W : {across_W, Vec3(-across_W), other_W, Vec3(-other_W)}) {
-      // Shift both ends, or one, which turns the line; a short line must not turn much. Shift no
+      // Shift both ends, or one, which turns the line; a short line must not turn much. A line that
+      // leans in a slit lies between two of its edges, so it has to turn about its middle. Shift no
       // farther than there is room: the space behind a wall may not be on the way.
-      for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}) {
+      for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, -1.0}}) {
         ++shifts;
         const double by_m = std::min({shift_m, best_m, begin == end ? best_m : most_turn_m});
         const HoleLine next{line.begin_W + begin * by_m * side_W, line.end_W + end * by_m * side_W};

@@ -24,7 +24,7 @@ using motion::SignedPose;
 constexpr std::array<double, 7> kShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875};
 constexpr std::array<double, 3> kSharesOfTurns = {0.5, 0.25, 0.75};
 constexpr std::array<double, 5> kSharesOfGrowth = {0.5, 0.3, 0.7, 0.1, 0.9};
-constexpr std::array<double, 5> kTurns_rad = {0.15, 0.25, 0.35, 0.5, 0.7};
+constexpr std::array<double, 7> kTurns_rad = {0.15, 0.25, 0.35, 0.5, 0.7, 0.9, 1.1};
 constexpr double kMostOfTurn = 0.8;  // largest share of a turn by which another may replace it
 constexpr int kBisections = 4;
 constexpr double kHardlyTurned_rad = 0.05;  // a turn that is not worth making smaller

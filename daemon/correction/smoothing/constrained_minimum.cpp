@@ -11,6 +11,7 @@ namespace {
 constexpr double kForceSettled = 1e-3;  // in radii of the ball
 constexpr double kWorthOfRoom = 0.6;    // of all missing gaps together, relative to the form
 constexpr int kSweepsOfCurve = 40;      // a curve that hugs what it passes has many tight bounds
+constexpr int kSweepsToSettle = 400;    // bounds that face each other take hundreds
 
 }  // namespace
 
@@ -19,12 +20,12 @@ ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvem
     : form_(form),
       bounds_(improvement.objective, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
-      most_sweeps_(measures_curve(improvement.objective) ? kSweepsOfCurve : kFewSweeps),
+      usual_sweeps_(measures_curve(improvement.objective) ? kSweepsOfCurve : kFewSweeps),
       may_turn_(improvement.may_turn),
       has_no_price_(improvement.makes_room) {}
 
 StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
-                                       std::vector<PathSample>& samples) {
+                                       std::vector<PathSample>& samples, Convergence convergence) {
   StackedPoints result = form_.minimum();
   if (!may_turn_) result.rightCols<4>() = variables.rightCols<4>();
   find_touching(samples);
@@ -36,7 +37,8 @@ StackedPoints ConstrainedMinimum::find(const StackedPoints& variables,
     const double response = own_response(terms_[i], responses.col(static_cast<Eigen::Index>(i)));
     bounds_.add(i, combined(terms_[i], variables), response, touching_[i]->rows);
   }
-  solve_qp(bounds_.bounds(), terms_, responses, settled_m_, most_sweeps_, result);
+  const int sweeps = convergence == Convergence::kSettled ? kSweepsToSettle : usual_sweeps_;
+  solve_qp(bounds_.bounds(), terms_, responses, settled_m_, sweeps, result);
   bounds_.remember();
   return result;
 }

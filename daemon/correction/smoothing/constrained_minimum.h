@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "daemon/correction/smoothing/contact_bounds.h"
@@ -9,6 +10,12 @@
 #include "daemon/correction/smoothing/smoothing_form.h"
 
 namespace camway::correction {
+
+/// How near to its solution a minimum under contacts comes.
+enum class Convergence : std::uint8_t {
+  kUsual,   ///< by the sweeps that suffice for the objective
+  kSettled  ///< until sweeps change little
+};
 
 /// The minimum of a smoothing form subject to the contacts of samples. The contacts keep the
 /// multipliers, so that the next solution starts from the last one.
@@ -28,7 +35,8 @@ class ConstrainedMinimum {
 
   /// Returns the minimiser. Requires contacts with up to date rows. The first call sets the price
   /// of room, if the improvement makes room.
-  StackedPoints find(const StackedPoints& variables, std::vector<PathSample>& samples);
+  StackedPoints find(const StackedPoints& variables, std::vector<PathSample>& samples,
+                     Convergence convergence);
 
  private:
   /// Sets the price of room. At that price all gaps that are missing now are worth `kWorthOfRoom`
@@ -40,7 +48,7 @@ class ConstrainedMinimum {
   const SmoothingForm& form_;
   ContactBounds bounds_;
   const double settled_m_;  ///< convergence threshold of the multipliers
-  const int most_sweeps_;   ///< of the solver
+  const int usual_sweeps_;  ///< of the solver
   const bool may_turn_;
   bool has_no_price_;                  ///< whether the price of room is still to be set
   std::vector<PathSample*> touching_;  ///< the samples with contacts, numbered in the bounds

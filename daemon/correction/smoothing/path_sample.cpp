@@ -16,6 +16,7 @@ constexpr double kKeptOfGap = 0.8;  // ... or this share of what there was, wher
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // least room at the samples
 constexpr double kFarEnough = 0.5;  // share of the horizon beyond which a lower bound suffices
 constexpr std::size_t kMostContacts = 3;  // contacts per sample
+constexpr double kFacing = -0.5;  // cosine of the directions of contacts that face each other
 
 double distance_m(const StackedPoint& a, const StackedPoint& b) {
   return (a.head<3>() - b.head<3>()).norm() + (a.tail<4>() - b.tail<4>()).norm();
@@ -28,6 +29,19 @@ bool add_contact(PathSample& sample, std::uint32_t triangle) {
   sample.contacts.push_back(triangle);
   if (sample.contacts.size() > kMostContacts) sample.contacts.erase(sample.contacts.begin());
   return true;
+}
+
+/// Whether contacts push the body of the sample from opposite sides.
+bool is_squeezed(const PathSample& sample) {
+  const auto direction_W = [](const Contact& contact) -> geometry::Vec3 {
+    return contact.row.direction.head<3>();
+  };
+  for (std::size_t i = 1; i < sample.rows.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (direction_W(sample.rows[i]).dot(direction_W(sample.rows[j])) < kFacing) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -64,7 +78,10 @@ SampleCheck SampleProbe::check(PathSample& sample, const StackedPoint& there) {
   if (distance_m(there, sample.known) + sample.floor_m < sample.known_gap_m) return check;
   const double gap_m = this->gap_m(sample, there, check);
   check.is_free = gap_m > sample.floor_m;
-  if (!check.is_free) return check;
+  if (!check.is_free) {
+    check.is_squeezed = is_squeezed(sample);
+    return check;
+  }
   sample.known = there;
   sample.known_gap_m = gap_m;
   return check;

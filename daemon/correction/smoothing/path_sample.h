@@ -39,11 +39,13 @@ struct SampleCheck {
   bool is_free = true;         ///< all keep their least gaps and meet the orientation policy
   bool found_contact = false;  ///< a sample has a new contact
   bool breaks_rule = false;    ///< a sample violates the orientation policy
+  bool is_squeezed = false;    ///< a sample collides between contacts that face each other
 
   SampleCheck& operator+=(const SampleCheck& other) {
     is_free = is_free && other.is_free;
     found_contact = found_contact || other.found_contact;
     breaks_rule = breaks_rule || other.breaks_rule;
+    is_squeezed = is_squeezed || other.is_squeezed;
     return *this;
   }
 };

@@ -269,8 +269,9 @@ class Relaxation {
   /// Returns the length of the step; nothing at the minimum or if no step is possible; 0 if it must
   /// be repeated with the reduced `trust_m`.
   std::optional<double> take_step(double& trust_m) {
+    Convergence convergence = Convergence::kUsual;
     for (int cut = 0; cut < kMostCuts; ++cut) {
-      const StackedPoints whole = minimum() - variables_;
+      const StackedPoints whole = minimum(convergence) - variables_;
       const double whole_m = length_m(whole);
       if (whole_m == 0.0) return std::nullopt;
       SampleCheck check;
@@ -285,9 +286,15 @@ class Relaxation {
         }
         if (check.is_free) return moved_m;
         if (check.found_contact) break;
+        // Between contacts that face each other, the usual sweeps satisfy the one or the other, and
+        // only steps that hardly move remain free.
+        if (check.is_squeezed && convergence == Convergence::kUsual) break;
         trust_m = moved_m;
       }
-      if (!check.found_contact) return std::nullopt;
+      if (!check.found_contact) {
+        if (!check.is_squeezed || convergence == Convergence::kSettled) return std::nullopt;
+        convergence = Convergence::kSettled;
+      }
     }
     trust_m *= kDistrust;
     return 0.0;
@@ -316,12 +323,12 @@ class Relaxation {
   }
 
   /// The minimum of the objective subject to the linearised contacts.
-  StackedPoints minimum() {
+  StackedPoints minimum(Convergence convergence = Convergence::kUsual) {
     for (PathSample& sample : samples_) {
       if (sample.contacts.empty()) continue;
       probe_.update_rows(sample, sample.at(variables_), may_turn_, minimum_.wanted_m());
     }
-    return minimum_.find(variables_, samples_);
+    return minimum_.find(variables_, samples_, convergence);
   }
 
   const double radius_m_;

@@ -140,7 +140,7 @@ TEST(LeastTurn, IsNoneWherePathsHaveAnOrientationThatFits) {
 /// a turn to the side whose cosine is the slit's width to its own is enough.
 TEST(LeastTurn, IsAboutTheLeastThatFits) {
   testing::Random random(kTurnSeed + 1);
-  for (const double width_m : {0.35, 0.36, 0.37}) {
+  for (const double width_m : {0.305, 0.35, 0.36, 0.37}) {
     SCOPED_TRACE(width_m);
     Slit slit(width_m, random.rotation());
     slit.interpolate(0.0, 0.0, 0.0);
