@@ -17,16 +17,24 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
+/// The unit point nearest to `near` that represents the orientation q. The quaternions q and -q are
+/// the same orientation, but the paths from q to them are a full turn apart.
+Vec4 nearest_image(const Vec4& reference, const Vec4& q, const Vec4& near) {
+  const Vec4 one = image_of(reference, q, near);
+  const Vec4 other = image_of(reference, -q, near);
+  return other.dot(near) > one.dot(near) ? other : one;
+}
+
 /// The image of `keyframe`, whose reference is `reference`; `before` is that of the one before.
 Vec4 image_at(const Keyframe& keyframe, const Vec4& reference, const Vec4& before) {
   const Vec4 q = geometry::wxyz(keyframe.pose.orientation);
   const double length = keyframe.image.norm();
-  if (!(length > 0.0)) return image_of(reference, q, before);
+  if (!(length > 0.0)) return nearest_image(reference, q, before);
   const Vec4 x = keyframe.image / length;
   const Vec4 shown = quaternion::multiply(reference, quaternion::multiply(x, x));
   const double apart = std::min((shown - q).norm(), (shown + q).norm());
   if (apart <= kImageAgreement) return keyframe.image;
-  return length * image_of(reference, q, x);
+  return length * nearest_image(reference, q, x);
 }
 
 /// Derivative of a Bézier curve over `duration_s` at its beginning.
