@@ -12,6 +12,7 @@
 #include "daemon/scene/cache/scene_cache.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/camway/common/commands.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -56,8 +57,7 @@ void print_json(const SceneCache& cache, const std::vector<CachedScene>& scenes)
                               {"same_build", scene.is_of_this_build},
                               {"key", scene.key}});
   }
-  // A file's name may be no UTF-8.
-  fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 void print_text(const SceneCache& cache, const std::vector<CachedScene>& scenes) {

@@ -25,6 +25,7 @@
 #include "tools/drawing/storeys.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
+#include "tools/json/json_text.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -107,7 +108,7 @@ ExitCode draw_scene_alone(const DrawFlags& flags) {
   const scene::SnapshotResult loaded = load_drawn(flags, flags.scene.file, {});
   if (!loaded.snapshot) return invalid(loaded.error);
   draw::ScenePlan plan;
-  plan.title = std::filesystem::path(flags.scene.file).filename().string();
+  plan.title = as_utf8(std::filesystem::path(flags.scene.file).filename().string());
   plan.mesh = *loaded.snapshot->mesh.share();
   std::tie(plan.up, plan.remark) = vertical_of_scene(flags, plan.mesh);
   return drawn(draw::draw_scene_plan(plan, files_of(flags)));
@@ -155,7 +156,7 @@ ExitCode draw_response(const DrawFlags& flags) {
     return drawn(write_review(snapshot, flags.request, flags.response, flags.picture));
   }
   draw::FloorPlan plan = draw::plan_of_answer(*request, *response, *snapshot.mesh.share());
-  plan.title = std::filesystem::path(flags.response).stem().string();
+  plan.title = as_utf8(std::filesystem::path(flags.response).stem().string());
   plan.up = vertical_of_response(flags, *response, *request, reading, plan.mesh);
   return drawn(flags.is_side_by_side ? draw::draw_side_by_side(plan, files_of(flags))
                                      : draw::draw_floor_plan(plan, files_of(flags)));

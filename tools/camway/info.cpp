@@ -15,6 +15,7 @@
 #include "daemon/scene/import/import_warnings.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -122,7 +123,7 @@ void print_json(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
   json["distance_field"] = field_json(snapshot);
   if (snapshot.occupancy) json["occupancy"] = occupancy_json(snapshot.occupancy->statistics());
   json["load_ms"] = load_ms;
-  fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }

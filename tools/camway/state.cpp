@@ -13,6 +13,7 @@
 #include "daemon/scene/log/change_record.h"
 #include "daemon/scene/log/sqlite/sqlite_log.h"
 #include "tools/camway/common/commands.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -69,7 +70,7 @@ void print_json(const std::vector<KeptScene>& scenes) {
                     {"revisions_kept", kept.revisions},
                     {"objects", std::move(objects)}});
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 void print_text(const std::vector<KeptScene>& scenes) {

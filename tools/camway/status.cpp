@@ -23,6 +23,7 @@
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/plan/plan_summary.h"
 #include "tools/camway/scene/scene_text.h"
+#include "tools/json/json_text.h"
 #include "tools/view/daemon/status_json.h"
 
 namespace camway::tools {
@@ -206,8 +207,7 @@ void print(const StatusFlags& flags, const DaemonStatus& status,
            const std::optional<DaemonStatus>& before) {
   if (flags.json) {
     // One line for each status, so that a reader finds its end.
-    fmt::print("{}\n", status_json(status).dump(flags.watch ? -1 : 2, ' ', false,
-                                                OrderedJson::error_handler_t::replace));
+    fmt::print("{}\n", json_text(status_json(status), flags.watch ? -1 : 2));
   } else if (flags.watch) {
     print_line(status, before);
   } else {

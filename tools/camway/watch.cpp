@@ -29,6 +29,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_request.h"
+#include "tools/json/json_text.h"
 #include "tools/support/client_request.h"
 #include "tools/support/watch_event_name.h"
 
@@ -131,7 +132,7 @@ OrderedJson json_of(const WatchEvent& event) {
 
 void print(const WatchEvent& event, bool as_json) {
   if (as_json) {
-    fmt::print("{}\n", json_of(event).dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json_of(event)));
   } else {
     fmt::print("{:%H:%M:%S} {:<7} {}\n", fmt::localtime(std::time(nullptr)), name_of(event.kind),
                text_of(event));

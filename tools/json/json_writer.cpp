@@ -17,6 +17,7 @@
 #include "tools/json/json_angle.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -115,9 +116,7 @@ class JsonWriter {
     out_ += text;
     if (text.find_first_of(".e") == std::string_view::npos) out_ += ".0";
   }
-  void value(std::string_view text) {
-    out_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  }
+  void value(std::string_view text) { out_ += json_text(nlohmann::json(text)); }
   void value(const geometry::Bounds& bounds) {
     const geometry::Limits limits = geometry::limits_of(bounds);
     const auto write = [&](FileName name, const auto& corner) { (*this)(name, corner); };

@@ -250,5 +250,41 @@ TEST_F(CliCameras, AskForTheFieldOfView) {
   EXPECT_THAT(run.err, HasSubstr("states no field of view: give --fov-y-deg"));
 }
 
+// Names in Latin-1, of old disks and of COLMAP's lists.
+TEST_F(CliCameras, TakeNamesThatAreNoUtf8) {
+  write_flight(0.0);
+  ASSERT_EQ(import_flight().exit_code, 0);
+  ASSERT_EQ(run_camway(
+                {"plan", "--request", folder_.file("r.json"), "--response", folder_.file("o.json")})
+                .exit_code,
+            0);
+  for (const char* const format :
+       {"gltf", "blender", "mcap", "chan", "nerfstudio", "transforms", "colmap"}) {
+    const CliRun run = export_path(format, {"--name", "Schlo\xdf"});
+    EXPECT_EQ(run.exit_code, 0) << format << ": " << run.err;
+  }
+  const std::string flight = folder_.write("Schlo\xdf.csv", read_all(folder_.file("flight.csv")));
+  const std::vector<std::string> import = {
+      "import",      flight, "--request",   folder_.file("s.json"),
+      "--fov-x-deg", "60",   "--fov-y-deg", "40"};
+  EXPECT_EQ(run_camway(import).exit_code, 0);
+  EXPECT_EQ(run_camway({"plan", "--request", folder_.file("s.json"), "--scene",
+                        folder_.file("wall.obj"), "--response", folder_.file("Schlo\xdf.json")})
+                .exit_code,
+            0);
+  EXPECT_EQ(
+      run_camway({"draw", "--request", folder_.file("s.json"), "--scene", folder_.file("wall.obj"),
+                  "--response", folder_.file("Schlo\xdf.json"), "--picture", folder_.file("s.svg")})
+          .exit_code,
+      0);
+  // A request could not name this scene.
+  const std::string scene = folder_.write("Schlo\xdf.obj", read_all(folder_.file("wall.obj")));
+  std::vector<std::string> with_scene = import;
+  with_scene.insert(with_scene.end(), {"--scene", scene});
+  const CliRun run = run_camway(with_scene);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is a name that is not UTF-8"));
+}
+
 }  // namespace
 }  // namespace camway::tools

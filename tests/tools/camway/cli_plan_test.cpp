@@ -491,14 +491,6 @@ TEST_F(CliPlan, PlansASetWithATable) {
   EXPECT_THAT(first, Not(HasSubstr("timing_ms")));
 }
 
-TEST_F(CliPlan, DoesNotOverwriteARequestWithItsResponse) {
-  const std::string before = read_all(free_);
-  const CliRun run = run_camway({"plan", "--request", free_, "--response-dir", folder_.file("")});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("would overwrite the request"));
-  EXPECT_EQ(read_all(free_), before);
-}
-
 TEST_F(CliPlan, SaysWhatAFlagMustBeInWords) {
   const std::pair<std::vector<std::string>, const char*> kCases[] = {
       {{"--up", "zup"}, "--up: must be one of as-in-file, z-to-y, y-to-z, not 'zup'"},

@@ -15,6 +15,7 @@
 #include "daemon/scene/import/readers/decimal.h"
 #include "tools/cameras/files/text_rows.h"
 #include "tools/json/json_document.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -83,9 +84,7 @@ main()
 )";
 
 /// A text as Python and JSON both write it.
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string quoted(const std::string& text) { return json_text(nlohmann::json(text)); }
 
 std::string markers_text(const std::vector<CorrectedStretch>& corrections) {
   std::string text = "\n# Where corrections changed the path, in seconds.\nMARKERS = [\n";

@@ -2,6 +2,7 @@
 #include "tools/cameras/formats/foxglove.h"
 
 #include "tools/cameras/formats/camera_format.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools::foxglove {
 namespace {
@@ -88,12 +89,11 @@ Json timestamp(std::uint64_t time_ns) {
 
 std::string transform_message(const motion::Pose& pose_W, std::uint64_t time_ns,
                               const std::string& frame) {
-  return Json{{"timestamp", timestamp(time_ns)},
-              {"parent_frame_id", kWorldFrame},
-              {"child_frame_id", frame},
-              {"translation", vector_json(pose_W.position)},
-              {"rotation", rotation_json(pose_W)}}
-      .dump();
+  return json_text(Json{{"timestamp", timestamp(time_ns)},
+                        {"parent_frame_id", kWorldFrame},
+                        {"child_frame_id", frame},
+                        {"translation", vector_json(pose_W.position)},
+                        {"rotation", rotation_json(pose_W)}});
 }
 
 std::string poses_message(const std::vector<motion::Pose>& poses_W, std::uint64_t time_ns) {
@@ -109,11 +109,10 @@ std::string poses_message(const std::vector<motion::Pose>& poses_W, std::uint64_
 
 std::string log_message(LogLevel level, const std::string& sentence, const std::string& name,
                         std::uint64_t time_ns) {
-  return Json{{"timestamp", timestamp(time_ns)},
-              {"level", static_cast<int>(level)},
-              {"message", sentence},
-              {"name", name}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(Json{{"timestamp", timestamp(time_ns)},
+                        {"level", static_cast<int>(level)},
+                        {"message", sentence},
+                        {"name", name}});
 }
 
 }  // namespace camway::tools::foxglove

@@ -10,6 +10,7 @@
 #include "daemon/base/base64.h"
 #include "tools/cameras/files/glb_file.h"
 #include "tools/cameras/formats/gltf_formats.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -130,9 +131,9 @@ base::Result<std::string> write_gltf(const CameraTrack& track, const CameraWrite
   if (options.is_text) {
     document["buffers"][0]["uri"] =
         "data:application/octet-stream;base64," + base::encode_base64(buffer.bytes());
-    return document.dump() + "\n";
+    return json_text(document) + "\n";
   }
-  return glb_file(document.dump(), buffer.bytes());
+  return glb_file(json_text(document), buffer.bytes());
 }
 
 }  // namespace camway::tools

@@ -10,6 +10,7 @@
 #include "tools/cameras/files/text_rows.h"
 #include "tools/cameras/formats/foxglove.h"
 #include "tools/cameras/formats/mcap_formats.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -31,16 +32,15 @@ std::string calibration_message(const CameraWriteOptions& options, std::uint64_t
   const double focal_y = 0.5 * height / std::tan(0.5 * options.fov_y_rad);
   const double x = 0.5 * width;
   const double y = 0.5 * height;
-  return foxglove::Json{{"timestamp", foxglove::timestamp(time_ns)},
-                        {"frame_id", options.name},
-                        {"width", options.width_px},
-                        {"height", height_px(options)},
-                        {"distortion_model", ""},
-                        {"D", foxglove::Json::array()},
-                        {"K", {focal_x, 0, x, 0, focal_y, y, 0, 0, 1}},
-                        {"R", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
-                        {"P", {focal_x, 0, x, 0, 0, focal_y, y, 0, 0, 0, 1, 0}}}
-      .dump();
+  return json_text(foxglove::Json{{"timestamp", foxglove::timestamp(time_ns)},
+                                  {"frame_id", options.name},
+                                  {"width", options.width_px},
+                                  {"height", height_px(options)},
+                                  {"distortion_model", ""},
+                                  {"D", foxglove::Json::array()},
+                                  {"K", {focal_x, 0, x, 0, focal_y, y, 0, 0, 1}},
+                                  {"R", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+                                  {"P", {focal_x, 0, x, 0, 0, focal_y, y, 0, 0, 0, 1, 0}}});
 }
 
 enum ChannelIndex : std::size_t { kTransform, kCalibration, kPath, kKeyframes };

@@ -13,6 +13,7 @@
 
 #include "tools/cameras/files/rotation_matrix.h"
 #include "tools/json/json_document.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -179,10 +180,9 @@ base::Result<std::string> write_nerfstudio(const CameraTrack& track,
     const double since_s = key.time_s - track.keys.front().time_s;
     const double whole_s = track.keys.back().time_s - track.keys.front().time_s;
     const double share = whole_s > 0.0 ? since_s / whole_s : 0.0;
-    const std::string properties = OrderedJson::array({OrderedJson::array({"FOV", fov_deg}),
-                                                       OrderedJson::array({"NAME", options.name}),
-                                                       OrderedJson::array({"TIME", share})})
-                                       .dump();
+    const std::string properties = json_text(OrderedJson::array(
+        {OrderedJson::array({"FOV", fov_deg}), OrderedJson::array({"NAME", options.name}),
+         OrderedJson::array({"TIME", share})}));
     keyframes.push_back(
         {{"matrix", matrix}, {"fov", fov_deg}, {"aspect", aspect}, {"properties", properties}});
     path.push_back(
@@ -197,7 +197,7 @@ base::Result<std::string> write_nerfstudio(const CameraTrack& track,
   json["is_cycle"] = false;
   json["keyframes"] = std::move(keyframes);
   json["camera_path"] = std::move(path);
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 base::Result<CameraTrack> read_transforms(const CameraFile& file,
@@ -248,7 +248,7 @@ base::Result<std::string> write_transforms(const CameraTrack& track,
   json["w"] = options.width_px;
   json["h"] = height;
   json["frames"] = std::move(frames);
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace camway::tools

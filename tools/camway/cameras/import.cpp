@@ -23,6 +23,7 @@
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
 #include "tools/json/json_request.h"
+#include "tools/json/json_text.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -236,6 +237,16 @@ ExitCode run_import(const ImportFlags& flags) {
   if (!flags.scene.empty() && !fs::exists(flags.scene, error_code)) {
     return refuse_file("--scene: " + flags.scene + " does not exist");
   }
+  if (flags.request != "-") {
+    std::vector<std::string> inputs = {flags.file, flags.scene, flags.body, flags.times};
+    inputs.insert(inputs.end(), flags.log.types.begin(), flags.log.types.end());
+    const std::string fault = why_no_output(flags.request, inputs);
+    if (!fault.empty()) return refuse_file(fault);
+  }
+  if (const std::string name = scene_in_request(flags); as_utf8(name) != name) {
+    return refuse_file("--scene: " + name +
+                       " is a name that is not UTF-8, which no request can hold");
+  }
   const CameraFormat* format = nullptr;
   base::Result<CameraTrack> track = read_track(flags, format);
   if (!track) return refuse_file(track.error);
@@ -247,11 +258,11 @@ ExitCode run_import(const ImportFlags& flags) {
   const bool counts_poses = flags.all || flags.every.has_value();
   const CameraTrack compared = counts_poses ? *track : with_frames_between(*track);
   const ThinnedTrack kept = choose_keyframes(flags, compared);
-  const std::string text =
-      request_json(compared, kept, *body, {scene_in_request(flags), flags.scale, flags.up},
-                   remark_of(flags, *format, *track))
-          .dump(2) +
-      "\n";
+  const std::string text = json_text(request_json(compared, kept, *body,
+                                                  {scene_in_request(flags), flags.scale, flags.up},
+                                                  remark_of(flags, *format, *track)),
+                                     2) +
+                           "\n";
   if (const auto request = parse_as<RequestFile>(text, flags.request); !request) {
     return refuse_file(request.error);
   }

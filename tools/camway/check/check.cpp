@@ -12,6 +12,7 @@
 #include "tools/camway/common/scene_flags.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -70,7 +71,8 @@ ExitCode run_check(const CheckFlags& flags) {
     print_error(fmt::format("{}: {} before the whole path was searched", input.response_file,
                             planning::deadline_reached(input.request)));
   }
-  fmt::print("{}", flags.json ? check_json(input, found).dump(2) + "\n" : check_text(input, found));
+  fmt::print("{}",
+             flags.json ? json_text(check_json(input, found), 2) + "\n" : check_text(input, found));
   return found.certificate.certified ? ExitCode::kSuccess : ExitCode::kNegative;
 }
 

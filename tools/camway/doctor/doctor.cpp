@@ -16,6 +16,7 @@
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/key_file.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -45,7 +46,7 @@ void print_json(const std::vector<Finding>& findings, std::ptrdiff_t problems) {
                     {"mend", finding.mend}});
   }
   const OrderedJson json{{"problems", problems}, {"findings", std::move(list)}};
-  fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 ExitCode run_doctor(DoctorFlags flags) {

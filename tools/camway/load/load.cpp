@@ -21,6 +21,7 @@
 #include "tools/camway/load/load_occupancy.h"
 #include "tools/camway/load/load_run.h"
 #include "tools/json/json_request.h"
+#include "tools/json/json_text.h"
 #include "tools/support/client_request.h"
 #include "tools/support/output_file.h"
 
@@ -226,7 +227,7 @@ ExitCode run_command(LoadFlags flags) {
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {
     const std::string error =
-        write_file(flags.json_file, result_json(flags, result).dump(2) + "\n");
+        write_file(flags.json_file, json_text(result_json(flags, result), 2) + "\n");
     if (!error.empty()) return invalid_input(error);
   }
   return outcome_of(flags, result);

@@ -84,7 +84,10 @@ ExitCode run_occupancy(const OccupancyFlags& flags) {
   } else if (error.empty() && !flags.scene.file.empty() && !flags.resolution_m) {
     error = "--scene needs --resolution, the edge of a voxel in metres";
   }
-  if (error.empty() && !flags.map_file.empty()) error = why_unwritable(flags.map_file);
+  if (error.empty() && !flags.map_file.empty()) {
+    error = why_no_output(flags.map_file, {flags.scene.file});
+    if (error.empty()) error = why_unwritable(flags.map_file);
+  }
   if (!error.empty()) {
     print_error(error);
     return ExitCode::kInvalidInput;

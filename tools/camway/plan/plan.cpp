@@ -173,8 +173,12 @@ void print_summary(const std::string& request, const Answer& answer) {
 }
 
 /// Returns why a response could not be written to `file`, or to standard output if it is empty.
-std::string why_unwritable_response(const std::string& file) {
-  if (!file.empty()) return why_unwritable(file);
+std::string why_unwritable_response(const std::string& file,
+                                    const std::vector<std::string>& inputs) {
+  if (!file.empty()) {
+    std::string fault = why_no_output(file, inputs);
+    return fault.empty() ? why_unwritable(file) : fault;
+  }
   const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
   const bool is_open = flags != -1 && (flags & O_ACCMODE) != O_RDONLY;
   return is_open ? "" : "standard output cannot be written";
@@ -182,12 +186,19 @@ std::string why_unwritable_response(const std::string& file) {
 
 ExitCode plan_one(const PlanFlags& flags, Planners& planners) {
   const std::string& file = flags.requests.front();
-  if (const std::string fault = why_unwritable_response(flags.response); !fault.empty()) {
+  std::string fault = why_unwritable_response(flags.response, {file, flags.scene.file});
+  if (!fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
   }
   const Answer answer = answer_request(flags, file, planners);
   if (answer.no_result) return *answer.no_result;
+  // The scene that the request names.
+  fault = why_no_output(flags.response, {answer.scene});
+  if (!fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   print_warnings(answer.scene, answer.scene_warnings);
   print_warnings(source_of(file), answer.request_warnings);
   print_summary(source_of(file), answer);
@@ -207,11 +218,7 @@ base::Result<std::vector<std::string>> response_files(const PlanFlags& flags) {
     const std::string file = (flags.response_dir / name).string();
     if (!taken.insert(file).second)
       return base::Failure{file + ": is the response file of two requests"};
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, request, ignored)) {
-      return base::Failure{file + ": the response would overwrite the request"};
-    }
-    if (std::string fault = why_unwritable(file); !fault.empty())
+    if (std::string fault = why_unwritable_response(file, flags.requests); !fault.empty())
       return base::Failure{std::move(fault)};
     files.push_back(file);
   }

@@ -6,6 +6,7 @@
 
 #include "tools/camway/replay/compare/report.h"
 #include "tools/json/json_angle.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -87,7 +88,7 @@ std::string json_report(const ReportHead& head, const std::vector<ComparedReques
                     {"counts", std::move(counts)},
                     {"notes", all_notes(head, compared)},
                     {"requests", std::move(requests)}};
-  return report.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(report, 1) + '\n';
 }
 
 }  // namespace camway::tools

@@ -14,6 +14,7 @@
 #include "tools/cameras/formats/foxglove.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/camway/session/report/answer_columns.h"
+#include "tools/json/json_text.h"
 
 namespace camway::tools {
 namespace {
@@ -91,7 +92,7 @@ std::string columns_message(const RecordedRequest& request, std::uint64_t at_ns)
   for (AnswerColumn& column : answer_columns(request)) {
     json[std::string(column.name)] = std::move(column.value);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 void add_answer(const RecordedRequest& request, std::uint64_t at_ns,
