@@ -127,6 +127,23 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   EXPECT_THAT(planned(*house_of(house()), request).message, Not(HasSubstr("beyond the bounds")));
 }
 
+// A way within the bounds that needs a keyframe too many is no reason to look beyond them.
+TEST(PlanWithinBounds, SaysNothingOfThemWhereTheLimitOfKeyframesIsTheReason) {
+  const auto snapshot = house_of(house());
+  PlanRequest request = across_the_wall();
+  request.options.bounds = inside_the_house();
+  const PlanResult within = planned(*snapshot, request);
+  ASSERT_EQ(within.status, Status::kOk) << within.message;
+  const auto inserted =
+      static_cast<std::int32_t>(within.keyframes.size() - request.keyframes.size());
+  ASSERT_GT(inserted, 1);
+  request.options.max_inserted_keyframes = inserted - 1;
+  const PlanResult refused = planned(*snapshot, request);
+  EXPECT_EQ(refused.status, Status::kPartial);
+  EXPECT_THAT(refused.message, HasSubstr("the corrections that were found need"));
+  EXPECT_THAT(refused.message, Not(HasSubstr("beyond the bounds")));
+}
+
 // A room without a door: bounds do not change the proof.
 TEST(PlanWithinBounds, LeavesProofsOfInfeasibilityAsTheyAre) {
   scene::Mesh mesh;

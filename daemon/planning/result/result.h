@@ -147,6 +147,9 @@ struct PlanResult {
   /// Whether the deadline left anything undone, whatever the status. Then, and only then, the next
   /// answer to the same request may differ.
   bool deadline_reached = false;
+  /// Whether corrections were found that need more keyframes than the request allows. On the wire
+  /// only a part of `message`.
+  bool needs_more_keyframes = false;
   Timing timing;
 };
 

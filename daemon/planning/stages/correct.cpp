@@ -92,6 +92,7 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision
   plan.needed_keyframes = corrected.needed_keyframes;
   plan.is_polished = corrected.is_polished;
   plan.closeness = corrected.closeness;
+  result.needs_more_keyframes = corrected.needed_keyframes.has_value();
   result.shut_in = std::move(corrected.shut_in);
   // A search that the deadline ended says nothing about the place that it began in.
   if (plan.timed_out) {

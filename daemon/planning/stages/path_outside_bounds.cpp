@@ -47,6 +47,8 @@ Excess largest_excess(const motion::Path& path, const motion::Body& body,
 bool may_have_path_outside_bounds(const PlanRequest& request, const PlanResult& result) {
   if (request.options.method != Method::kLadder || request.options.max_inserted_keyframes == 0)
     return false;
+  // A way within the bounds was found, and refused for its keyframes.
+  if (result.needs_more_keyframes) return false;
   const bool is_open = result.status == Status::kPartial || result.status == Status::kTimeout;
   return result.bounds.any() && is_open && !result.remaining_collisions.empty();
 }
