@@ -162,5 +162,25 @@ TEST(PlanOrientation, EveryRuleHoldsOnWhateverIsReturned) {
   }
 }
 
+TEST(PlanOrientation, TakesATurnThatNobodySeesForNone) {
+  RandomRequests requests(78);
+  int corrected = 0;
+  for (int i = 0; i < 10; ++i) {
+    const auto scene = requests.scene();
+    PlanRequest request = requests.request(OrientationRule::kFree);
+    request.options.orientation.max_turn_rad = 0.0;
+    const PlanResult none = plan(*scene, request);
+    request.options.orientation.max_turn_rad = 1e-9 * kDegree;
+    const PlanResult hardly = plan(*scene, request);
+    EXPECT_EQ(hardly.message, none.message);
+    ASSERT_EQ(hardly.keyframes.size(), none.keyframes.size());
+    for (std::size_t k = 0; k < none.keyframes.size(); ++k) {
+      EXPECT_EQ(hardly.keyframes[k].pose.position, none.keyframes[k].pose.position);
+    }
+    corrected += none.status == Status::kOk && !none.corrections.empty() ? 1 : 0;
+  }
+  EXPECT_GE(corrected, 3);
+}
+
 }  // namespace
 }  // namespace camway::planning

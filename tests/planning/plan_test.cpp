@@ -406,8 +406,10 @@ TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {
               ::testing::Not(::testing::HasSubstr("does not look at")));
   request.options.orientation.rule = correction::OrientationRule::kKeep;
   request.options.objective = correction::Objective::kSafest;
+  request.options.viewing_distance_m = 2.0;
   EXPECT_THAT(planned(*column_scene(), request).message,
-              ::testing::HasSubstr("does not look at options.objective, options.orientation"));
+              ::testing::HasSubstr("does not look at options.objective, options.orientation, "
+                                   "options.viewing_distance_m"));
 }
 
 // The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide and may not turn.

@@ -24,7 +24,7 @@ correction::LadderOptions ladder_options(const PlanRequest& request, const Prepa
   options.seed = request.options.seed;
   options.viewing_distance_m = request.options.viewing_distance_m.value_or(0.0);
   options.objective = request.options.objective;
-  options.orientation = request.options.orientation;
+  options.orientation = correction::without_unseen_turns(request.options.orientation);
   options.max_shrink = may_shrink(request) ? request.options.max_shrink : 0.0;
   options.rest_s_per_piece = kSearching_s_per_piece + rest_s_per_piece(request.options);
   return options;

@@ -72,7 +72,8 @@ SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request
   const motion::CubicPath path = cubic_path(prepared, corrected, result.keyframes);
   // The policy restricts the ladder's corrections only.
   const correction::OrientationPolicy policy =
-      corrected.path ? request.options.orientation : correction::OrientationPolicy{};
+      corrected.path ? correction::without_unseen_turns(request.options.orientation)
+                     : correction::OrientationPolicy{};
   const std::vector<double> times_s = given_times_s(result.keyframes);
   const bool is_free = result.certificate.certified;
   const TooFast too_fast{path,  prepared.interpolated, limits,  policy,

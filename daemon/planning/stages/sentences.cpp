@@ -130,6 +130,7 @@ std::string note_of_method(const PlanRequest& request) {
   if (request.options.objective != usual.objective) add_name("options.objective");
   if (!(request.options.orientation == usual.orientation)) add_name("options.orientation");
   if (request.options.seed != usual.seed) add_name("options.seed");
+  if (request.options.viewing_distance_m) add_name("options.viewing_distance_m");
   std::string note;
   if (!unused.empty()) note = "; note: keyframe_insertion does not look at " + unused;
   if (request.options.bounds.any())

@@ -2,10 +2,10 @@
 #include "daemon/planning/stages/shrink.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -123,10 +123,10 @@ class Shrinking {
 
   void add_refusal(PlanResult& full) {
     std::ranges::sort(tried_, std::ranges::greater());
-    std::string list;
-    for (const double scale : tried_) {
-      fmt::format_to(std::back_inserter(list), "{}{:.2g}", list.empty() ? "" : ", ", scale);
-    }
+    std::vector<std::string> scales;
+    for (const double scale : tried_) scales.push_back(fmt::format("{:.2g}", scale));
+    scales.erase(std::ranges::unique(scales).begin(), scales.end());
+    const std::string list = fmt::format("{}", fmt::join(scales, ", "));
     full.message += tried_.empty()
                         ? "; the deadline left no time to make the near distance smaller"
                         : "; nor was there a free path with the near distance times " + list;

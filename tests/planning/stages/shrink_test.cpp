@@ -15,6 +15,7 @@ namespace camway::planning {
 namespace {
 
 using base::Deadline;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -95,6 +96,8 @@ TEST(PlanWithShrinking, TriesThemAllIfNotEvenTheSmallestFits) {
               HasSubstr("this is how it ended; nor was there a free path with the near distance "
                         "times 0.85, 0.72, 0.61, 0.52, 0.5"));
   EXPECT_THAT(none.result.message, Not(HasSubstr("deadline")));
+  // The last step of 0.85 and the limit of the request are nearly the same.
+  EXPECT_THAT(planned(0.9, [](double) { return false; }).result.message, EndsWith("0.12, 0.1"));
 }
 
 TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {

@@ -250,6 +250,25 @@ TEST_F(CliCameras, AskForTheFieldOfView) {
   EXPECT_THAT(run.err, HasSubstr("states no field of view: give --fov-y-deg"));
 }
 
+TEST_F(CliCameras, RefuseFlagsThatTheirFormatHasNoUseFor) {
+  write_flight(0.0);
+  ASSERT_EQ(import_flight().exit_code, 0);
+  ASSERT_EQ(run_camway(
+                {"plan", "--request", folder_.file("r.json"), "--response", folder_.file("o.json")})
+                .exit_code,
+            0);
+  const auto message = [&](const std::string& format, const std::vector<std::string>& flags) {
+    const CliRun run = export_path(format, flags);
+    EXPECT_EQ(run.exit_code, 2) << format;
+    return run.err;
+  };
+  EXPECT_THAT(message("csv", {"--width", "100"}), HasSubstr("--width: csv has no size"));
+  EXPECT_THAT(message("tum", {"--height", "100"}), HasSubstr("--height: tum has no size"));
+  EXPECT_THAT(message("csv", {"--first-frame", "3"}), HasSubstr("--first-frame: csv does not"));
+  EXPECT_THAT(message("gltf", {"--within-m", "1"}),
+              HasSubstr("--within-m: counts only with --keys sparse"));
+}
+
 // Names in Latin-1, of old disks and of COLMAP's lists.
 TEST_F(CliCameras, TakeNamesThatAreNoUtf8) {
   write_flight(0.0);

@@ -115,6 +115,14 @@ std::string format_fault(const ExportChoices& choices, const CameraFormat& forma
   if (choices.axes && !traits.has_free_axes) {
     return fmt::format("--camera-axes: {} has axes of its own", format.name);
   }
+  if (choices.first_frame && !traits.counts_frames) {
+    return fmt::format("--first-frame: {} does not number frames; blender and chan do",
+                       format.name);
+  }
+  if ((choices.width_px || choices.height_px) && !traits.has_picture) {
+    return fmt::format("--{}: {} has no size of a picture", choices.width_px ? "width" : "height",
+                       format.name);
+  }
   return "";
 }
 

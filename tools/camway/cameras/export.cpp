@@ -74,6 +74,10 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
     return base::Failure{"--keys sparse: " + flags.format +
                          " has no curves between keys; gltf has"};
   }
+  if (flags.keys == KeyChoice::kDense && (flags.within_m || flags.within_deg)) {
+    return base::Failure{
+        fmt::format("--within-{}: counts only with --keys sparse", flags.within_m ? "m" : "deg")};
+  }
   base::Result<PathExport> path = path_export(*request, documents, format, flags.choices);
   if (!path) return base::Failure{path.error};
   path->options.is_text = fs::path(flags.out).extension() == ".gltf";
@@ -89,7 +93,7 @@ void print_mapping(const ExportFlags& flags, const ExportInput& input) {
                         input.is_fps_known ? "" : ", as none are known (--fps)")
           : fmt::format("{} poses without times, those of the keyframes (--fps: frames)",
                         keyframes_of(input.response).size());
-  if (flags.format == "chan" || flags.format == "blender") {
+  if (traits.counts_frames) {
     words += fmt::format(", from frame {:g}", input.options.facts.first_frame.value_or(1.0));
   }
   if (traits.has_free_axes) {
