@@ -162,6 +162,10 @@ TEST(PlanOrientation, EveryRuleHoldsOnWhateverIsReturned) {
   }
 }
 
+/// A limit that the roundings of orientations break: obeyed to the letter, it refuses every path.
+constexpr double kLessThanRoundings_rad = 1e-11;
+static_assert(kLessThanRoundings_rad < correction::kLeastTurn_rad);
+
 TEST(PlanOrientation, TakesATurnThatNobodySeesForNone) {
   RandomRequests requests(78);
   int corrected = 0;
@@ -170,7 +174,7 @@ TEST(PlanOrientation, TakesATurnThatNobodySeesForNone) {
     PlanRequest request = requests.request(OrientationRule::kFree);
     request.options.orientation.max_turn_rad = 0.0;
     const PlanResult none = plan(*scene, request);
-    request.options.orientation.max_turn_rad = 1e-9 * kDegree;
+    request.options.orientation.max_turn_rad = kLessThanRoundings_rad;
     const PlanResult hardly = plan(*scene, request);
     EXPECT_EQ(hardly.message, none.message);
     ASSERT_EQ(hardly.keyframes.size(), none.keyframes.size());

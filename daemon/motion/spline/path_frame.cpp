@@ -17,8 +17,9 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// The unit point nearest to `near` that represents the orientation q. The quaternions q and -q are
-/// the same orientation, but the paths from q to them are a full turn apart.
+/// The unit point nearest to `near` that represents the orientation q. The quaternion -q is the
+/// same orientation. Its points are at right angles to those of q: a path from one to the other
+/// turns the camera once around.
 Vec4 nearest_image(const Vec4& reference, const Vec4& q, const Vec4& near) {
   const Vec4 one = image_of(reference, q, near);
   const Vec4 other = image_of(reference, -q, near);

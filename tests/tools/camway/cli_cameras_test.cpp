@@ -49,6 +49,16 @@ class CliCameras : public ::testing::Test {
     return run_camway(arguments);
   }
 
+  /// A response to the request of a level flight, `o.json`, to export.
+  void plan_level_flight() {
+    write_flight(0.0);
+    ASSERT_EQ(import_flight().exit_code, 0);
+    ASSERT_EQ(run_camway({"plan", "--request", folder_.file("r.json"), "--response",
+                          folder_.file("o.json")})
+                  .exit_code,
+              0);
+  }
+
   CliRun export_path(const std::string& format, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"export",    folder_.file("o.json"),
                                           "--request", folder_.file("r.json"),
@@ -251,12 +261,7 @@ TEST_F(CliCameras, AskForTheFieldOfView) {
 }
 
 TEST_F(CliCameras, RefuseFlagsThatTheirFormatHasNoUseFor) {
-  write_flight(0.0);
-  ASSERT_EQ(import_flight().exit_code, 0);
-  ASSERT_EQ(run_camway(
-                {"plan", "--request", folder_.file("r.json"), "--response", folder_.file("o.json")})
-                .exit_code,
-            0);
+  plan_level_flight();
   const auto message = [&](const std::string& format, const std::vector<std::string>& flags) {
     const CliRun run = export_path(format, flags);
     EXPECT_EQ(run.exit_code, 2) << format;
@@ -271,12 +276,7 @@ TEST_F(CliCameras, RefuseFlagsThatTheirFormatHasNoUseFor) {
 
 // Names in Latin-1, of old disks and of COLMAP's lists.
 TEST_F(CliCameras, TakeNamesThatAreNoUtf8) {
-  write_flight(0.0);
-  ASSERT_EQ(import_flight().exit_code, 0);
-  ASSERT_EQ(run_camway(
-                {"plan", "--request", folder_.file("r.json"), "--response", folder_.file("o.json")})
-                .exit_code,
-            0);
+  plan_level_flight();
   for (const char* const format :
        {"gltf", "blender", "mcap", "chan", "nerfstudio", "transforms", "colmap"}) {
     const CliRun run = export_path(format, {"--name", "Schlo\xdf"});
