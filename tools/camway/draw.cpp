@@ -163,7 +163,8 @@ ExitCode draw_response(const DrawFlags& flags) {
 }
 
 ExitCode run_draw(const DrawFlags& flags) {
-  if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
+  const std::vector<std::string> inputs = {flags.scene.file, flags.request, flags.response};
+  if (const std::string fault = why_unwritable(flags.picture, inputs); !fault.empty()) {
     return invalid(fault);
   }
   if (is_page(flags.picture) && (flags.is_side_by_side || flags.vertical)) {

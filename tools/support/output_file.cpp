@@ -58,19 +58,15 @@ std::string write_file(const fs::path& file, std::string_view bytes) {
                                        : write_as_it_comes(file, bytes, /*to_disk=*/false));
 }
 
-std::string why_no_output(const std::string& file, const std::vector<std::string>& inputs) {
-  if (file == "-") return why_unwritable(file);
-  std::error_code ignored;
-  for (const std::string& input : inputs) {
-    if (fs::equivalent(file, input, ignored)) return file + ": is read, so it is not written";
-  }
-  return {};
-}
-
-std::string why_unwritable(const fs::path& file) {
+std::string why_unwritable(const fs::path& file, const std::vector<std::string>& inputs) {
   // Commands that write a file to standard output ask nothing here.
   if (file == "-") return "-: is no file, and standard output has other text; ./- is one";
   std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (fs::equivalent(file, input, ignored)) {
+      return file.string() + ": is read, so it is not written";
+    }
+  }
   if (fs::is_directory(file, ignored)) return fault(file, EISDIR);
   if (!is_ordinary(file)) {
     // Opening a pipe would wait for its reader. Writing to a dangling link makes its target.

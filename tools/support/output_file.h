@@ -13,14 +13,12 @@ namespace camway::tools {
 /// an error that names the file; empty on success.
 std::string write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// Returns why a name is none of an output file of a command that reads these files; empty if it
-/// is:
-/// "-", which commands that write other things to standard output do not take, and an input.
-std::string why_no_output(const std::string& file, const std::vector<std::string>& inputs);
-
-/// Returns why `write_file` could not write this file now; empty if it could; also where its name
-/// is "-", by which people mean standard output. A command asks this before long work. Makes and
+/// Returns why a command that reads `inputs` cannot write `file`; empty if it can. A command asks
+/// this before long work, and may ask again once it knows more of its inputs. Refused are a file
+/// that `write_file` could not write now, a file that is one of the inputs under any name, and "-",
+/// by which people mean standard output. Empty names among the inputs are skipped. Makes and
 /// removes the temporary file of `write_file`; does not touch the old file.
-std::string why_unwritable(const std::filesystem::path& file);
+std::string why_unwritable(const std::filesystem::path& file,
+                           const std::vector<std::string>& inputs);
 
 }  // namespace camway::tools

@@ -48,6 +48,7 @@ TEST_F(CliOutput, IsNoFileThatTheCommandReads) {
       {"o.json", {"export", response, "--request", request, "--format", "csv", "--out", response}},
       {"r.json", {"export", response, "--request", request, "--format", "csv", "--out", request}},
       {"wall.obj", {"export", response, "--request", request, "--format", "csv", "--out", scene}},
+      {"r.json", {"load", "--scene", "wall", "--request", request, "--json", request}},
   };
   for (const auto& [name, arguments] : commands) {
     SCOPED_TRACE(arguments.front() + " onto " + name);

@@ -81,14 +81,13 @@ TEST(OutputFile, SaysWhichFolderIsNotThere) {
               AllOf(HasSubstr("/nowhere/answer.json"), HasSubstr("No such file")));
 }
 
-TEST(OutputFile, StandardOutputAndInputsAreNone) {
+TEST(OutputFile, StandardOutputAndInputsAreNotWritten) {
   const camway::testing::TemporaryFolder folder;
   const std::string input = folder.write("input", "text");
-  EXPECT_NE(why_unwritable("-"), "");
-  EXPECT_NE(why_no_output("-", {}), "");
-  EXPECT_NE(why_no_output(input, {"", input}), "");
-  EXPECT_NE(why_no_output(folder.path() / "./input", {input}), "");
-  EXPECT_EQ(why_no_output(folder.path() / "output", {"", input}), "");
+  EXPECT_NE(why_unwritable("-", {}), "");
+  EXPECT_NE(why_unwritable(input, {"", input}), "");
+  EXPECT_NE(why_unwritable(folder.path() / "./input", {input}), "");
+  EXPECT_EQ(why_unwritable(folder.path() / "output", {"", input}), "");
 }
 
 TEST(OutputFile, ALinkStaysOne) {
@@ -104,16 +103,16 @@ TEST(OutputFile, ALinkStaysOne) {
 TEST(OutputFile, WhatCouldNotBeWrittenIsToldBeforeAndNothingIsLeft) {
   const camway::testing::TemporaryFolder folder;
   const fs::path file = folder.path() / "answer.json";
-  EXPECT_EQ(why_unwritable(file), "");
+  EXPECT_EQ(why_unwritable(file, {}), "");
   EXPECT_EQ(files_in(folder.path()), 0U);
   EXPECT_EQ(write_file(file, "before"), "");
-  EXPECT_EQ(why_unwritable(file), "");
+  EXPECT_EQ(why_unwritable(file, {}), "");
   EXPECT_EQ(content(file), "before");
   EXPECT_EQ(files_in(folder.path()), 1U);
-  EXPECT_EQ(why_unwritable("/dev/null"), "");
+  EXPECT_EQ(why_unwritable("/dev/null", {}), "");
   for (const fs::path& bad :
        {folder.path() / "no" / "answer.json", folder.path(), file / "answer.json"}) {
-    EXPECT_THAT(why_unwritable(bad),
+    EXPECT_THAT(why_unwritable(bad, {}),
                 AllOf(HasSubstr(bad.string()), HasSubstr("cannot be written")));
     EXPECT_NE(write_file(bad, "x"), "") << "both say so";
   }

@@ -290,14 +290,14 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
   }
 }
 
-/// Returns why the files of the path cannot be written where an input is; empty if they can.
+/// Returns why the files of the path cannot be written; empty if they can.
 std::string why_no_files(const ExportFlags& flags, const ExportInput& input) {
   const std::vector<std::string> inputs = {flags.response, flags.request,
                                            flags.scene.file_for(flags.request, input.request)};
-  std::string fault = why_no_output(flags.out, inputs);
+  std::string fault = why_unwritable(flags.out, inputs);
   if (!fault.empty() || input.format->companion == nullptr) return fault;
   const CompanionFile companion = input.format->companion(input.options);
-  return why_no_output(fs::path(flags.out).replace_filename(companion.name).string(), inputs);
+  return why_unwritable(fs::path(flags.out).replace_filename(companion.name), inputs);
 }
 
 ExitCode run_export(const ExportFlags& flags) {

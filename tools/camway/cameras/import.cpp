@@ -240,7 +240,7 @@ ExitCode run_import(const ImportFlags& flags) {
   if (flags.request != "-") {
     std::vector<std::string> inputs = {flags.file, flags.scene, flags.body, flags.times};
     inputs.insert(inputs.end(), flags.log.types.begin(), flags.log.types.end());
-    const std::string fault = why_no_output(flags.request, inputs);
+    const std::string fault = why_unwritable(flags.request, inputs);
     if (!fault.empty()) return refuse_file(fault);
   }
   if (const std::string name = scene_in_request(flags); as_utf8(name) != name) {

@@ -217,7 +217,7 @@ ExitCode run_command(LoadFlags flags) {
     return invalid_input("either --request or --occupancy says what is asked");
   }
   if (!flags.json_file.empty()) {
-    const std::string fault = why_unwritable(flags.json_file);
+    const std::string fault = why_unwritable(flags.json_file, flags.requests);
     if (!fault.empty()) return invalid_input(fault);
   }
   const LoadPlan plan = make_plan(flags);

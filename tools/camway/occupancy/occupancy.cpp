@@ -85,8 +85,7 @@ ExitCode run_occupancy(const OccupancyFlags& flags) {
     error = "--scene needs --resolution, the edge of a voxel in metres";
   }
   if (error.empty() && !flags.map_file.empty()) {
-    error = why_no_output(flags.map_file, {flags.scene.file});
-    if (error.empty()) error = why_unwritable(flags.map_file);
+    error = why_unwritable(flags.map_file, {flags.scene.file});
   }
   if (!error.empty()) {
     print_error(error);

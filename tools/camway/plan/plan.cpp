@@ -175,10 +175,7 @@ void print_summary(const std::string& request, const Answer& answer) {
 /// Returns why a response could not be written to `file`, or to standard output if it is empty.
 std::string why_unwritable_response(const std::string& file,
                                     const std::vector<std::string>& inputs) {
-  if (!file.empty()) {
-    std::string fault = why_no_output(file, inputs);
-    return fault.empty() ? why_unwritable(file) : fault;
-  }
+  if (!file.empty()) return why_unwritable(file, inputs);
   const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
   const bool is_open = flags != -1 && (flags & O_ACCMODE) != O_RDONLY;
   return is_open ? "" : "standard output cannot be written";
@@ -194,7 +191,7 @@ ExitCode plan_one(const PlanFlags& flags, Planners& planners) {
   const Answer answer = answer_request(flags, file, planners);
   if (answer.no_result) return *answer.no_result;
   // The scene that the request names.
-  fault = why_no_output(flags.response, {answer.scene});
+  fault = why_unwritable_response(flags.response, {answer.scene});
   if (!fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;

@@ -13,10 +13,7 @@ namespace camway::tools {
 std::string why_unwritable(const ReportFiles& files, const std::vector<std::string>& inputs) {
   for (const std::string& file : {files.json, files.html}) {
     if (file.empty()) continue;
-    if (std::string fault = why_no_output(file, inputs); !fault.empty()) return fault;
-    if (std::string fault = why_unwritable(std::filesystem::path(file)); !fault.empty()) {
-      return fault;
-    }
+    if (std::string fault = why_unwritable(file, inputs); !fault.empty()) return fault;
   }
   return {};
 }

@@ -17,7 +17,7 @@ std::string make_responses_dir(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return folder + ": cannot be made: " + error.message();
-  return why_unwritable(std::filesystem::path(folder) / "response.json");
+  return why_unwritable(std::filesystem::path(folder) / "response.json", {});
 }
 
 /// Writes the response to each request as a file. Returns an error text, empty on success. Client

@@ -340,7 +340,9 @@ bool looks_like_pack(const fs::path& file) {
 }
 
 std::string write_pack(const fs::path& pack, const std::vector<PackedFile>& files) {
-  if (std::string fault = why_unwritable(pack); !fault.empty()) return fault;
+  std::vector<std::string> inputs;
+  for (const PackedFile& file : files) inputs.push_back(file.file.string());
+  if (std::string fault = why_unwritable(pack, inputs); !fault.empty()) return fault;
   const base::Result<json> list = list_of(files);
   if (!list) return list.error;
   const fs::path unfinished = pack.string() + ".unfinished";

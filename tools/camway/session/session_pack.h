@@ -25,7 +25,8 @@ struct PackedFile {
 
 /// Packs files into one: a tar archive, compressed with zstd, whose first member `session.json`
 /// lists the others with their sizes and digests. Writes it completely or not at all. Returns an
-/// error, empty on success. Requires names that `is_pack_name` accepts, each once.
+/// error, also where the pack is one of the files; empty on success. Requires names that
+/// `is_pack_name` accepts, each once.
 std::string write_pack(const std::filesystem::path& pack, const std::vector<PackedFile>& files);
 
 /// Unpacks a file that anybody may have written into a new folder. Fails, with the name of the

@@ -125,6 +125,12 @@ TEST_F(SessionPack, GivesBackWhatItPacked) {
   EXPECT_THAT(unpack(pack_, folder_.file("out")), HasSubstr("is there already"));
 }
 
+TEST_F(SessionPack, IsNoneOfItsFiles) {
+  const std::string log = folder_.write("a.lcmlog", "a log");
+  EXPECT_THAT(write_pack(log, {{log, "a.lcmlog"}}), HasSubstr("is read, so it is not written"));
+  EXPECT_EQ(read_all(log), "a log");
+}
+
 TEST_F(SessionPack, RefusesNamesThatLeadElsewhere) {
   for (const std::string name :
        {"../a.lcmlog", "/tmp/a.lcmlog", "a/../../b.lcmlog", "x/a.lcmlog", ".hidden.lcmlog",

@@ -41,7 +41,7 @@ ExitCode run_session(const SessionFlags& flags) {
   const bool is_printed = flags.csv == "-";
   for (const std::string& file : {is_printed ? "" : flags.csv, flags.mcap}) {
     if (file.empty()) continue;
-    const std::string fault = why_no_output(file, {flags.log, flags.key_file});
+    const std::string fault = why_unwritable(file, {flags.log, flags.key_file});
     if (!fault.empty()) return refuse_session(fault);
   }
   // A pack is unpacked until the end of the command.
