@@ -63,6 +63,7 @@ bool is_same_break(const WatchEvent& a, const WatchEvent& b) {
 }  // namespace
 
 void WatchList::add(const PlanRequest& request, WatchHandler handler) {
+  if (is_closed_) return;
   const std::int64_t id = request.request_id;
   if (watched_.empty()) {
     stepped_at_ = heard_at_ = Clock::now();
@@ -81,6 +82,8 @@ void WatchList::add(const PlanRequest& request, WatchHandler handler) {
 }
 
 void WatchList::remove(std::int64_t request_id) {
+  // The handler that closed the client still runs, in one of the paths.
+  if (is_closed_) return;
   if (watched_.erase(request_id) == 0) return;
   to_acknowledge_.erase(request_id);
   if (watched_.empty()) renew_at_ = Clock::time_point::max();

@@ -56,7 +56,8 @@ class WatchList {
   /// Notes a sign of life of the daemon.
   void note_life(Clock::time_point now);
 
-  /// Ends all calls of handlers.
+  /// Ends all calls of handlers. Paths are neither added nor removed any more, so that a handler
+  /// may close the list from which it is called.
   void close() { is_closed_ = true; }
 
   /// Does everything that is due at `now`.

@@ -188,7 +188,7 @@ void move_times(const TimeMap& map, std::vector<ClearanceStretch>& profile) {
       moved.back().clearance_m = std::min(moved.back().clearance_m, profile[i + 1].clearance_m);
     }
   }
-  if (moved.empty()) moved.push_back({profile.front().t_begin_s, last_s, 0.0});
+  if (moved.empty()) moved.push_back({begin_s, last_s, 0.0});
   moved.back().t_end_s = last_s;
   profile = std::move(moved);
 }

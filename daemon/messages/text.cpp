@@ -5,6 +5,7 @@
 
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_response_t.hpp>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/planning/result/result.h"
@@ -21,7 +22,8 @@ std::string_view status_name(std::int32_t wire_status) {
   if (wire_status == plan_response_t::STATUS_LIMIT) return "limit";
   if (wire_status == plan_response_t::STATUS_OLD_SCENE) return "old_scene";
   if (wire_status == occupancy_response_t::STATUS_NO_MAP) return "no_map";
-  return "unknown status";
+  if (wire_status == scene_response_t::STATUS_STOPPING) return "stopping";
+  return kUnknownStatus;
 }
 
 std::string clipped(std::string_view text, std::size_t max_bytes) {

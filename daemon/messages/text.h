@@ -10,7 +10,11 @@
 /// Thread-safe.
 namespace camway::messages {
 
-/// Returns the name of a status of any answer, for logs: "ok", "partial", ..., "limit", "no_map".
+/// The name of a number that is no status.
+inline constexpr std::string_view kUnknownStatus = "unknown status";
+
+/// Returns the name of a status of any answer, for logs and metrics: "ok", "partial", ..., "limit",
+/// "no_map". Returns `kUnknownStatus` for other numbers.
 std::string_view status_name(std::int32_t wire_status);
 
 /// Returns `text` as a message may carry it: without NUL and at most `max_bytes` long, cut between

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "daemon/collision/detect.h"
+#include "daemon/correction/path/free_space.h"
+#include "daemon/correction/smoothing/objective_cost.h"
 #include "daemon/planning/stages/correct.h"
 #include "daemon/planning/stages/fixed_place.h"
 #include "daemon/planning/stages/meet_limits.h"
@@ -28,9 +30,6 @@ using collision::CollisionInterval;
 
 // Share of the remaining time for the search of the whole path; the rest is for its changes alone.
 constexpr double kShareOfWholeSearch = 0.7;
-
-// Clearance in sizes of the body beyond which `kSafest` looks for no more.
-constexpr double kComfortInSizes = 1.5;
 
 double colliding_s(const std::vector<CollisionInterval>& intervals) {
   double sum_s = 0.0;
@@ -187,8 +186,9 @@ class Planner {
   std::optional<FixedPlace> limit_of_safest() {
     const bool is_safest = request_.options.objective == correction::Objective::kSafest;
     if (!is_safest || !corrected_.path || !result_.certificate.certified || slowed_.law) return {};
-    const double comfort_m = kComfortInSizes * body_size_m(prepared_.body);
-    if (result_.certificate.clearance_lower_bound_m >= comfort_m) return {};
+    const double comfort_m = correction::kComfort * correction::FreeSpace(query_).ball_radius_m();
+    const double gap_m = result_.certificate.clearance_lower_bound_m - request_.options.clearance_m;
+    if (gap_m >= comfort_m) return {};
     std::optional<FixedPlace> place = limiting_place(query_, result_, deadline_);
     result_.timing.certify_ms += lap_ms();
     return place;

@@ -228,9 +228,14 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   }
   if (has_content(*object, read)) return true;
   const auto source = source_of(std::move(read), before->options);
-  const scene::StoreResult changed = store_.change(
-      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
-      {.operation = "put", .object = scene.name});
+  // Reading takes a while, in which clients may move the object or take it out.
+  const auto put = [&](const scene::Snapshot& newest) -> scene::MadeChange {
+    const scene::SceneObject* const now = newest.find(scene.name);
+    if (now == nullptr) return {{}, "a client has taken it out"};
+    return {scene::SceneChange{scene::SceneChange::Kind::kPut, scene.name, source, now->placement}};
+  };
+  const scene::StoreResult changed = store_.change(scene.name, scene::ChangeMaker(put),
+                                                   {.operation = "put", .object = scene.name});
   if (!changed.snapshot) {
     log_->warn(
         "scene cannot be changed, what was read before stays",

@@ -17,9 +17,9 @@ constexpr std::chrono::milliseconds kDrainLook{5};
 /// Time between two questions whether another daemon serves.
 constexpr std::chrono::milliseconds kAskPause{50};
 
-/// How long a stop waits for changes of scenes. They are lost with the daemon anyway, and a large
-/// one may take minutes.
-constexpr std::chrono::milliseconds kDrainChanges{500};
+/// How long a stop waits for workers that are still at cancelled changes of scenes, which may take
+/// minutes to notice.
+constexpr std::chrono::milliseconds kDrainCancelled{500};
 
 std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::ceil<std::chrono::milliseconds>(
@@ -73,7 +73,7 @@ RunOutcome Service::run() {
     const Clock::time_point now = Clock::now();
     if (now >= next_heartbeat_) heartbeat(now);
     if (now >= next_alive_) tell_alive(now);
-    turn(std::min(next_heartbeat_, next_alive_) - now);
+    run_round(std::min(next_heartbeat_, next_alive_) - now);
     if (claim_.rival()) return yield();
   }
   if (broken_) return RunOutcome::kTransportBroken;
@@ -139,7 +139,7 @@ bool Service::subscribe() {
 }
 
 // One round of the loop: sends finished answers and takes messages.
-void Service::turn(Clock::duration longest_wait) {
+void Service::run_round(Clock::duration longest_wait) {
   core_.mailbox.run_all();
   core_.expire_jobs();
   plans_.tick(Clock::now());
@@ -163,26 +163,26 @@ RunOutcome Service::drain() {
   for (const Job& job : waiting) job.abandon(Refusal::kStopping);
   scenes_.close();
   const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
-  const Clock::time_point changes_limit = Clock::now() + kDrainChanges;
-  std::size_t given_up = 0;
+  const Clock::time_point cancelled_limit = Clock::now() + kDrainCancelled;
+  std::size_t left = 0;
   while (!idle()) {
     const Clock::time_point now = Clock::now();
     if (now >= limit || broken_) {
-      core_.log->warn("stopped while planning", {{"being_planned", core_.workers.running()}});
+      core_.log->warn("stopped while planning", {{"being_planned", core_.workers.running()},
+                                                 {"changes_not_kept", scenes_.unfinished()}});
+      scenes_.give_up();
+      if (!broken_) run_round(Clock::duration::zero());
       return RunOutcome::kAbandoned;
     }
-    if (now >= changes_limit) {
-      given_up += scenes_.unfinished();
-      scenes_.give_up();
-    }
-    turn(std::min<Clock::duration>(limit - now, kDrainLook));
+    if (now >= cancelled_limit) left += scenes_.leave_cancelled();
+    run_round(std::min<Clock::duration>(limit - now, kDrainLook));
   }
   core_.limited_log.report_suppressed(Clock::now());
   core_.log->info("stopped", {{"answers", core_.counters.answered},
                               {"repeated", core_.counters.repeated},
                               {"malformed", core_.counters.malformed},
-                              {"changes_given_up", given_up}});
-  return given_up > 0 ? RunOutcome::kAbandoned : RunOutcome::kDrained;
+                              {"cancelled_changes_left", left}});
+  return left > 0 ? RunOutcome::kAbandoned : RunOutcome::kDrained;
 }
 
 bool Service::idle() const {

@@ -91,7 +91,7 @@ class Service {
   void ask_for_rivals();
   RunOutcome yield();
   bool subscribe();
-  void turn(Clock::duration longest_wait);
+  void run_round(Clock::duration longest_wait);
   RunOutcome drain();
   void heartbeat(Clock::time_point now);
   void tell_alive(Clock::time_point now);

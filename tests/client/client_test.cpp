@@ -393,8 +393,8 @@ TEST_F(ClientTest, MayBeDestroyedByItsOwnHandlers) {
     return encode_all(answer_pages(request, 1, 1));
   };
   daemon.start();
-  enum class By { kAnswer, kProgress, kWatch };
-  for (const By by : {By::kAnswer, By::kProgress, By::kWatch}) {
+  enum class By { kAnswer, kProgress, kWatch, kUnwatching };
+  for (const By by : {By::kAnswer, By::kProgress, By::kWatch, By::kUnwatching}) {
     auto client = std::make_unique<Client>(quick());
     std::atomic<int> ended = 0;
     std::promise<int> ended_when_destroyed;
@@ -418,6 +418,14 @@ TEST_F(ClientTest, MayBeDestroyedByItsOwnHandlers) {
       client->plan_async(small_request(), {{}, [&](const PlanResponse&) { destroy(); }});
     } else if (by == By::kWatch) {
       client->watch(small_request(), [&](const WatchEvent&) { destroy(); });
+    } else if (by == By::kUnwatching) {
+      client->watch(
+          small_request(), [&, captured = std::string(100, 'x')](const WatchEvent& event) {
+            if (!client) return;
+            client->unwatch(event.request_id);
+            destroy();
+            EXPECT_EQ(captured, std::string(100, 'x')) << "the handler outlives the client";
+          });
     }
     all_sent.set_value();
     EXPECT_EQ(ended_when_destroyed.get_future().get(), 3) << "no handler is called afterwards";

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <set>
+#include <string_view>
+
 #include <camway/plan_response_t.hpp>
 
 #include "daemon/planning/result/result.h"
@@ -15,6 +19,12 @@ TEST(MessageText, StatusesHaveTheNamesOfPlanningAndOfTheirOwn) {
     EXPECT_EQ(status_name(status), planning::to_string(static_cast<planning::Status>(status)));
   }
   EXPECT_EQ(status_name(plan_response_t::STATUS_OVERLOADED), "overloaded");
+  std::set<std::string_view> names;
+  for (std::int32_t status = 0; status <= plan_response_t::STATUS_OLD_SCENE; ++status) {
+    EXPECT_NE(status_name(status), kUnknownStatus) << status;
+    EXPECT_TRUE(names.insert(status_name(status)).second) << status_name(status);
+  }
+  EXPECT_EQ(status_name(plan_response_t::STATUS_OLD_SCENE + 1), kUnknownStatus);
 }
 
 TEST(MessageText, LongTextsAreCutBetweenCharacters) {

@@ -6,7 +6,12 @@
 namespace camway::view {
 
 WorkPool::WorkPool(int threads) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+  } catch (...) {
+    stop();  // the threads wait for it, and the destructor does not run
+    throw;
+  }
 }
 
 WorkPool::~WorkPool() { stop(); }

@@ -27,8 +27,8 @@ std::optional<bool> is_odd(const Vec3& origin, const scene::Mesh& mesh,
 }
 
 bool is_closed(const scene::Mesh& mesh, std::span<const std::uint32_t> triangles) {
-  using Edge = std::pair<Vec3, Vec3>;
-  std::vector<Edge> edges;
+  using MeshEdge = std::pair<Vec3, Vec3>;
+  std::vector<MeshEdge> edges;
   edges.reserve(3 * triangles.size());
   for (const std::uint32_t index : triangles) {
     const Triangle t = mesh.triangle(index);
@@ -36,10 +36,10 @@ bool is_closed(const scene::Mesh& mesh, std::span<const std::uint32_t> triangles
       const Vec3& a = t[k];
       const Vec3& b = t[(k + 1) % 3];
       // An edge of length zero is no edge: the triangle is its one or two others, which cancel.
-      if (a != b) edges.emplace_back(precedes(a, b) ? Edge(a, b) : Edge(b, a));
+      if (a != b) edges.emplace_back(precedes(a, b) ? MeshEdge(a, b) : MeshEdge(b, a));
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  std::sort(edges.begin(), edges.end(), [](const MeshEdge& a, const MeshEdge& b) {
     return a.first != b.first ? precedes(a.first, b.first) : precedes(a.second, b.second);
   });
   for (std::size_t i = 0; i < edges.size(); i += 2) {

@@ -176,12 +176,15 @@ bool NudgeSearch::leads_inside(const Nudge& nudge) const {
   geometry::Box box(outside_W);
   box.extend(nudged_W);
   const scene::SceneIndex& index = space_.obstacles().index;
-  bool is_inside = false;
+  // Each once, though a triangle may be in several leaves.
+  std::vector<std::uint32_t> hits;
   index.for_each_touching(box, [&](std::uint32_t triangle) {
-    if (geometry::hit_fraction(segment, index.triangle(triangle))) is_inside = !is_inside;
+    if (geometry::hit_fraction(segment, index.triangle(triangle))) hits.push_back(triangle);
     return true;
   });
-  return is_inside;
+  std::ranges::sort(hits);
+  const auto last = std::unique(hits.begin(), hits.end());
+  return (last - hits.begin()) % 2 == 1;
 }
 
 std::vector<Nudge> NudgeSearch::smallest() {

@@ -60,7 +60,7 @@ std::optional<Candidate> Rungs::way_instead_of(const Candidate& moved,
     return std::nullopt;
   }
   DetourResult round = go_round(problem, Search::kQuick, budget_, space_, seed_, {}, deadline());
-  for (const std::size_t i : group) collisions_[i].correction.tried += round.effort;
+  collisions_[group.front()].correction.tried += round.effort;
   if (!round.candidate || cost(group.front(), *round.candidate) >= moved_cost) return std::nullopt;
   return std::move(round.candidate);
 }
@@ -83,7 +83,7 @@ Rungs::Replaced Rungs::replace_leg(std::size_t index, Search search, const Proof
   const std::vector<std::size_t> same_leg = collisions_.open_in(collisions_[index].leg);
   DetourResult found =
       go_round(problem(same_leg), search, budget_, space_, seed_, proofs, deadline());
-  for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
+  collisions_[same_leg.front()].correction.tried += found.effort;
   if (found.candidate && cost(index, *found.candidate) > most_cost) {
     return {true, std::move(found.pocket)};
   }
@@ -111,7 +111,7 @@ std::optional<Candidate> Rungs::nudged(std::span<const std::size_t> group, Nudge
   std::vector<CollisionInterval> intervals;
   for (const std::size_t i : group) intervals.push_back(collisions_[i].correction.interval);
   NudgeResult found = nudge(problem(group), intervals, nudge_kind, budget_, space_, deadline());
-  for (const std::size_t i : group) collisions_[i].correction.tried += found.effort;
+  collisions_[group.front()].correction.tried += found.effort;
   return std::move(found.candidate);
 }
 

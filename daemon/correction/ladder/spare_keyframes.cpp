@@ -30,12 +30,12 @@ double most_cost(Objective objective, double cost, double cost_before) {
 }
 
 /// The free space of paths that come no nearer to the scene than `least_m`, as far as the objective
-/// asks for it.
+/// asks for more than the required clearance.
 FreeSpace keeping_gap(Objective objective, double least_m, const FreeSpace& space) {
   const double radii = measures_curve(objective) ? kTightGap : kComfort;
   collision::Query query = space.query();
-  query.options.clearance_m =
-      std::max(query.options.clearance_m, std::min(least_m, radii * space.ball_radius_m()));
+  const double most_m = query.options.clearance_m + radii * space.ball_radius_m();
+  query.options.clearance_m = std::max(query.options.clearance_m, std::min(least_m, most_m));
   return FreeSpace(query, space.policy(), space.closeness());
 }
 

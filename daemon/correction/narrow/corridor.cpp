@@ -104,6 +104,8 @@ class Walker {
     // At the end of a narrow place, its contacts no longer lead along it.
     if (guide.size() > 1 && ahead_W.dot(along_W) < kLeastAhead) ahead_W = along_W;
     along_W = ahead_W;
+    // Nothing of the scene is near that could say where to go: the bounds alone are.
+    if (along_W.isZero(0.0)) return std::nullopt;
     std::optional<SignedPose> next = stepped(guide.back(), step_m * ahead_W);
     for (; !next && step_m > kShortestStepOut * radius_m_; step_m *= 0.5) {
       next = stepped(guide.back(), 0.5 * step_m * ahead_W);

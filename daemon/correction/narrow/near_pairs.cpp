@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "daemon/geometry/triangle_distance.h"
+
 namespace camway::correction {
 
 namespace {
@@ -101,14 +103,16 @@ struct NearTriangles {
   bool is_complete = true;       ///< false if the search ended at `kMostNear` of them
 };
 
-/// The triangles that may be within `reach_m` of one another.
+/// The triangles that are within `reach_m` of one another.
 NearTriangles near_triangles(FreeSpace& space, const motion::Pose& pose, double reach_m) {
   const Vec3 reach = Vec3::Constant(reach_m);
   NearTriangles near;
   space.placed(pose).for_each_pair(reach_m, [&](std::uint32_t number, const Triangle& part,
                                                 std::uint32_t index, const Triangle& obstacle) {
     const Box box = geometry::bounds(part);
-    if (Box(box.min() - reach, box.max() + reach).intersects(geometry::bounds(obstacle))) {
+    // The boxes of a slanted triangle overlap those of all about it, at any distance.
+    if (Box(box.min() - reach, box.max() + reach).intersects(geometry::bounds(obstacle)) &&
+        geometry::triangle_distance(part, obstacle, reach_m) <= reach_m) {
       near.pairs.push_back({index, number});
     }
     near.is_complete = near.pairs.size() < kMostNear;
@@ -124,7 +128,8 @@ NearTriangles near_triangles(FreeSpace& space, const motion::Pose& pose, double 
 
 std::vector<NearPair> near_pairs(FreeSpace& space, const motion::Pose& pose, double horizon_m) {
   NearTriangles near = near_triangles(space, pose, space.keep_m() + horizon_m);
-  while (!near.is_complete) {
+  const double least_m = near.is_complete ? 0.0 : space.gap_m(pose, horizon_m);
+  while (!near.is_complete && horizon_m > 2.0 * least_m) {
     NearTriangles nearer = near_triangles(space, pose, space.keep_m() + 0.5 * horizon_m);
     if (nearer.pairs.empty()) break;
     near = std::move(nearer);

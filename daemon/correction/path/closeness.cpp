@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "daemon/base/largest_value.h"
@@ -20,10 +19,11 @@ using geometry::Vec4;
 using motion::CubicPath;
 using motion::CubicPiece;
 
-constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's rule
-constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
-constexpr double kPercentile = 0.99;     // of the acceleration
-constexpr int kAccelerationSamples = 8;  // in a piece
+constexpr int kSamplesAPiece = 6;                       // of the shift; even, for Simpson's rule
+constexpr double kBestSpacing = 12.0;                   // from the derivative of the cost of a bump
+constexpr double kPercentile = 0.99;                    // of the acceleration
+constexpr int kAccelerationSamples = 8;                 // in a piece
+constexpr double kLeastAcceleration_m_per_s2 = 1e-150;  // the least whose square is far above 0
 
 /// Second derivative of a cubic Bézier curve at u.
 template <class Point>
@@ -193,8 +193,10 @@ double reference_acceleration_m_per_s2(const CubicPath& interpolated, double vie
   };
   std::vector<Sample> samples;
   double length_m = 0.0;
+  double turned_rad = 0.0;
   for (const CubicPiece& piece : interpolated.pieces) {
     const double duration_s = piece.t1_s - piece.t0_s;
+    turned_rad += turn_rad(piece.image.front(), piece.image.back());
     for (int i = 0; i < 3; ++i) {
       length_m += (piece.position[static_cast<std::size_t>(i) + 1] -
                    piece.position[static_cast<std::size_t>(i)])
@@ -215,9 +217,9 @@ double reference_acceleration_m_per_s2(const CubicPath& interpolated, double vie
     so_far_s += sample.duration_s;
     if (so_far_s >= kPercentile * whole_s) break;
   }
-  const double speed = length_m / whole_s;
+  const double speed_m_per_s = (length_m + viewing_distance_m * turned_rad) / whole_s;
   const double least =
-      std::max(speed * speed / viewing_distance_m, std::numeric_limits<double>::min());
+      std::max(speed_m_per_s * speed_m_per_s / viewing_distance_m, kLeastAcceleration_m_per_s2);
   return std::max(percentile, least);
 }
 

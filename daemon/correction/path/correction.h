@@ -29,6 +29,7 @@ struct Effort {
   std::int32_t lattice_points = 0;
   std::int32_t tree_samples = 0;  ///< random samples that searches for a turning detour drew
 
+  /// Counts stop at their largest value.
   Effort& operator+=(const Effort& other);
   bool operator==(const Effort&) const = default;
 };

@@ -5,8 +5,7 @@
 
 namespace camway::correction {
 
-/// The region about one end of a way out of which a search found no way: of the two ends, the one
-/// from which less is reachable.
+/// The region about one end of a way out of which a search found no way.
 struct Pocket {
   bool is_at_end = false;  ///< true for the end of the way, false for its beginning
   geometry::Box

@@ -28,6 +28,7 @@ struct CellOptions {
   /// If not empty, the way of a body that does not turn is searched, in place of a ball: returns
   /// the gap of the body at a place of its centre, at most `up_to_m`.
   std::function<double(const geometry::Vec3& center_W, double up_to_m)> body_gap_m{};
+  double body_radius_m = 0.0;  ///< radius of that body's ball; beside the scene is room for it
 };
 
 }  // namespace camway::correction

@@ -55,11 +55,9 @@ OfEnds<bool> ends_in_narrow_places(const CellTree& tree, double narrow_m) {
   return is_narrow;
 }
 
-Pocket complete_pocket(const CellTree& tree, const OfEnds<bool>& is_narrow) {
-  const OfEnds<CellRegion> found = regions_reached(tree);
-  const bool is_at_end = found[1].box_W.diagonal().norm() < found[0].box_W.diagonal().norm();
-  const std::size_t end = is_at_end ? 1 : 0;
-  return {is_at_end, found[end].box_W, found[end].unsure_m, true, is_narrow[end]};
+Pocket complete_pocket(const CellTree& tree, std::size_t end, const OfEnds<bool>& is_narrow) {
+  const CellRegion found = regions_reached(tree)[end];
+  return {end == 1, found.box_W, found.unsure_m, true, is_narrow[end]};
 }
 
 std::optional<Pocket> pocket_so_far(const CellTree& tree, const OfEnds<bool>& is_narrow,

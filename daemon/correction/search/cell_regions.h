@@ -28,10 +28,9 @@ OfEnds<CellRegion> regions_reached(const CellTree& tree);
 /// narrow.
 OfEnds<bool> ends_in_narrow_places(const CellTree& tree, double narrow_m);
 
-/// Returns the pocket that shuts in one end, after a search that looked at everything reachable
-/// from one end without meeting the other: the region of the end from which less is reachable.
-/// Where everything was looked at from the other end, there is no way out of this one either.
-Pocket complete_pocket(const CellTree& tree, const OfEnds<bool>& is_narrow);
+/// Returns the pocket that shuts in `end`, after a search that looked at everything reachable from
+/// it without meeting the other end.
+Pocket complete_pocket(const CellTree& tree, std::size_t end, const OfEnds<bool>& is_narrow);
 
 /// Returns the region of the end in a narrow place, or else, if there is no way, of the end from
 /// which much less was reached so far. Returns nothing if neither end is such, or if nothing was

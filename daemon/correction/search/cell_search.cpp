@@ -35,13 +35,14 @@ class CellSearch {
 
   CellResult run() {
     CellResult result;
-    result.exhausted = search();
+    search();
+    result.exhausted = exhausted_end_.has_value();
     if (has_met_) {
       result.way_W = way();
       if (!is_narrow_) find_narrow_ends();
     }
-    if (result.exhausted) {
-      result.pocket = complete_pocket(tree_, is_narrow());
+    if (exhausted_end_) {
+      result.pocket = complete_pocket(tree_, *exhausted_end_, is_narrow());
     } else if (has_met_ || !is_late_) {
       result.pocket = pocket_so_far(tree_, is_narrow(), has_met_);
     }
@@ -64,31 +65,35 @@ class CellSearch {
                              const CellOptions& options) {
     geometry::Box box = space.obstacles().index.bounds();
     box.extend(from_W).extend(to_W);
-    const double margin_m =
-        kMarginAround * (options.comfort_m + options.ball_radius_m + space.query().kept_m());
+    const double radius_m = std::max(options.ball_radius_m, options.body_radius_m);
+    const double margin_m = kMarginAround * (options.comfort_m + radius_m + space.query().kept_m());
     // The ball cannot be beyond the bounds.
     const geometry::Bounds& bounds = space.obstacles().bounds;
     return {(box.min().array() - margin_m).max(bounds.min_W.array()),
             (box.max().array() + margin_m).min(bounds.max_W.array())};
   }
 
-  /// Whether all that is reached from one end was looked at, and the other end is not among it.
-  bool search() {
+  /// Divides cells until the ends meet, all that can be reached from one of them was looked at, or
+  /// a limit is reached.
+  void search() {
     const std::optional<std::uint32_t> from = tree_.free_cell_at(from_W_);
     const std::optional<std::uint32_t> to = tree_.free_cell_at(to_W_);
-    if (!from || !to) return false;
+    if (!from || !to) return;
     start_ = *from;
     goal_ = *to;
     reach(start_, 0);
     reach(goal_, 1);
     for (std::size_t turn = 0; !has_met_; ++turn) {
       if (!is_narrow_ && tree_.size() >= kCellsBeforeNarrow) find_narrow_ends();
-      if (tree_.size() >= most_cells() || is_late()) return false;
-      const std::optional<std::uint32_t> cell = next(turn % kCellEnds);
-      if (!cell) return !is_late_;
+      if (tree_.size() >= most_cells() || is_late()) return;
+      const std::size_t end = turn % kCellEnds;
+      const std::optional<std::uint32_t> cell = next(end);
+      if (!cell) {
+        if (!is_late_) exhausted_end_ = end;
+        return;
+      }
       divide(*cell);
     }
-    return false;
   }
 
   void find_narrow_ends() { is_narrow_ = ends_in_narrow_places(tree_, options_.narrow_m); }
@@ -217,6 +222,8 @@ class CellSearch {
   /// Whether each end is in a narrow place; nothing while that is not known.
   std::optional<OfEnds<bool>> is_narrow_;
   bool has_met_ = false;
+  /// The end from which everything that can be reached was looked at; the other is not among it.
+  std::optional<std::size_t> exhausted_end_;
   std::size_t looks_ = 0;
   bool is_late_ = false;  ///< whether the deadline had passed when the clock was read last
 };

@@ -164,7 +164,8 @@ class Corner {
     const Triangle& t = triangles_[triangle];
     const Vec3& normal = normals_[triangle];
     double least_m = std::numeric_limits<double>::infinity();
-    bool is_over = true;  // the inside of the triangle, as seen along the normal
+    // Whether the point is above the inside of the triangle; one without area has none.
+    bool is_over = !normal.isZero(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 along = t[(k + 1) % 3] - t[k];
       const Vec3 to = point - t[k];

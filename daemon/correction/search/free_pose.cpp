@@ -13,6 +13,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kFirstShell = 0.02;  // radii
+constexpr double kLeastShell = 1e-6;  // of the farthest, which bounds the number of shells
 constexpr double kShellGrowth = 1.2;  // ratio of a shell to the one before
 // Ratio of the last shell to the first with a free pose. The direction found there may be off the
 // nearest by up to 20 degrees, 1 / cos of which is 1.06; the direction of another free region is
@@ -89,7 +90,9 @@ class Search {
     const double reach_m = kFreePoseReach * (space_.ball_radius_m() + space_.query().kept_m());
     double last_m = reach_m;
     double below_m = 0.0;
-    for (double shell_m = kFirstShell * space_.ball_radius_m(); shell_m <= last_m;
+    const double first_m = std::max(kFirstShell * space_.ball_radius_m(), kLeastShell * reach_m);
+    // The shells of a body whose size is a subnormal number do not grow.
+    for (double shell_m = first_m; shell_m > below_m && shell_m <= last_m && !deadline_.passed();
          below_m = shell_m, shell_m *= kShellGrowth) {
       std::erase_if(directions_W, [&](const Vec3& direction_W) {
         if (!will_do(direction_W, shell_m)) return false;

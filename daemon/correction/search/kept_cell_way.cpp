@@ -23,6 +23,7 @@ KeptWay kept_cell_way(FreeSpace& space, const motion::SignedPose& from,
   options.body_gap_m = [&](const geometry::Vec3& center_W, double up_to_m) {
     return space.gap_m(space.pose_around(center_W, orientation), up_to_m);
   };
+  options.body_radius_m = radius_m;
   const auto center_W = [&](const motion::SignedPose& pose) {
     return space.center_W(motion::unsigned_pose(pose));
   };

@@ -113,7 +113,8 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
   const auto clearance =
       collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
   if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};
-  cost.least_gap_m = std::min(kComfort * space.ball_radius_m(), clearance->lower_bound_m);
+  const double gap_m = clearance->lower_bound_m - space.query().options.clearance_m;
+  cost.least_gap_m = std::clamp(gap_m, 0.0, kComfort * space.ball_radius_m());
   return cost;
 }
 

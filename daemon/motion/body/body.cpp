@@ -179,8 +179,12 @@ void Body::prepare() {
 }
 
 std::size_t Body::memory_bytes() const {
-  return triangles_C_.size() * sizeof(Triangle) + parts_.size() * sizeof(std::uint32_t) +
-         (tree_ ? tree_->memory_bytes() : 0);
+  std::size_t bytes = triangles_C_.size() * sizeof(Triangle) +
+                      parts_.size() * sizeof(std::uint32_t) + solids_C_.size() * sizeof(Solid);
+  for (const Solid& solid : solids_C_) {
+    bytes += solid.faces_C.size() * sizeof(geometry::HalfSpace);
+  }
+  return bytes + (tree_ ? tree_->memory_bytes() : 0);
 }
 
 }  // namespace camway::motion

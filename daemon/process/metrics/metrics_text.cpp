@@ -4,22 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <string>
 #include <string_view>
 
+#include "daemon/messages/text.h"
 #include "lcmtypes/wire/latency_buckets.h"
 
 namespace camway::process {
 namespace {
-
-constexpr std::array<std::string_view, 13> kStatusNames{
-    "ok",        "partial",       "infeasible",     "timeout",
-    "invalid",   "unknown_scene", "internal_error", "overloaded",
-    "malformed", "no_map",        "cancelled",      "limit",
-    "stopping"};
 
 /// Returns `text` as it stands within the quotes of a label.
 std::string escaped(std::string_view text) {
@@ -79,11 +74,12 @@ class Page {
 template <class Counts>
 void add_answers(std::string_view kind, const Counts& counts, Page& page) {
   for (std::size_t i = 0; i < std::size(counts); ++i) {
-    const bool named = i < kStatusNames.size();
-    if (!named && counts[i] == 0) continue;
+    const std::string_view name = messages::status_name(static_cast<std::int32_t>(i));
+    const bool is_named = name != messages::kUnknownStatus;
+    if (!is_named && counts[i] == 0) continue;
     page.sample("answers_total",
                 fmt::format("kind=\"{}\",status=\"{}\"", kind,
-                            named ? std::string(kStatusNames.at(i)) : std::to_string(i)),
+                            is_named ? std::string(name) : std::to_string(i)),
                 counts[i]);
   }
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <system_error>
-#include <thread>
 #include <utility>
 
+#include "daemon/base/parallel_chunks.h"
 #include "daemon/scene/index/index_tree.h"
 #include "daemon/scene/index/node_splitter.h"
 
@@ -23,29 +21,12 @@ namespace {
 /// number of threads, so the index does not either.
 constexpr std::size_t kChunkEntries = 4096;
 
-/// Runs `work` on `threads` threads, including this one; on fewer if the system has no more.
-void run_on_threads(unsigned threads, const std::function<void()>& work) {
-  std::vector<std::jthread> others;
-  try {
-    for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
-  } catch (const std::system_error&) {
-    // The threads that started, and this one, do all the work.
-  }
-  work();
-}
-
 /// Calls `body(begin, end)` for ranges that together make [0, count).
 void for_ranges(unsigned threads, std::size_t count,
                 const std::function<void(std::size_t, std::size_t)>& body) {
   constexpr std::size_t kRange = 16384;
-  std::atomic<std::size_t> next = 0;
-  const auto ranges = static_cast<unsigned>(std::min<std::size_t>(count / kRange + 1, threads));
-  run_on_threads(ranges, [&] {
-    for (;;) {
-      const std::size_t begin = next.fetch_add(kRange);
-      if (begin >= count) return;
-      body(begin, std::min(begin + kRange, count));
-    }
+  base::for_each_chunk(threads, (count + kRange - 1) / kRange, [&](unsigned, std::size_t range) {
+    body(range * kRange, std::min((range + 1) * kRange, count));
   });
 }
 
@@ -81,7 +62,9 @@ class ChunkBuilder {
     auto root = std::make_unique<Chunk>();
     const bool is_small = all.entries.size() <= kChunkEntries;
     add({root.get(), std::move(all)});
-    run_on_threads(is_small ? 1 : threads, [this] { work(); });
+    // Each of them takes tasks until all are done.
+    const unsigned workers = is_small ? 1 : threads;
+    base::for_each_chunk(workers, workers, [this](unsigned, std::size_t) { work(); });
     if (failure_) std::rethrow_exception(failure_);
     return root;
   }
@@ -252,12 +235,8 @@ class IndexAssembler {
   IndexArrays assemble(unsigned threads) {
     const Chunk& root = *chunks_.front();
     node_list_[0] = moved(root, root.root);
-    std::atomic<std::size_t> next = 0;
-    run_on_threads(std::min(threads, static_cast<unsigned>(chunks_.size())), [&] {
-      for (std::size_t i = next.fetch_add(1); i < chunks_.size(); i = next.fetch_add(1)) {
-        copy(*chunks_[i]);
-      }
-    });
+    base::for_each_chunk(threads, chunks_.size(),
+                         [this](unsigned, std::size_t i) { copy(*chunks_[i]); });
     leaf_begin_.back() = references_;
     return {std::move(node_list_), std::move(leaf_begin_), std::move(reference_list_),
             std::move(boxes_), depth_};

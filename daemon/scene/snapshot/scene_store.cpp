@@ -197,16 +197,29 @@ StoreResult SceneStore::unknown(std::string_view scene) const {
 
 StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
                                const ChangeTicket& ticket) {
-  return until_not_outrun(scene, [&] { return change_once(scene, change, note, ticket); });
+  const auto same = [&](const Snapshot&) { return MadeChange{change}; };
+  return this->change(scene, ChangeMaker(same), std::move(note), ticket);
 }
 
-StoreResult SceneStore::change_once(std::string_view scene, const SceneChange& change,
+StoreResult SceneStore::change(std::string_view scene, const ChangeMaker& make, ChangeNote note,
+                               const ChangeTicket& ticket) {
+  return until_not_outrun(scene, [&] { return change_once(scene, make, note, ticket); });
+}
+
+StoreResult SceneStore::change_once(std::string_view scene, const ChangeMaker& make,
                                     const ChangeNote& note, const ChangeTicket& ticket) {
   const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
   if (changed_by(scene, note.request)) return {before, StoreFault::kNone, ""};
-  return make_next(*before, {change}, note, ticket);
+  MadeChange made = make(*before);
+  if (ticket.is_cancelled()) return cancelled();
+  if (!made.change) {
+    const bool is_limit = made.limit != Limit::kNone;
+    return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(made.error),
+            made.limit};
+  }
+  return make_next(*before, {*std::move(made.change)}, note, ticket);
 }
 
 StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,

@@ -55,6 +55,15 @@ struct StoreResult {
   Limit limit = Limit::kNone;  ///< limit that was exceeded, for `StoreFault::kLimit`
 };
 
+/// A change, or why it cannot be made.
+struct MadeChange {
+  std::optional<SceneChange> change;
+  std::string error = {};      ///< empty exactly when `change` is set
+  Limit limit = Limit::kNone;  ///< limit that would be exceeded
+};
+/// Makes a change of a scene from its newest snapshot.
+using ChangeMaker = std::function<MadeChange(const Snapshot& newest)>;
+
 /// The scenes of a daemon by name: the newest snapshot of each, and its history. A snapshot never
 /// changes; a change of its scene makes the next one. The revisions of a name only increase, even
 /// if its scene is removed and another one takes the name.
@@ -88,6 +97,11 @@ class SceneStore {
 
   /// Changes one object of a scene. Requires the same as `changed`.
   StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
+                     const ChangeTicket& ticket = {});
+  /// Makes a change that depends on the scene, such as adding a scan to a map of it. `make` gets
+  /// the newest snapshot, which stays the newest meanwhile; it is called again if another process
+  /// has changed the scene first. It must not change scenes. Fails as `make` does.
+  StoreResult change(std::string_view scene, const ChangeMaker& make, ChangeNote note = {},
                      const ChangeTicket& ticket = {});
 
   /// Makes a new revision with the objects of `revision`. If the history does not hold `revision`,
@@ -190,7 +204,7 @@ class SceneStore {
   StoreResult until_not_outrun(std::string_view scene, const std::function<StoreResult()>& attempt);
   StoreResult put_once(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
                        const ChangeTicket& ticket);
-  StoreResult change_once(std::string_view scene, const SceneChange& change, const ChangeNote& note,
+  StoreResult change_once(std::string_view scene, const ChangeMaker& make, const ChangeNote& note,
                           const ChangeTicket& ticket);
   StoreResult restore_once(std::string_view scene, std::uint64_t revision, ChangeNote note,
                            const ChangeTicket& ticket);

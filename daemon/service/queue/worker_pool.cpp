@@ -9,7 +9,12 @@ namespace camway::service {
 WorkerPool::WorkerPool(int workers, const FairQueue::Limits& limits)
     : workers_(workers), queue_(limits), allowed_(static_cast<std::size_t>(workers)) {
   threads_.reserve(static_cast<std::size_t>(workers));
-  for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
+  } catch (...) {
+    stop();  // the threads wait for it, and the destructor does not run
+    throw;
+  }
 }
 
 WorkerPool::~WorkerPool() { stop(); }

@@ -81,8 +81,10 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
   }
   // The path on the daemon's disk is replaced by the name in the request: clients must not see it.
   std::string error = std::move(result.error);
-  if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
-    error.replace(at, file.string().size(), shown);
+  const std::string path = file.string();
+  for (std::size_t at = error.find(path); at != std::string::npos;
+       at = error.find(path, at + shown.size())) {
+    error.replace(at, path.size(), shown);
   }
   return {base::Failure{std::move(error)}, result.limit};
 }

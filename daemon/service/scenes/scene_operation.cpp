@@ -235,25 +235,34 @@ class SceneOperation {
   }
 
   Answer scan() {
-    const auto snapshot = scenes_.find(request_.scene);
-    if (!snapshot) return unknown_scene_answer(request_, scenes_);
-    const scene::SceneObject* const object = snapshot->find(request_.object);
-    if (object == nullptr || !object->source->map_O) {
-      return invalid(fmt::format("object: '{}' is no occupancy map of scene '{}'", request_.object,
-                                 request_.scene));
-    }
-    Made<std::vector<Vec3>> points = read_points(upload_);
+    if (!scenes_.find(request_.scene)) return unknown_scene_answer(request_, scenes_);
+    const Made<std::vector<Vec3>> points = read_points(upload_);
     if (!points) return invalid(points.error);
+    // Made from the map as it is when its turn has come: another scan may have changed it.
+    const auto make = [&](const scene::Snapshot& newest) { return scanned(newest, *points); };
+    return answer_to(scenes_.change(request_.scene, scene::ChangeMaker(make), note(request_.object),
+                                    context_.ticket),
+                     "");
+  }
+
+  /// Returns the change that adds the points, in the frame of the scene, to the map.
+  [[nodiscard]] scene::MadeChange scanned(const scene::Snapshot& newest,
+                                          std::vector<Vec3> points) const {
+    const scene::SceneObject* const object = newest.find(request_.object);
+    if (object == nullptr || !object->source->map_O) {
+      return {{},
+              fmt::format("object: '{}' is no occupancy map of scene '{}'", request_.object,
+                          request_.scene)};
+    }
     const scene::Placement& map_placement = object->parts_placement;
-    for (Vec3& point : *points) point = map_placement.to_object(point);
-    const scene::Scan seen{map_placement.to_object(vec3(request_.position_m)), *points};
+    for (Vec3& point : points) point = map_placement.to_object(point);
+    const scene::Scan seen{map_placement.to_object(vec3(request_.position_m)), points};
     scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
-    if (!next.map) return refused(next.error, next.limit);
+    if (!next.map) return {{}, std::move(next.error), next.limit};
     Made<Content> made = of_map(std::move(next.map), object->source->map_origin_O);
-    if (!made) return refused(made.error, made.limit);
-    return change({SceneChange::Kind::kPut, request_.object,
-                   source_of(*std::move(made), snapshot->options), object->placement},
-                  "");
+    if (!made) return {{}, std::move(made.error), made.limit};
+    return {SceneChange{SceneChange::Kind::kPut, request_.object,
+                        source_of(*std::move(made), newest.options), object->placement}};
   }
 
   Answer export_map() {

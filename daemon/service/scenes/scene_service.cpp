@@ -310,13 +310,20 @@ void SceneService::close() {
   }
 }
 
+std::size_t SceneService::leave_cancelled() {
+  const std::size_t left = left_behind_.size();
+  left_behind_.clear();
+  return left;
+}
+
 void SceneService::give_up() {
-  // Each refusal removes one.
+  // Each answer removes one.
   while (!unanswered_.empty()) {
     const Request request = unanswered_.begin()->second.request;
-    refuse(*request, Refusal::kStopping);
+    finish(*request, plain_scene_answer(*request, scene_response_t::STATUS_INTERNAL_ERROR,
+                                        "the daemon stopped before the change was kept; send it "
+                                        "again to know whether it was made"));
   }
-  left_behind_.clear();
 }
 
 void SceneService::stop() {

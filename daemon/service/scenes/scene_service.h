@@ -62,8 +62,11 @@ class SceneService {
 
   /// Accepts no more changes, and refuses all that are not committed yet.
   void close();
-  /// Refuses all changes that are not answered yet. `unfinished` no longer counts cancelled ones
-  /// that a worker is still at.
+  /// Leaves the cancelled changes that a worker is still at, which `unfinished` no longer counts.
+  /// Returns their number.
+  std::size_t leave_cancelled();
+  /// Answers the changes that are committed but not kept yet, of which nobody knows whether the
+  /// next daemon has them. Call it after `close`, at the end of the daemon.
   void give_up();
   /// Returns the number of changes that wait, are being made (cancelled ones included), or are made
   /// and not answered yet.

@@ -130,11 +130,13 @@ Uploads::Upload* Uploads::find_or_begin(const UploadKey& key, Clock::time_point 
     const auto size = static_cast<std::size_t>(key.total_bytes);
     const auto pages = static_cast<std::size_t>(pages_of(key.total_bytes));
     if (!make_room(size, now)) return nullptr;
-    found = uploads_.try_emplace(key).first;
-    found->second.bytes = std::make_shared<UploadRoom>(size);
-    found->second.has_page.resize(pages);
-    found->second.checksums.resize(pages);
-    found->second.missing = pages;
+    // What may throw comes before the upload is known.
+    Upload upload;
+    upload.bytes = std::make_shared<UploadRoom>(size);
+    upload.has_page.resize(pages);
+    upload.checksums.resize(pages);
+    upload.missing = pages;
+    found = uploads_.try_emplace(key, std::move(upload)).first;
     bytes_ += size;
   }
   found->second.touched = now;

@@ -233,7 +233,9 @@ std::vector<Watches::Request> Watches::take_broken(std::size_t most, Clock::time
     const auto position = watches_.find(key);
     if (position == watches_.end()) continue;
     Watch& watch = position->second;
-    const bool is_wanted = watch.planning == Planning::kWaits && !watch.collisions.empty();
+    // Otherwise the time is that of a watch of the same request that has ended.
+    if (watch.planning != Planning::kWaits) continue;
+    const bool is_wanted = !watch.collisions.empty();
     watch.planning = is_wanted ? Planning::kRuns : Planning::kNot;
     watch.is_outdated = false;
     if (is_wanted) taken.push_back({key, watch.answer.request});

@@ -95,12 +95,15 @@ TEST(Polish, ShortestIsHardlyLongerThanTheLinesOverAPlate) {
 }
 
 // Between samples a curve comes nearer to a plate than at them. Every second camera starts beside a
-// wall, so that no path has much distance.
+// wall, so that no path has much distance; some must keep a clearance from the plate, too.
 TEST(Polish, KeepsTheDistanceThatCountsAsTight) {
   testing::Random random(4543);
   int polished = 0;
   for (int run = 0; run < 20; ++run) {
-    LadderCase c = over_a_plate(random.uniform(0.3, 0.7), random.uniform(0.3, 0.7), 4.0, 5.0);
+    const double clearance_m = run % 4 == 2 ? 0.3 : 0.0;
+    const double top_m = random.uniform(0.3, 0.7) - clearance_m;
+    LadderCase c = over_a_plate(top_m, random.uniform(0.3, 0.7), 4.0, 5.0);
+    c.detect.clearance_m = clearance_m;
     const double tight_m = kTightGap * ball_radius_m(c);
     if (run % 2 == 1) {
       // The near quadrilateral reaches 0.1 to either side.
@@ -110,12 +113,12 @@ TEST(Polish, KeepsTheDistanceThatCountsAsTight) {
     }
     const LadderResult closest = corrected_for(Objective::kClosest, c);
     ASSERT_TRUE(c.collisions(closest.path).empty()) << run;
-    const double before_m = clearance_of(c, closest.path).lower_bound_m;
+    const double before_m = clearance_of(c, closest.path).lower_bound_m - clearance_m;
     for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
       const LadderResult result = corrected_for(objective, c);
       polished += result.is_polished ? 1 : 0;
       const double kept_m = std::min(0.95 * before_m, tight_m);
-      EXPECT_GE(clearance_of(c, result.path).upper_bound_m, kept_m) << run;
+      EXPECT_GE(clearance_of(c, result.path).upper_bound_m, clearance_m + kept_m) << run;
     }
   }
   EXPECT_GT(polished, 30);

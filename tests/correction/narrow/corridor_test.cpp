@@ -47,6 +47,20 @@ SearchScene pole(double spare) {
   return SearchScene(mesh, ring());
 }
 
+// The bounds do not say where to go. Without an end, a deadline would be the only one.
+TEST(WayOut, IsNoneWhereOnlyTheBoundsAreNear) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-10, -10, 8}, {10, 10, 8.1});
+  const SearchScene scene(mesh,
+                          *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.4, 0.4, 0.2)}));
+  collision::Obstacles obstacles(scene.index);
+  obstacles.bounds.max_W.y() = 0.23;
+  FreeSpace space({obstacles, scene.body, {}});
+  const SignedPose from = motion::signed_pose({Vec3::Zero(), Quat::Identity()});
+  ASSERT_TRUE(space.is_free(motion::unsigned_pose(from), 0.0));
+  EXPECT_FALSE(way_out(space, from, HasRoom::kByGap, Deadline::never()));
+}
+
 TEST(WayOut, LiftsARingOffItsPole) {
   for (const double spare : {0.02, 0.1, 3.0}) {
     const HasRoom has_room = spare > 1.0 ? HasRoom::kByBall : HasRoom::kByGap;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <optional>
 
 #include "tests/correction/search_scene.h"
@@ -55,6 +56,33 @@ TEST(NearPairs, BeginWithTheGapOfTheBody) {
     }
   }
   EXPECT_GT(near, 30);
+}
+
+// The boxes of all its triangles overlap those of the body, however near the horizon is.
+TEST(NearPairs, EndBesideASlantedPlaneOfManyTriangles) {
+  const Quat tilt(Eigen::AngleAxisd(0.7, Vec3(1, 1, 0).normalized()));
+  for (const std::uint32_t side : {60U, 200U}) {
+    SCOPED_TRACE(side);
+    scene::Mesh mesh;
+    for (std::uint32_t i = 0; i <= side; ++i) {
+      for (std::uint32_t k = 0; k <= side; ++k) {
+        mesh.vertices.push_back(tilt * Vec3(2.0 * i / side - 1.0, 2.0 * k / side - 1.0, 0.0));
+      }
+    }
+    for (std::uint32_t i = 0; i < side; ++i) {
+      for (std::uint32_t k = 0; k < side; ++k) {
+        const std::uint32_t a = i * (side + 1) + k;
+        mesh.triangles.push_back({a, a + side + 1, a + 1});
+        mesh.triangles.push_back({a + 1, a + side + 1, a + side + 2});
+      }
+    }
+    const SearchScene scene(mesh,
+                            *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(1, 1, 0.1)}));
+    FreeSpace space = scene.space();
+    const std::vector<NearPair> pairs = near_pairs(space, {tilt * Vec3(0, 0, 0.1), tilt}, 0.1);
+    ASSERT_FALSE(pairs.empty());
+    EXPECT_NEAR(pairs.front().gap_m, 0.05, kPairRounding_m);
+  }
 }
 
 TEST(NearPairs, PointToWhereTheGapGrows) {

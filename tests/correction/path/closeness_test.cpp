@@ -218,6 +218,16 @@ TEST(Closeness, ABumpOfTheBestSpacingCostsLeast) {
 
 TEST(Closeness, TheReferenceAccelerationIsThatOfTheCurveOrOfAWideCircle) {
   EXPECT_DOUBLE_EQ(reference_acceleration_m_per_s2(straight(10.0, 2.0), 5.0), 2.0 * 2.0 / 5.0);
+  // Turning on the spot moves the picture, too.
+  std::vector<Keyframe> turn = {{0.0, {Vec3::Zero(), Quat::Identity()}},
+                                {2.0, {Vec3::Zero(), Quat::Identity()}}};
+  turn[1].pose.orientation = Quat(Eigen::AngleAxisd(1.0, Vec3::UnitY()));
+  EXPECT_NEAR(reference_acceleration_m_per_s2(motion::interpolate_cubic(turn), 4.0),
+              4.0 * 0.5 * 0.5, 1e-12);
+  std::vector<Keyframe> still = turn;
+  still[1].pose.orientation = Quat::Identity();
+  const double least = reference_acceleration_m_per_s2(motion::interpolate_cubic(still), 4.0);
+  EXPECT_GT(least * least, 0.0) << "costs are divided by it";
   std::vector<Keyframe> circle;
   for (int i = 0; i <= 40; ++i) {
     const double angle_rad = 0.2 * i;

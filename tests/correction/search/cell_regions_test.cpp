@@ -68,15 +68,15 @@ TEST(CellRegions, APlaceIsNarrowWithoutACellThatHasRoom) {
   EXPECT_EQ(ends_in_narrow_places(c.tree, 0.0), kNeitherIsNarrow) << "0 takes no place for narrow";
 }
 
-TEST(CellRegions, ACompletePocketIsTheSmallerOne) {
-  for (const std::size_t small : {std::size_t{0}, std::size_t{1}}) {
+TEST(CellRegions, ACompletePocketIsThatOfTheEndThatWasSearched) {
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
     CellScene c(wall_with_gap(2.0, 3.0), kRegionOptions);
-    c.reach(1 - small, [](const Vec3& center_W) { return center_W.z() > 0.0; });
-    c.reach(small, is_in_lower_corner);
-    const Pocket pocket = complete_pocket(c.tree, {true, false});
-    EXPECT_EQ(pocket.is_at_end, small == 1);
+    c.reach(1 - end, [](const Vec3& center_W) { return center_W.z() > 0.0; });
+    c.reach(end, is_in_lower_corner);
+    const Pocket pocket = complete_pocket(c.tree, end, {true, false});
+    EXPECT_EQ(pocket.is_at_end, end == 1);
     EXPECT_TRUE(pocket.is_complete);
-    EXPECT_EQ(pocket.is_narrow, small == 0);
+    EXPECT_EQ(pocket.is_narrow, end == 0);
     EXPECT_EQ(pocket.reached_W.min(), Vec3::Constant(-1.0));
     EXPECT_EQ(pocket.unsure_m, 0.5 * kRegionCell_m);
   }

@@ -276,6 +276,57 @@ TEST(CellWay, IsOverWhenTheSmallerEndWasLookedAt) {
   }
 }
 
+/// Adds the walls of a room, with a square hole of half the side `hole_m` in that at its largest x.
+void add_room(scene::Mesh& mesh, const Vec3& low, const Vec3& high, double hole_m) {
+  constexpr double kWall_m = 0.1;
+  const Vec3 wall = Vec3::Constant(kWall_m);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool is_high : {false, true}) {
+      Vec3 from = low - wall;
+      Vec3 to = high + wall;
+      (is_high ? from[axis] : to[axis]) = is_high ? high[axis] : low[axis];
+      if (axis == 0 && is_high && hole_m > 0.0) continue;
+      testing::add_cuboid(mesh, from, to);
+    }
+  }
+  if (!(hole_m > 0.0)) return;
+  const Vec3 middle = 0.5 * (low + high);
+  const double x0_m = high.x();
+  const double x1_m = x0_m + kWall_m;
+  const double y0_m = middle.y() - hole_m;
+  const double y1_m = middle.y() + hole_m;
+  testing::add_cuboid(mesh, {x0_m, low.y(), low.z()}, {x1_m, y0_m, high.z()});
+  testing::add_cuboid(mesh, {x0_m, y1_m, low.z()}, {x1_m, high.y(), high.z()});
+  testing::add_cuboid(mesh, {x0_m, y0_m, low.z()}, {x1_m, y1_m, middle.z() - hole_m});
+  testing::add_cuboid(mesh, {x0_m, y0_m, middle.z() + hole_m}, {x1_m, y1_m, high.z()});
+}
+
+// The end whose place was searched to the end may have more of it than the other has found so far.
+TEST(CellWay, APocketIsCompleteOnlyIfItWasSearched) {
+  scene::Mesh mesh;
+  add_room(mesh, {0, 0, 0}, {3, 3, 3}, 0.06);
+  add_room(mesh, {10, 0, 0}, {16, 6, 6}, 0.0);
+  testing::Random random(7);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 corner(random.uniform(0.3, 2.6), random.uniform(0.3, 2.6), random.uniform(0.3, 2.6));
+    if (std::abs(corner.y() - 1.5) < 0.2 && std::abs(corner.z() - 1.5) < 0.2) continue;
+    testing::add_cuboid(mesh, corner, corner + Vec3(0.05, 0.2, 0.1));
+  }
+  const SearchScene scene(mesh);
+  const CellOptions options{0.02, 0.01, 2'000'000, /*comfort_m=*/0.1};
+  const Vec3 cluttered_W(0.15, 0.15, 0.15);
+  const Vec3 closed_W(13, 3, 3);
+  for (const bool is_at_end : {false, true}) {
+    const CellResult result =
+        is_at_end ? cell_way(scene.space(), cluttered_W, closed_W, options, Deadline::never())
+                  : cell_way(scene.space(), closed_W, cluttered_W, options, Deadline::never());
+    ASSERT_TRUE(result.exhausted);
+    ASSERT_TRUE(result.pocket && result.pocket->is_complete);
+    EXPECT_EQ(result.pocket->is_at_end, is_at_end) << "a hole leads out of the other room";
+    EXPECT_TRUE(result.pocket->reached_W.contains(closed_W));
+  }
+}
+
 /// A cavity of 3.2 x 2.4 x 0.2 m between two sheets of boards, whose joints of 3 cm are narrower
 /// than the ball, and a room of 3 m in front of it.
 SearchScene cavity_beside_a_room() {

@@ -63,6 +63,19 @@ TEST(KeptCellWay, LeadsRoundATableThatASmallBallPassesUnder) {
   EXPECT_LT(way.cells, kCells);
 }
 
+TEST(KeptCellWay, LeadsRoundAPlateWithNothingElseInTheScene) {
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {-2, -2, -0.05}, {2, 2, 0.05});
+  const SearchScene scene(mesh,
+                          *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3::Constant(0.6)}));
+  FreeSpace space = scene.space(kKept);
+  const SignedPose from = motion::signed_pose({Vec3(0, 0, 1), Quat::Identity()});
+  const SignedPose to = motion::signed_pose({Vec3(0, 0, -1), Quat::Identity()});
+  const KeptWay way = kept_cell_way(space, from, to, kCells, Deadline::never());
+  ASSERT_FALSE(way.guide.empty());
+  EXPECT_TRUE(is_proved_free(scene, way.guide, 0.0));
+}
+
 TEST(KeptCellWay, IsNoneWhereTheBodyDoesNotFit) {
   const SearchScene scene(corridor_with_table(0.55), robot());
   FreeSpace space = scene.space(kKept);

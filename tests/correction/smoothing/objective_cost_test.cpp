@@ -89,6 +89,16 @@ TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
   EXPECT_EQ(c.cost(Objective::kSafest, far, far).least_gap_m, comfort_m);
 }
 
+// The gap is what lies beyond the required clearance.
+TEST(ObjectiveCost, OfSafestHasTheGapBeyondTheClearance) {
+  CostCase c;
+  const CubicPath path = straight({-2, 0.5, 0}, {2, 0.5, 0}, 4.0);
+  const double gap_m = c.cost(Objective::kSafest, path, path).least_gap_m;
+  ASSERT_LT(gap_m, kComfort * c.space().ball_radius_m());
+  c.detect.clearance_m = 0.5 * gap_m;
+  EXPECT_NEAR(c.cost(Objective::kSafest, path, path).least_gap_m, 0.5 * gap_m, 0.05 * gap_m);
+}
+
 TEST(ObjectiveCost, IsBetterOnlyIfLessAndNoNearer) {
   EXPECT_TRUE(is_better({0.9, 0.1}, {1.0, 0.1}));
   EXPECT_FALSE(is_better({1.0, 0.1}, {1.0, 0.1}));

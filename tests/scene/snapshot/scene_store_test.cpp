@@ -11,6 +11,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "daemon/scene/mirror/scene_mirror.h"
@@ -351,6 +352,62 @@ TEST(SceneStore, MayBeReadWhileItChanges) {
     seen = revision;
   }
   writer.join();
+}
+
+/// A journal in which another process is always the first to change the scene, once.
+class OutrunOnce : public SceneJournal {
+ public:
+  SceneStore* store = nullptr;
+  SceneChange others;
+
+  Keeping keep_scene(const Snapshot&, std::uint64_t, const ChangeNote&) override { return {}; }
+  Keeping keep_changes(const Snapshot&, const Snapshot&, const SceneChanges&, const ChangeNote&,
+                       std::uint64_t) override {
+    if (std::exchange(is_outrun_, true)) return {};
+    return {KeepFault::kOutrun, "another was first"};
+  }
+  Keeping keep_removal(const Snapshot&, const std::string&) override { return {}; }
+  bool await_other(const std::string& scene, std::uint64_t revision) override {
+    const auto read = [&](const Snapshot*) {
+      return base::Result<SceneStore::OthersWork>(
+          SceneStore::OthersChanges{{others}, {revision + 1, {}}});
+    };
+    return store->follow(scene, read).snapshot != nullptr;
+  }
+  bool catch_up() override { return true; }
+
+ private:
+  bool is_outrun_ = false;
+};
+
+TEST(SceneStore, AChangeThatDependsOnTheSceneIsMadeAgainOnWhatAnotherMadeFirst) {
+  OutrunOnce journal;
+  SceneStore store({}, &journal);
+  journal.store = &store;
+  journal.others = put_box("theirs");
+  store.put(assemble("room", 1, {}, {}));
+  int made = 0;
+  const auto make = [&](const Snapshot& newest) {
+    ++made;
+    return MadeChange{put_box(newest.find("theirs") != nullptr ? "beside_theirs" : "alone")};
+  };
+  const StoreResult result = store.change("room", ChangeMaker(make));
+  ASSERT_TRUE(result.snapshot) << result.error;
+  EXPECT_EQ(made, 2);
+  EXPECT_NE(result.snapshot->find("theirs"), nullptr);
+  EXPECT_NE(result.snapshot->find("beside_theirs"), nullptr);
+  EXPECT_EQ(result.snapshot->find("alone"), nullptr);
+}
+
+TEST(SceneStore, AChangeThatCannotBeMadeChangesNothing) {
+  SceneStore store;
+  store.put(assemble("room", 1, {}, {}));
+  const auto make = [](const Snapshot&) { return MadeChange{{}, "no map", Limit::kNone}; };
+  const StoreResult result = store.change("room", ChangeMaker(make));
+  EXPECT_EQ(result.fault, StoreFault::kInvalid);
+  EXPECT_EQ(result.error, "no map");
+  EXPECT_EQ(store.find("room")->revision, 1U);
+  EXPECT_EQ(store.change("cellar", ChangeMaker(make)).fault, StoreFault::kUnknownScene);
 }
 
 }  // namespace
