@@ -16,6 +16,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/messages/plan.h"
 #include "daemon/messages/text.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/request/options.h"
 #include "daemon/planning/result/result_members.h"
 #include "lcmtypes/wire/convert.h"

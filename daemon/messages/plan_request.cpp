@@ -9,6 +9,7 @@
 #include "daemon/messages/converter.h"
 #include "daemon/messages/plan.h"
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/option_table.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::messages {

@@ -257,7 +257,7 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
     }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {
-      result.message += "; " + deadline_reached(request) +
+      result.message += "; " + deadline_text(request) +
                         (result.collisions.empty() ? " before its clearance was measured"
                                                    : " before it was improved to the end");
     }

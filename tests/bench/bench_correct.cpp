@@ -133,7 +133,7 @@ class Arena {
   void run_ours(Outcome& outcome) const {
     planning::PlanRequest request = outcome.request->plan;
     request.options.deadline_s = options_.deadline_s;
-    request.options.method = *planning::method_from_string(kContenderNames[outcome.contender]);
+    request.options.method = *base::value_of<planning::Method>(kContenderNames[outcome.contender]);
     PlanResult result;
     outcome.time_s = warm_s([&] { result = planning::plan(*snapshot_, request); });
     outcome.status = planning::to_string(result.status);

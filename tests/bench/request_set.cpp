@@ -13,6 +13,7 @@
 
 #include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/scene/import/import.h"
 #include "tools/json/json_request.h"
 

@@ -12,6 +12,13 @@
 
 namespace camway::correction {
 
+/// Options that let corrections insert as many keyframes as they need in these scenes.
+inline LadderOptions enough_keyframes() {
+  LadderOptions options;
+  options.max_inserted_keyframes = 200;
+  return options;
+}
+
 /// A request to the ladder, with its scene in memory.
 struct LadderCase {
   scene::Mesh mesh;
@@ -19,7 +26,7 @@ struct LadderCase {
   motion::Body body{testing::small_camera()};
   std::vector<motion::Keyframe> keyframes;
   collision::DetectOptions detect;
-  LadderOptions options;
+  LadderOptions options = enough_keyframes();
 
   [[nodiscard]] collision::Query query() const {
     return {collision::Obstacles(index), body, detect};

@@ -32,6 +32,7 @@
 #include "client/messages/status.h"
 #include "daemon/messages/plan.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/service/core/answer_cache.h"

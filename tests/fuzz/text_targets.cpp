@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "daemon/planning/plan.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/process/settings/config_file.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "lcmtypes/wire/pages.h"

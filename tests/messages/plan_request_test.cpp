@@ -7,6 +7,7 @@
 
 #include "daemon/messages/plan.h"
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/validate.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/pages.h"
 #include "tests/messages/plan_samples.h"

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/planning/request/option_table.h"
+
 namespace camway::testing {
 namespace {
 

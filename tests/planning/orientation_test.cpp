@@ -158,7 +158,6 @@ TEST(PlanOrientation, EveryRuleHoldsOnWhateverIsReturned) {
       corrected += result.status == Status::kOk && !result.corrections.empty() ? 1 : 0;
     }
     EXPECT_GE(corrected, kEach / 4) << "rule " << static_cast<int>(rule);
-    std::printf("rule %d: %d corrected\n", static_cast<int>(rule), corrected);
   }
 }
 

@@ -186,7 +186,7 @@ TEST(PlanDeadline, IsKeptHoweverManyKeyframesThereAre) {
   EXPECT_EQ(any_path, (std::set<bool>{false, true}));
 }
 
-TEST(PlanDeadline, OfTheSeedsMethodToo) {
+TEST(PlanDeadline, HoldsForThePapersMethod) {
   const auto snapshot = posts();
   PlanRequest request = flight();
   request.options.method = Method::kKeyframeInsertion;

@@ -327,8 +327,6 @@ TEST(Plan, SaysHowHardItTried) {
   ASSERT_EQ(result.corrections.size(), 1U);
   EXPECT_GT(result.corrections[0].tried.directions, 0);
   EXPECT_GT(result.corrections[0].tried.lattice_points, 1000);
-  std::printf("TRIED %d %d %d\n", result.corrections[0].tried.paths,
-              result.corrections[0].tried.lattice_points, result.corrections[0].tried.tree_samples);
   EXPECT_THAT(result.message,
               ::testing::ContainsRegex("tried without success: .*places on a way round"));
 }
@@ -580,9 +578,9 @@ TEST(Plan, IsBitIdenticalFromAnyThread) {
 TEST(Status, NamesRoundTrip) {
   for (const Status status : {Status::kOk, Status::kPartial, Status::kInfeasible, Status::kTimeout,
                               Status::kInvalid, Status::kUnknownScene, Status::kInternalError}) {
-    EXPECT_EQ(status_from_string(to_string(status)), status);
+    EXPECT_EQ(base::value_of<Status>(to_string(status)), status);
   }
-  EXPECT_FALSE(status_from_string("fine"));
+  EXPECT_FALSE(base::value_of<Status>("fine"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "daemon/messages/plan.h"
+#include "daemon/planning/request/validate.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/page_assembly.h"
 #include "tests/messages/plan_samples.h"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/planning/request/validate.h"
 #include "daemon/planning/result/path_faults.h"
 #include "daemon/planning/stages/path_check.h"
 

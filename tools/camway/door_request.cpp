@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "daemon/planning/request/validate.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/json/json_document.h"
 

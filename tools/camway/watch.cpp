@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/planning/request/validate.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"

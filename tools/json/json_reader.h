@@ -16,6 +16,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/geometry/bounds.h"
 #include "daemon/planning/request/field_spec.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result_members.h"
 #include "tools/json/json_angle.h"

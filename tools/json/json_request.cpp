@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_reader.h"
 

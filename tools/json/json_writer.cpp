@@ -12,6 +12,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/collision/obstacles.h"
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/result/result_members.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_angle.h"

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/base/named_enum.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/request/options.h"
 #include "tools/json/json_angle.h"
 

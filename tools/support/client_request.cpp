@@ -4,6 +4,7 @@
 #include "client/messages/convert.h"
 #include "daemon/messages/converter.h"
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/option_table.h"
 
 namespace camway {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/base/base64.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_reader.h"
 

@@ -11,6 +11,7 @@
 #include "client/python/module/lazy.h"
 #include "client/python/module/module.h"
 #include "daemon/messages/plan.h"
+#include "daemon/planning/request/validate.h"
 #include "tools/camway/common/request_file.h"
 #include "tools/json/json_response.h"
 #include "tools/support/client_request.h"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "daemon/base/budget.h"
 #include "daemon/correction/infeasibility/cage_scene.h"

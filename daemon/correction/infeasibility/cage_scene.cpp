@@ -169,11 +169,6 @@ Vec3 CageScene::in_frame(const Vec3& point_W) const {
   return result;
 }
 
-std::size_t CageScene::bars() const {
-  return static_cast<std::size_t>(std::count_if(
-      barriers_.begin(), barriers_.end(), [](const Barrier& barrier) { return barrier.is_bar; }));
-}
-
 std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const scene::ClosedSurfaces& surfaces,
                                    double shortest_chord_m) {
   std::vector<CageScene> result;

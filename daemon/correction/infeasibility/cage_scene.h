@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "daemon/geometry/types.h"
@@ -64,7 +63,6 @@ class CageScene {
   /// Rotation from the frame to the world.
   [[nodiscard]] geometry::Quat orientation() const;
   [[nodiscard]] geometry::Vec3 in_frame(const geometry::Vec3& point_W) const;
-  [[nodiscard]] std::size_t bars() const;
   /// Index of a barrier that contains the triangle; kNoIndex if there is none.
   [[nodiscard]] std::uint32_t barrier_of(std::uint32_t triangle) const {
     return barrier_of_[triangle];

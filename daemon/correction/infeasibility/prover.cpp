@@ -53,8 +53,7 @@ bool Prover::is_separated() {
 
 std::optional<Separation> Prover::separation_of_body() {
   // The proof needs a point of the body; the eye is none.
-  const geometry::Triangle& part = body_.triangles_C().front();
-  const Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
+  const Vec3 point_C = body_.point_C();
   std::optional<Separation> found = find_separation(
       *mesh_, mesh_.closed_surfaces(), points_W(poses_as_asked_, point_C), kPointRounding_m);
   if (!found || smallest_ == 1.0) return found;

@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "daemon/geometry/types.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::correction {
 
-/// Returns whether the ray from `origin` (`geometry::ray_hit`) meets an odd number of the triangles;
-/// nothing if it finds `origin` on one.
+/// Returns whether the ray from `origin` (`geometry::ray_hit`) meets an odd number of the
+/// triangles; nothing if it finds `origin` on one.
 std::optional<bool> is_odd(const geometry::Vec3& origin, const scene::Mesh& mesh,
                            std::span<const std::uint32_t> triangles);
 

@@ -36,14 +36,7 @@ std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& part,
   return std::make_shared<const motion::KnotPlaces>(std::move(places));
 }
 
-bool turns(const Candidate& candidate) {
-  return std::ranges::any_of(candidate.rows, [](const motion::BumpRow& row) {
-    return std::ranges::any_of(
-        row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
-  });
-}
-
-/// The part of `original` from `begin_s` to `end_s`, which are joints of `path`: it joins the
+/// The part of `original` from `begin_s` to `end_s`, which are knots of `path`: it joins the
 /// pieces of `path` before and after bit for bit.
 CubicPath cut(const CubicPath& original, const CubicPath& path, double begin_s, double end_s) {
   CubicPath part = original.around(begin_s, end_s);
@@ -112,7 +105,7 @@ bool CorrectedPath::take(const Candidate& candidate) {
   if (!fits(candidate)) return false;
   path_.replace(candidate.path);
   const auto [begin_s, end_s] = range_of(candidate);
-  add_changed({begin_s, end_s, turns(candidate)});
+  add_changed({begin_s, end_s, turns(candidate.rows)});
   leave_time_for_the_rest();
   return true;
 }
@@ -208,12 +201,12 @@ std::size_t CorrectedPath::count_with(const Candidate& candidate) const {
 }
 
 std::vector<double> CorrectedPath::inserted_s() const {
-  std::vector<double> joints_s;
-  for (const motion::CubicPiece& piece : path_.pieces) joints_s.push_back(piece.t0_s);
+  std::vector<double> knots_s;
+  for (const motion::CubicPiece& piece : path_.pieces) knots_s.push_back(piece.t0_s);
   std::vector<double> known_s;
   for (const motion::CubicPiece& piece : interpolated_.pieces) known_s.push_back(piece.t0_s);
   std::vector<double> inserted_s;
-  std::ranges::set_difference(joints_s, known_s, std::back_inserter(inserted_s));
+  std::ranges::set_difference(knots_s, known_s, std::back_inserter(inserted_s));
   return inserted_s;
 }
 

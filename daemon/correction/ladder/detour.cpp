@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "daemon/correction/ladder/follow_guide.h"
+#include "daemon/correction/ladder/leg_poses.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/kept_guide.h"
 #include "daemon/correction/narrow/threaded_guide.h"
@@ -33,7 +33,8 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kLeastMargin = 0.02;                        // share of the ball's radius
+constexpr double kTreeMargin = 0.01;  // of motions beyond the clearance, share of the ball's radius
+constexpr double kTreeReach = 2.0;    // of samples beside the way, in radii of the ball
 constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most, for ways between rooms
 constexpr std::size_t kFewCells = kCellsBeforeNarrow;  // in place of a lattice that costs as much
@@ -67,9 +68,17 @@ class Detour {
         has_center_(space.body().is_near(space.center_C(), kBallShares.front() * radius_m_)) {}
 
   DetourResult run(Search search) {
-    result_.candidate = search == Search::kQuick    ? with_ball(Lattices::kCoarse)
-                        : search == Search::kNarrow ? through_narrow_places()
-                                                    : with_ball(Lattices::kAllButFinest);
+    switch (search) {
+      case Search::kQuick:
+        result_.candidate = with_ball(Lattices::kCoarse);
+        break;
+      case Search::kWithRoom:
+        result_.candidate = with_ball(Lattices::kAllButFinest);
+        break;
+      case Search::kNarrow:
+        result_.candidate = through_narrow_places();
+        break;
+    }
     return std::move(result_);
   }
 
@@ -92,7 +101,7 @@ class Detour {
     about_W_ = centers_as_interpolated();
     const Draw draw = [&](const LatticeResult& way) {
       // Any orientation fits in the ball, so the path keeps its own.
-      return followed(oriented(way.way_W, *begin, *end), Turning::kAsPath);
+      return followed(oriented(problem_, space_, way.way_W, *begin, *end), Turning::kAsPath);
     };
     // A narrow place is found sooner by the way of a small ball than by a fine lattice.
     std::optional<Candidate> threaded;
@@ -200,9 +209,9 @@ class Detour {
 
   [[nodiscard]] std::optional<Guide> way_out_from(const SignedPose& end) {
     if (!has_center_) {
-      if (auto found = way_out(space_, end, HasRoom::kByBall, deadline_)) return found;
+      if (auto found = way_out(space_, end, RoomTest::kBall, deadline_)) return found;
     }
-    return way_out(space_, end, HasRoom::kByGap, deadline_);
+    return way_out(space_, end, RoomTest::kGap, deadline_);
   }
 
   // A detour through the narrow places on the way of a small ball, without turns if that does not
@@ -246,7 +255,8 @@ class Detour {
 
   // The path, or one on which the body does not turn, if it turns far.
   Candidate turned_less(Candidate turned) {
-    if (turn_rad(turned.path) <= kFarTurn_rad) return turned;
+    if (largest_turn_rad(problem_, turned.path, kPosesAsInterpolated) <= kFarTurn_rad)
+      return turned;
     std::optional<Candidate> kept = along_cells_of_body();
     const bool is_worse = !kept || cost(turned) < kTurnShare * cost(*kept);
     return is_worse ? std::move(turned) : *std::move(kept);
@@ -286,7 +296,7 @@ class Detour {
   // A detour on which the body does not turn, where the path hardly turns it either.
   std::optional<Candidate> along_cells_of_body() {
     if (std::exchange(has_searched_body_, true)) return std::nullopt;
-    const std::vector<motion::Pose> poses = poses_as_interpolated(kPosesAsInterpolated);
+    const std::vector<motion::Pose> poses = poses_as_interpolated(problem_, kPosesAsInterpolated);
     const bool turns = std::ranges::any_of(poses, [&](const motion::Pose& pose) {
       return pose.orientation.angularDistance(poses.front().orientation) > kHardlyTurned_rad;
     });
@@ -302,43 +312,21 @@ class Detour {
     return cost(candidate) <= kCheap_rad * (problem_.leg_end_s() - problem_.leg_begin_s());
   }
 
-  // About the largest turn from the path as interpolated.
-  [[nodiscard]] double turn_rad(const motion::CubicPath& path) const {
-    double largest_rad = 0.0;
-    for (int i = 0; i <= kPosesAsInterpolated; ++i) {
-      const double share = static_cast<double>(i) / kPosesAsInterpolated;
-      const double time_s = std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), share);
-      const geometry::Quat before = problem_.original.pose(time_s).orientation;
-      largest_rad = std::max(largest_rad, path.pose(time_s).orientation.angularDistance(before));
-    }
-    return largest_rad;
-  }
-
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
     TreeOptions options;
-    options.margin_m = 0.5 * kLeastMargin * radius_m_;
+    options.margin_m = kTreeMargin * radius_m_;
     options.about_W = std::move(way_W);
-    options.reach_m = 2.0 * radius_m_;
+    options.reach_m = kTreeReach * radius_m_;
     options.seed = seed_;
     options.largest_turn_rad =
         std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
-    options.interpolated = poses_as_interpolated(kPosesAsInterpolated);
+    options.interpolated = poses_as_interpolated(problem_, kPosesAsInterpolated);
     return options;
-  }
-
-  [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated(int steps) const {
-    std::vector<motion::Pose> poses;
-    for (int i = 0; i <= steps; ++i) {
-      const double share = static_cast<double>(i) / steps;
-      poses.push_back(
-          problem_.original.pose(std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), share)));
-    }
-    return poses;
   }
 
   [[nodiscard]] std::vector<Vec3> centers_as_interpolated() const {
     std::vector<Vec3> centers_W;
-    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
+    for (const motion::Pose& pose : poses_as_interpolated(problem_, kLegsAsInterpolated)) {
       centers_W.push_back(space_.center_W(pose));
     }
     return centers_W;
@@ -359,26 +347,6 @@ class Detour {
 
   [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {
     return space_.center_W(motion::unsigned_pose(pose));
-  }
-
-  /// Gives `way_W` the path's orientations at equal shares of the way and of the time.
-  Guide oriented(const std::vector<Vec3>& way_W, const SignedPose& begin, const SignedPose& end) {
-    double length_m = 0.0;
-    for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
-    Guide guide = {from_};
-    double so_far_m = 0.0;
-    for (std::size_t i = 0; i < way_W.size(); ++i) {
-      if (i > 0) so_far_m += (way_W[i] - way_W[i - 1]).norm();
-      const double share = length_m > 0.0 ? so_far_m / length_m : 0.0;
-      const double time_s =
-          std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), std::clamp(share, 0.0, 1.0));
-      const geometry::Vec4 q = signed_pose_at(problem_.path, time_s).orientation;
-      guide.push_back({space_.pose_around(way_W[i], geometry::from_wxyz(q)).position, q});
-    }
-    guide[1] = begin;
-    guide.back() = end;
-    guide.push_back(to_);
-    return guide;
   }
 
   const Problem& problem_;

@@ -15,7 +15,6 @@ using motion::CubicPiece;
 // Chosen by measurement; none changes what is proved.
 constexpr std::size_t kFewestKnots = 5;  // one bump
 constexpr int kBeyondEnd = 3;            // knots beyond an end of the whole path
-constexpr double kNearStep = 0.4;        // in steps: a knot that is nearer to a joint moves there
 constexpr double kLeastExtension = 0.5;  // in steps
 constexpr double kNegligible = 0.003;    // share of the largest change of the position
 constexpr double kSmallEnd = 0.3;        // the same
@@ -59,16 +58,16 @@ double harm_of(const std::vector<double>& knots_s, std::size_t i, const CubicPat
 
 KnotChoice::KnotChoice(const Problem& problem, const ChangedPart& part)
     : problem_(problem), part_(part) {
-  for (const CubicPiece& piece : problem.path.pieces) joints_s_.push_back(piece.t0_s);
-  joints_s_.push_back(problem.path.end_s());
+  for (const CubicPiece& piece : problem.path.pieces) interpolated_knots_s_.push_back(piece.t0_s);
+  interpolated_knots_s_.push_back(problem.path.end_s());
 }
 
 bool KnotChoice::is_keyframe(double time_s) const {
   return std::ranges::binary_search(problem_.keyframes_s, time_s);
 }
 
-bool KnotChoice::is_joint(double time_s) const {
-  return std::ranges::binary_search(joints_s_, time_s);
+bool KnotChoice::is_interpolated_knot(double time_s) const {
+  return std::ranges::binary_search(interpolated_knots_s_, time_s);
 }
 
 bool KnotChoice::is_valid(const std::vector<double>& knots_s) const {
@@ -99,7 +98,7 @@ bool KnotChoice::is_valid_without(const std::vector<double>& knots_s, std::size_
   return true;
 }
 
-std::vector<double> KnotChoice::joints_of(const CubicPath& path) const {
+std::vector<double> KnotChoice::knots_of(const CubicPath& path) const {
   std::vector<double> knots_s;
   for (const CubicPiece& piece : path.pieces) {
     if (part_.begin_s <= piece.t0_s && piece.t0_s <= part_.end_s) knots_s.push_back(piece.t0_s);
@@ -124,7 +123,8 @@ std::vector<double> KnotChoice::with_beyond(std::vector<double> knots_s) const {
 std::vector<double> KnotChoice::within(const std::vector<double>& knots_s) const {
   std::vector<double> inner_s;
   for (const double knot_s : knots_s) {
-    if (joints_s_.front() <= knot_s && knot_s <= joints_s_.back()) inner_s.push_back(knot_s);
+    if (interpolated_knots_s_.front() <= knot_s && knot_s <= interpolated_knots_s_.back())
+      inner_s.push_back(knot_s);
   }
   return inner_s;
 }
@@ -141,23 +141,6 @@ std::vector<double> KnotChoice::completed(const std::vector<double>& knots_s) co
   return result;
 }
 
-std::vector<double> KnotChoice::with_joints(std::vector<double> knots_s) const {
-  for (const double joint_s : joints_s_) {
-    if (joint_s <= knots_s.front() || joint_s >= knots_s.back()) continue;
-    const auto next = std::ranges::lower_bound(knots_s, joint_s);
-    const auto last = std::prev(next);
-    const auto near = *next - joint_s < joint_s - *last ? next : last;
-    const bool is_inner = near != knots_s.begin() && near + 1 != knots_s.end();
-    const bool is_near = std::abs(*near - joint_s) < kNearStep * (*next - *last);
-    if (is_near && is_inner && !is_joint(*near)) {
-      *near = joint_s;
-    } else if (*next != joint_s) {
-      knots_s.insert(next, joint_s);
-    }
-  }
-  return completed(with_beyond(std::move(knots_s)));
-}
-
 std::vector<double> KnotChoice::extended(const std::vector<double>& all_s, double begin_s,
                                          double end_s) const {
   std::vector<double> knots_s = within(all_s);
@@ -170,10 +153,10 @@ std::vector<double> KnotChoice::extended(const std::vector<double>& all_s, doubl
     knots_s.push_back(std::min(end_s, knots_s.back() + last_s));
   }
   // No knot moves: what was drawn on the old knots can be drawn on the new ones exactly.
-  for (const double joint_s : joints_s_) {
-    if (joint_s <= knots_s.front() || joint_s >= knots_s.back()) continue;
-    const auto next = std::ranges::lower_bound(knots_s, joint_s);
-    if (*next != joint_s) knots_s.insert(next, joint_s);
+  for (const double known_s : interpolated_knots_s_) {
+    if (known_s <= knots_s.front() || known_s >= knots_s.back()) continue;
+    const auto next = std::ranges::lower_bound(knots_s, known_s);
+    if (*next != known_s) knots_s.insert(next, known_s);
   }
   return completed(with_beyond(std::move(knots_s)));
 }
@@ -241,8 +224,9 @@ std::vector<std::size_t> KnotChoice::removable(const std::vector<double>& knots_
                                                const CubicPath& path) const {
   std::vector<std::pair<double, std::size_t>> by_harm;
   for (std::size_t i = 0; i < knots_s.size(); ++i) {
-    const bool is_inside = joints_s_.front() < knots_s[i] && knots_s[i] < joints_s_.back();
-    if (!is_inside || is_joint(knots_s[i])) continue;
+    const bool is_inside =
+        interpolated_knots_s_.front() < knots_s[i] && knots_s[i] < interpolated_knots_s_.back();
+    if (!is_inside || is_interpolated_knot(knots_s[i])) continue;
     if (is_valid_without(knots_s, i)) by_harm.emplace_back(harm_of(knots_s, i, path), i);
   }
   std::ranges::sort(by_harm);

@@ -25,7 +25,7 @@ class KnotChoice {
   /// Returns the knots of `path` in the part, and further times that make the list valid. If the
   /// part reaches an end of the whole path, the list goes on beyond it, so that the slope there is
   /// free.
-  [[nodiscard]] std::vector<double> joints_of(const motion::CubicPath& path) const;
+  [[nodiscard]] std::vector<double> knots_of(const motion::CubicPath& path) const;
 
   /// Returns `knots_s` with one knot more on either side, a step away, where there is room for half
   /// a step up to `begin_s` and `end_s`; and what else a valid list needs.
@@ -52,9 +52,8 @@ class KnotChoice {
 
  private:
   [[nodiscard]] bool is_keyframe(double time_s) const;
-  [[nodiscard]] bool is_joint(double time_s) const;
+  [[nodiscard]] bool is_interpolated_knot(double time_s) const;
   [[nodiscard]] bool is_valid_without(const std::vector<double>& knots_s, std::size_t i) const;
-  [[nodiscard]] std::vector<double> with_joints(std::vector<double> knots_s) const;
   [[nodiscard]] std::vector<double> completed(const std::vector<double>& knots_s) const;
   [[nodiscard]] std::vector<double> with_beyond(std::vector<double> knots_s) const;
   /// Returns the largest change of the position in each step between knots. [Units: metres]
@@ -66,7 +65,7 @@ class KnotChoice {
 
   const Problem& problem_;
   const ChangedPart part_;
-  std::vector<double> joints_s_;  ///< knots of the interpolated path
+  std::vector<double> interpolated_knots_s_;  ///< knots of the interpolated path
 };
 
 }  // namespace camway::correction

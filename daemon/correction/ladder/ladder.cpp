@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/correction/ladder/ladder.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 

@@ -25,7 +25,7 @@ struct LadderOptions {
   Objective objective = Objective::kClosest;
   OrientationPolicy orientation;
   /// Limit for the whole path; 0 corrects nothing and searches nothing. [Limit: 0 <= value]
-  int max_inserted_keyframes = 200;
+  int max_inserted_keyframes = 0;
   motion::TimeOrigin origin;  ///< origin of all times
   /// Viewing distance of the cost of corrections (`closeness.h`); 0 takes it from the scene.
   /// [Limit: 0 <= value]

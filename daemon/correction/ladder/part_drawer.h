@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -28,8 +27,8 @@ class PartDrawer {
  public:
   /// Refers to all arguments, which must outlive it. `problem`: as `CorrectedPath::restored`
   /// returns it for `part`. `changed`: the part that is drawn again. `part`: where rows may change
-  /// the path. `space`: where drawings are proved free. `measured`: where costs are measured; it may
-  /// require less clearance.
+  /// the path. `space`: where drawings are proved free. `measured`: where costs are measured; it
+  /// may require less clearance.
   PartDrawer(const Problem& problem, const ChangedPart& changed, const ChangedPart& part,
              Objective objective, FreeSpace& space, FreeSpace& measured,
              const base::Deadline& deadline);

@@ -36,7 +36,7 @@ class Redrawer {
 
   /// Returns the part drawn again; nothing if it is not worth it.
   std::optional<Candidate> run() {
-    std::optional<Drawing> best = drawer_.drawing(drawer_.choice().joints_of(path_), path_);
+    std::optional<Drawing> best = drawer_.drawing(drawer_.choice().knots_of(path_), path_);
     if (!best) return std::nullopt;
     extend(*best);
     drawer_.limit_cost(kMostGrowth * std::min(best->cost, drawer_.cost(path_)));

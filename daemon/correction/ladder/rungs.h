@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "daemon/base/budget.h"
 #include "daemon/correction/ladder/collision_list.h"

@@ -57,7 +57,7 @@ std::optional<Candidate> sparser(const ImprovedPart& improved, Objective objecti
   const double cost = drawer.cost(path);
   const double cost_before = drawer.cost(before);
   if (cost_before <= cost) return std::nullopt;
-  std::optional<Drawing> best = drawer.drawing(drawer.choice().joints_of(path), path);
+  std::optional<Drawing> best = drawer.drawing(drawer.choice().knots_of(path), path);
   if (!best) return std::nullopt;
   const std::size_t knots = best->knots_s.size();
   drawer.limit_cost(most_cost(objective, cost, cost_before));

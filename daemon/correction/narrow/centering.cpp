@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "daemon/correction/narrow/near_pairs.h"
 
@@ -23,6 +22,8 @@ constexpr int kMostCenterings = 16;   // of one centring
 constexpr int kMostTwistSweeps = 40;  // of the solver, over all pairs
 constexpr double kFirstGain = 0.5;    // gain asked of a step, relative to the gap
 constexpr double kLeastGain = 0.02;   // the same: less is not worth a step
+constexpr double kMoreGain = 1.5;     // growth of the gain that is asked of the next step
+constexpr double kGainReached = 0.3;  // share of the gain asked for with which a step is taken
 constexpr double kLeastAsked = 3e-5;  // gain asked of a step from contact, in radii of the ball
 constexpr double kPairHorizon = 5.0;  // of pairs, relative to the gap
 constexpr double kLeastPairHorizon = 0.03;  // the same, in radii of the ball
@@ -100,9 +101,9 @@ Centered centered(FreeSpace& space, const Pose& pose, double enough_m, const Vec
       if (length_m > kMostTwist * asked_m) twist *= kMostTwist * asked_m / length_m;
       const Pose next = twisted(space, now.pose, twist);
       const double next_m = gap_m(next);
-      if (next_m < now.gap_m + 0.3 * asked_m) continue;
+      if (next_m < now.gap_m + kGainReached * asked_m) continue;
       now = {next, next_m};
-      gain = std::min(1.0, 1.5 * gain);
+      gain = std::min(1.0, kMoreGain * gain);
       break;
     }
   }
@@ -114,7 +115,8 @@ struct Fitter::Thin {
   Thin(const FreeSpace& whole, double scale_of_body)
       : scale(scale_of_body),
         body(whole.body().scaled(whole.center_C(), scale_of_body)),
-        space({whole.obstacles(), body, whole.detect()}, whole.policy(), whole.closeness()) {}
+        space({whole.obstacles(), body, whole.detect_options()}, whole.policy(),
+              whole.closeness()) {}
 
   double scale;
   motion::Body body;

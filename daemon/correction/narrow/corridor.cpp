@@ -41,18 +41,12 @@ Vec3 direction_W(FreeSpace& space, const motion::Pose& pose, double gap_m, const
   return least_W.dot(before_W) < 0.0 ? Vec3(-least_W) : least_W;
 }
 
-SignedPose signed_like(const motion::Pose& pose, const SignedPose& other) {
-  SignedPose result = motion::signed_pose(pose);
-  if (result.orientation.dot(other.orientation) < 0.0) result.orientation *= -1.0;
-  return result;
-}
-
 class Walker {
  public:
-  Walker(FreeSpace& space, HasRoom has_room, const SignedPose* goal, double margin_m,
+  Walker(FreeSpace& space, RoomTest room_test, const SignedPose* goal, double margin_m,
          const base::Deadline& deadline)
       : space_(space),
-        has_room_(has_room),
+        room_test_(room_test),
         goal_(goal),
         margin_m_(margin_m),
         deadline_(deadline),
@@ -117,7 +111,7 @@ class Walker {
   [[nodiscard]] bool is_open(const SignedPose& at) {
     const motion::Pose pose = motion::unsigned_pose(at);
     gap_m_ = space_.gap_m(pose, kOpenGap * radius_m_);
-    return (has_room_ == HasRoom::kByGap && gap_m_ >= kOpenGap * radius_m_) ||
+    return (room_test_ == RoomTest::kGap && gap_m_ >= kOpenGap * radius_m_) ||
            space_.ball_gap_m(space_.center_W(pose), radius_m_, 0.01 * radius_m_) > 0.0;
   }
 
@@ -136,7 +130,7 @@ class Walker {
   }
 
   FreeSpace& space_;
-  const HasRoom has_room_;
+  const RoomTest room_test_;
   const SignedPose* const goal_;  ///< a pose to which the way may lead instead; may be null
   const double margin_m_;
   const base::Deadline& deadline_;
@@ -147,18 +141,18 @@ class Walker {
 }  // namespace
 
 std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, const Vec3& along_W,
-                             HasRoom has_room, double margin_m, const base::Deadline& deadline) {
-  return Walker(space, has_room, nullptr, margin_m, deadline).run(from, along_W);
+                             RoomTest room_test, double margin_m, const base::Deadline& deadline) {
+  return Walker(space, room_test, nullptr, margin_m, deadline).run(from, along_W);
 }
 
-std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, HasRoom has_room,
+std::optional<Guide> way_out(FreeSpace& space, const SignedPose& from, RoomTest room_test,
                              const base::Deadline& deadline) {
   const motion::Pose pose = motion::unsigned_pose(from);
   const double gap_m = space.gap_m(pose, space.ball_radius_m());
   const Vec3 along_W = direction_W(space, pose, gap_m, Vec3::Zero());
   for (const double sign : {1.0, -1.0}) {
     std::optional<Guide> found =
-        way_out(space, from, sign * along_W, has_room, kMarginOfGap * gap_m, deadline);
+        way_out(space, from, sign * along_W, room_test, kMarginOfGap * gap_m, deadline);
     if (found) return found;
   }
   return std::nullopt;
@@ -168,7 +162,7 @@ std::optional<Guide> corridor(FreeSpace& space, const SignedPose& middle, const 
                               double margin_m, const base::Deadline& deadline,
                               const CorridorGoals* goals) {
   const auto out = [&](const Vec3& to_W, const SignedPose* goal) {
-    Walker walker(space, HasRoom::kByGap, goal, margin_m, deadline);
+    Walker walker(space, RoomTest::kGap, goal, margin_m, deadline);
     std::optional<Guide> found = goal ? walker.straight(middle, to_W) : std::nullopt;
     return found ? found : walker.run(middle, to_W);
   };

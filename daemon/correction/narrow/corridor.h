@@ -11,10 +11,10 @@ namespace camway::correction {
 /// Margin of a way out where it begins at a small gap, relative to that. Chosen by measurement.
 inline constexpr double kMarginOfGap = 0.3;
 
-/// When a body has left a narrow place.
-enum class HasRoom {
-  kByGap,   ///< its gap is a share of the radius of the ball about it, or the ball fits
-  kByBall,  ///< the ball fits: a ring about a thin pole has a gap, and is not free of it
+/// The test by which a body has left a narrow place.
+enum class RoomTest {
+  kGap,   ///< its gap is a share of the ball's radius, or the ball fits
+  kBall,  ///< the ball fits; a ring about a thin pole has a gap, but is not off the pole
 };
 
 /// Follows the narrow place in which the body is at `from`, to where it has room. Returns the poses
@@ -25,12 +25,12 @@ enum class HasRoom {
 /// which contacts change least: the eigenvector of the least eigenvalue of Σ n·nᵀ over the normals
 /// n of the nearest pairs, with the sign that is nearer to `along_W` and later to the last step.
 std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from,
-                             const geometry::Vec3& along_W, HasRoom has_room, double margin_m,
+                             const geometry::Vec3& along_W, RoomTest room_test, double margin_m,
                              const base::Deadline& deadline);
 
 /// Returns the way out of a narrow place in which the body is at `from` already, in either
 /// direction; only `from` where it has room, nothing if no way out was found.
-std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from, HasRoom has_room,
+std::optional<Guide> way_out(FreeSpace& space, const motion::SignedPose& from, RoomTest room_test,
                              const base::Deadline& deadline);
 
 /// Free poses to which a corridor may lead: one before a narrow place, and one behind it.

@@ -34,8 +34,8 @@ SignedLikeEnds signed_as_ends(const motion::Pose& pose, const SignedPose& from,
   return {std::min(-to_from, -to_to), result};
 }
 
-std::optional<Guide> straight_motion(FreeSpace& space, const SignedPose& pose, const Vec3& along_W,
-                                     double farthest_m, double margin_m) {
+std::optional<Guide> straight_passage(FreeSpace& space, const SignedPose& pose, const Vec3& along_W,
+                                      double farthest_m, double margin_m) {
   const auto end = [&](const Vec3& direction_W) -> std::optional<SignedPose> {
     const std::optional<double> hit =
         space.first_hit(pose, moved(pose, farthest_m * direction_W), margin_m);
@@ -47,6 +47,14 @@ std::optional<Guide> straight_motion(FreeSpace& space, const SignedPose& pose, c
   const std::optional<SignedPose> forth = back ? end(along_W) : std::nullopt;
   if (!forth) return std::nullopt;
   return Guide{*back, *forth};
+}
+
+bool leads_through(const Guide& poses, std::span<const Vec3> way_W, const FreeSpace& space) {
+  const auto ahead_m = [&](const SignedPose& pose) {
+    const Vec3 center_W = space.center_W(motion::unsigned_pose(pose));
+    return (center_W - way_W.front()).norm() - (center_W - way_W.back()).norm();
+  };
+  return ahead_m(poses.front()) < 0.0 && ahead_m(poses.back()) > 0.0;
 }
 
 }  // namespace camway::correction

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "daemon/correction/narrow/hole_line.h"
 #include "daemon/correction/path/guide.h"
@@ -27,8 +28,13 @@ SignedLikeEnds signed_as_ends(const motion::Pose& pose, const motion::SignedPose
 /// either side as it is free with `margin_m`, but no farther than `farthest_m`. Returns nothing if
 /// that leads less than about the radius of the body's ball to one side, which would not leave a
 /// thin wall.
-std::optional<Guide> straight_motion(FreeSpace& space, const motion::SignedPose& pose,
-                                     const geometry::Vec3& along_W, double farthest_m,
-                                     double margin_m);
+std::optional<Guide> straight_passage(FreeSpace& space, const motion::SignedPose& pose,
+                                      const geometry::Vec3& along_W, double farthest_m,
+                                      double margin_m);
+
+/// Returns whether a motion begins nearer to the beginning of the way than to its end, and ends
+/// nearer to its end.
+bool leads_through(const Guide& poses, std::span<const geometry::Vec3> way_W,
+                   const FreeSpace& space);
 
 }  // namespace camway::correction

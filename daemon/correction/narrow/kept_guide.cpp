@@ -10,7 +10,7 @@
 #include "daemon/correction/narrow/centering.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/hole_line.h"
-#include "daemon/correction/narrow/narrow_passage.h"
+#include "daemon/correction/narrow/hole_motion.h"
 #include "daemon/correction/narrow/way_places.h"
 
 namespace camway::correction {
@@ -91,8 +91,7 @@ class KeptPassage {
     const std::optional<Centered> fitted = fitter_.fitted(place);
     if (!fitted) return std::nullopt;
     const double margin_m = std::min(margin_m_, kMarginOfGap * fitted->gap_m);
-    SignedPose middle = motion::signed_pose(fitted->pose);
-    if (middle.orientation.dot(middle_.orientation) < 0.0) middle.orientation *= -1.0;
+    const SignedPose middle = motion::signed_like(fitted->pose, middle_);
     std::optional<Guide> found = corridor(space_, middle, along_W_, margin_m, deadline_, &goals_);
     return found && leads_through(*found, way_W_, space_) ? std::move(found) : std::nullopt;
   }
@@ -113,13 +112,11 @@ std::vector<SignedPose> poses_at(std::span<const WayPlace> places, const FreeSpa
                                  const SignedPose& from,
                                  std::span<const motion::Pose> interpolated) {
   std::vector<SignedPose> poses;
-  geometry::Vec4 before = from.orientation;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(places.size() - 1);
     const geometry::Quat orientation = pose_at_share(interpolated, share).orientation;
-    poses.push_back(motion::signed_pose(space.pose_around(places[i].at_W, orientation)));
-    if (poses.back().orientation.dot(before) < 0.0) poses.back().orientation *= -1.0;
-    before = poses.back().orientation;
+    const SignedPose& before = poses.empty() ? from : poses.back();
+    poses.push_back(motion::signed_like(space.pose_around(places[i].at_W, orientation), before));
   }
   return poses;
 }

@@ -7,7 +7,6 @@
 
 #include "daemon/correction/narrow/centering.h"
 #include "daemon/correction/narrow/hole_motion.h"
-#include "daemon/correction/narrow/narrow_passage.h"
 
 namespace camway::correction {
 
@@ -125,8 +124,8 @@ std::optional<Guide> LeastTurn::straight(const LinePlace& place, const Quat& ori
 
 std::optional<Guide> LeastTurn::straight_from(const LinePlace& place, const Pose& pose) {
   std::optional<Guide> found =
-      straight_motion(space_, signed_as_ends(pose, from_, to_).pose, place.line.direction_W(),
-                      place.farthest_m, margin_m_);
+      straight_passage(space_, signed_as_ends(pose, from_, to_).pose, place.line.direction_W(),
+                       place.farthest_m, margin_m_);
   return found && leads_through(*found, place.way_W, space_) ? std::move(found) : std::nullopt;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -14,7 +13,7 @@
 #include "daemon/correction/narrow/hole_motion.h"
 #include "daemon/correction/narrow/least_turn.h"
 #include "daemon/correction/narrow/way_places.h"
-#include "daemon/correction/path/orientation_rule.h"
+#include "daemon/correction/path/polyline.h"
 
 namespace camway::correction {
 
@@ -76,12 +75,6 @@ class Threader {
   }
 
  private:
-  static double length_m(std::span<const Vec3> way_W) {
-    double sum_m = 0.0;
-    for (std::size_t i = 1; i < way_W.size(); ++i) sum_m += (way_W[i] - way_W[i - 1]).norm();
-    return sum_m;
-  }
-
   /// Returns a motion along a line that is shifted to where it has room, and grows: a longer line
   /// shows better where a hole leads.
   std::optional<Guide> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
@@ -106,7 +99,7 @@ class Threader {
     for (const SignedLikeEnds& fit : fitting(line, sides)) {
       if (deadline_.passed()) return std::nullopt;
       std::optional<Guide> found =
-          straight_motion(space_, fit.pose, line.direction_W(), farthest_m_, margin_m_);
+          straight_passage(space_, fit.pose, line.direction_W(), farthest_m_, margin_m_);
       if (!found) continue;
       if (!leads_through(*found, way_W_, space_)) return found;
       return least_turn_.reduced(place, *std::move(found));
@@ -233,19 +226,11 @@ std::vector<PlaceRange> narrow_places(const FreeSpace& space, std::span<const Wa
 
 }  // namespace
 
-bool leads_through(const Guide& poses, std::span<const Vec3> way_W, const FreeSpace& space) {
-  const auto ahead_m = [&](const SignedPose& pose) {
-    const Vec3 center_W = space.center_W(motion::unsigned_pose(pose));
-    return (center_W - way_W.front()).norm() - (center_W - way_W.back()).norm();
-  };
-  return ahead_m(poses.front()) < 0.0 && ahead_m(poses.back()) > 0.0;
-}
-
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec3> way_W,
                                            const SignedPose& from, const SignedPose& to,
                                            std::span<const motion::Pose> interpolated,
                                            double margin_m, const base::Deadline& deadline) {
-  if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
+  if (way_W.size() < 2 || is_limited(space.policy())) return {};
   const std::vector<WayPlace> places = places_on_way(way_W, space.ball_radius_m());
   Threader threader(space, from, to, interpolated, margin_m, deadline);
   std::vector<NarrowPassage> passages;

@@ -18,10 +18,6 @@ struct NarrowPassage {
   std::size_t last = 0;   ///< index of the first point of the way after it
 };
 
-/// Whether a motion begins nearer to the beginning of the way, and ends nearer to its end.
-bool leads_through(const Guide& poses, std::span<const geometry::Vec3> way_W,
-                   const FreeSpace& space);
-
 /// Finds a motion of the body through each narrow place of `way_W`, a way for a smaller ball, in
 /// the order of the way. Random sampling rarely finds such motions: a plate passes a hole little
 /// wider than its short side in few orientations only.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/correction/narrow/way_places.h"
 
+#include "daemon/correction/path/polyline.h"
+
 namespace camway::correction {
 
 namespace {
@@ -26,9 +28,7 @@ std::vector<geometry::Vec3> pulled_tight(const FreeSpace& space,
 
 std::vector<WayPlace> places_on_way(std::span<const geometry::Vec3> way_W, double radius_m) {
   const double step_m = kStep * radius_m;
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
-  if (!(length_m <= kMostPlaces * step_m)) return {};
+  if (!(length_m(way_W) <= kMostPlaces * step_m)) return {};
   std::vector<WayPlace> places = {{way_W.front(), 0}};
   for (std::size_t i = 1; i < way_W.size(); ++i) {
     const int parts = 1 + static_cast<int>((way_W[i] - way_W[i - 1]).norm() / step_m);

@@ -2,7 +2,6 @@
 #include "daemon/correction/path/candidate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -79,12 +78,8 @@ bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>
 /// Returns a time range in which the orientation policy is not met or not shown to be met.
 std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, const Span& changed,
                                                 const Problem& problem, const FreeSpace& space) {
-  if (!space.may_turn()) {
-    for (const motion::BumpRow& row : candidate.rows) {
-      const bool turns = std::ranges::any_of(
-          row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
-      if (turns) return CollisionInterval{changed.begin_s, changed.end_s};
-    }
+  if (!space.may_turn() && turns(candidate.rows)) {
+    return CollisionInterval{changed.begin_s, changed.end_s};
   }
   return first_breach(space.policy(), candidate.path, problem.original, changed.begin_s,
                       changed.end_s);
@@ -160,6 +155,13 @@ std::optional<CollisionInterval> collision_in(const Span& changed, const Candida
 }
 
 }  // namespace
+
+bool turns(std::span<const motion::BumpRow> rows) {
+  return std::ranges::any_of(rows, [](const motion::BumpRow& row) {
+    return std::ranges::any_of(
+        row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
+  });
+}
 
 std::optional<CollisionInterval> new_collision(const motion::CubicPath& path, double t_begin_s,
                                                double t_end_s, const Problem& problem,

@@ -46,6 +46,9 @@ struct Candidate {
   std::vector<motion::BumpRow> rows;  ///< bumps that were added to `Problem::path`
 };
 
+/// Whether any bump of `rows` turns the body.
+bool turns(std::span<const motion::BumpRow> rows);
+
 /// Returns a time range in which `path` collides, in [t_begin_s, t_end_s] and outside
 /// `problem.foreign_collisions` (`collision::any_collision`); nothing if `path` is proved free
 /// there. If the deadline strikes, the part not searched counts as colliding.

@@ -174,7 +174,6 @@ double closeness_cost(const CubicPath& path, const CubicPath& original,
   double cost = 0.0;
   const double a = closeness.acceleration_m_per_s2;
   for_each_pair(path, original, [&](const CubicPiece& now, const CubicPiece& before) {
-    if (now.position == before.position && now.image == before.image) return;
     cost += PieceShift(now, before, path.reference, closeness).integral();
     // The offset's second derivative is linear: Simpson's rule is exact for its square.
     const Change change(now, before);

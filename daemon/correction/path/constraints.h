@@ -56,11 +56,12 @@ inline bool may_turn_in(const OrientationPolicy& policy) {
   return policy.rule != OrientationRule::kKeep && policy.max_turn_rad > 0.0;
 }
 
-/// The least turn that anyone sees: a fifth of a pixel, in a picture that has 2,000 in 60 degrees.
+/// Smallest visible turn: a fifth of a pixel, in a picture 2,000 pixels wide with a field of view
+/// of 60 degrees.
 inline constexpr double kLeastTurn_rad = 1e-4;
 
-/// Returns the policy without turns that nobody would see. Searches gain nothing by them, and take
-/// a hundred times as long.
+/// Returns the policy with an invisible limit of turning set to 0. Searches gain nothing by such
+/// turns, and take a hundred times as long.
 inline OrientationPolicy without_unseen_turns(OrientationPolicy policy) {
   if (policy.max_turn_rad < kLeastTurn_rad) policy.max_turn_rad = 0.0;
   return policy;

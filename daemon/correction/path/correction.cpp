@@ -6,22 +6,6 @@
 
 namespace camway::correction {
 
-std::string_view to_string(CorrectionKind kind) {
-  switch (kind) {
-    case CorrectionKind::kNone:
-      return "none";
-    case CorrectionKind::kMove:
-      return "move";
-    case CorrectionKind::kTurn:
-      return "turn";
-    case CorrectionKind::kGoRound:
-      return "go_round";
-    case CorrectionKind::kShrink:
-      return "shrink";
-  }
-  return "none";
-}
-
 Effort& Effort::operator+=(const Effort& other) {
   const auto add = [](std::int32_t& count, std::int32_t more) {
     count += std::min(more, std::numeric_limits<std::int32_t>::max() - count);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "daemon/collision/interval.h"
 #include "daemon/correction/path/closeness.h"
@@ -17,9 +16,6 @@ enum class CorrectionKind : std::uint8_t {
   kGoRound,  ///< the camera takes a detour
   kShrink,   ///< the near distance was reduced
 };
-
-/// Returns "none", "move", "turn", "go_round" or "shrink".
-std::string_view to_string(CorrectionKind kind);
 
 /// Effort spent on a correction; a counter is 0 if its method was not tried.
 struct Effort {

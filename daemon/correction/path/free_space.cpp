@@ -156,14 +156,13 @@ SignedPose FreeSpace::allowed(const SignedPose& wanted, const motion::Pose& inte
   const motion::Pose pose = motion::unsigned_pose(wanted);
   const motion::Pose turned = allowed_pose(policy_, pose, interpolated, center_C_);
   if (turned.orientation.coeffs() == pose.orientation.coeffs()) return wanted;
-  SignedPose result = motion::signed_pose(turned);
-  if (result.orientation.dot(wanted.orientation) < 0.0) result.orientation *= -1.0;
-  return result;
+  return motion::signed_like(turned, wanted);
 }
 
 double FreeSpace::distance_m(const SignedPose& a, const SignedPose& b) const {
-  const double half_sine = 0.5 * (a.orientation - b.orientation).norm();
-  const double turn_rad = 4.0 * std::asin(std::min(1.0, half_sine));
+  // |a - b| = 2 sin(theta/4) on S3 for a turn by theta.
+  const double quarter_sine = 0.5 * (a.orientation - b.orientation).norm();
+  const double turn_rad = 4.0 * std::asin(std::min(1.0, quarter_sine));
   return (a.position - b.position).norm() + ball_radius_m_ * turn_rad;
 }
 

@@ -35,7 +35,7 @@ class FreeSpace {
   /// if all gaps are `up_to_m` or more. Ignores the insides of solids.
   [[nodiscard]] std::optional<scene::Nearest> nearest(const motion::Pose& pose, double up_to_m);
   /// Lower bound of the gap from the distance field alone; negative if the field cannot tell.
-  [[nodiscard]] double at_least_m(const motion::Pose& pose) const {
+  [[nodiscard]] double gap_at_least_m(const motion::Pose& pose) const {
     return probe_.at_least_m(motion::standing_at(pose));
   }
   /// The probe, with the body placed at `pose`; valid until the next query.
@@ -103,7 +103,7 @@ class FreeSpace {
   [[nodiscard]] const collision::Query& query() const { return query_; }
   [[nodiscard]] const collision::Obstacles& obstacles() const { return query_.obstacles; }
   [[nodiscard]] const motion::Body& body() const { return query_.body; }
-  [[nodiscard]] const collision::DetectOptions& detect() const { return query_.options; }
+  [[nodiscard]] const collision::DetectOptions& detect_options() const { return query_.options; }
   [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
   [[nodiscard]] const Closeness& closeness() const { return closeness_; }
   /// Whether corrections may change orientations.

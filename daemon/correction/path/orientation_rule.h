@@ -16,6 +16,10 @@ namespace camway::correction {
 /// path tilts by up to 1.1°), and because a bump starts with no margin at all.
 inline constexpr double kOrientationAllowance_rad = 0.01;
 
+/// Share of the cone and of the limit of turning that `allowed_pose` uses; the rest is for the
+/// spline between knots.
+inline constexpr double kAimedShare = 0.95;
+
 /// Margin by which the pose `now` meets the rule and the limit of turning, in radians or as a sine;
 /// negative if it violates one, infinite if it cannot. `interpolated` is the pose of the
 /// interpolated path at the same time. Ignores kKeep and a limit of 0: path builders enforce these
@@ -51,9 +55,5 @@ std::optional<collision::CollisionInterval> first_breach(const OrientationPolicy
                                                          const motion::CubicPath& now,
                                                          const motion::CubicPath& interpolated,
                                                          double t_begin_s, double t_end_s);
-
-/// Share of the cone and of the limit of turning that `allowed_pose` uses; the rest is for the
-/// spline between knots.
-inline constexpr double kAimedShare = 0.95;
 
 }  // namespace camway::correction

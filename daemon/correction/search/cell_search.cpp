@@ -19,8 +19,7 @@ namespace {
 using geometry::Vec3;
 
 // Chosen by measurement; neither changes what is free.
-constexpr double kMarginAround = 4.0;       // balls around the scene: ways may lead there too
-constexpr std::size_t kLooksPerClock = 64;  // looks at a cell for each reading of the clock
+constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
 
 class CellSearch {
  public:
@@ -107,8 +106,10 @@ class CellSearch {
                          : options_.max_cells;
   }
 
+  static constexpr std::size_t kStepsPerDeadlineCheck = 64;  // a step is a look at a cell
+
   bool is_late() {
-    if (looks_++ % kLooksPerClock == 0) is_late_ = deadline_.passed();
+    if (looks_++ % kStepsPerDeadlineCheck == 0) is_late_ = deadline_.passed();
     return is_late_;
   }
 

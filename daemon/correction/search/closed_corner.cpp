@@ -117,8 +117,8 @@ class Corner {
     return true;
   }
 
-  /// The nearest in front of all that was found before, again and again. False if they are too
-  /// many, or make no corner.
+  /// Adds walls, each in the plane of the nearest triangle that is in front of all walls so far.
+  /// Returns false if there are too many, or if they make no corner.
   bool find_walls() {
     while (const std::optional<std::size_t> next = nearest_in_front()) {
       if (!add_wall({normals_[*next], normals_[*next].dot(triangles_[*next][0])})) return false;
@@ -153,7 +153,8 @@ class Corner {
            corner_.walls[wall].at_m;
   }
 
-  // For the ball there is nothing between what is nearer to each other than its radius.
+  /// Whether the triangle belongs to the wall: the ball does not fit between things less than
+  /// `keep_m` apart.
   [[nodiscard]] bool is_in(std::size_t wall, std::size_t triangle) const {
     return std::ranges::all_of(triangles_[triangle], [&](const Vec3& vertex) {
       return std::abs(corner_.walls[wall].height_m(vertex)) <= keep_m_;
@@ -192,9 +193,9 @@ class Corner {
     return true;
   }
 
-  /// Whether another triangle keeps to all of what is left of an edge: distances from a triangle
-  /// are convex. One that goes on from there, and not the same again: surfaces often are there
-  /// twice.
+  /// Whether another triangle stays within `keep_m` of the whole edge and continues the wall beyond
+  /// it. Its distance at both ends suffices, as distance from a triangle is convex. Copies of the
+  /// same triangle do not count; surfaces often occur twice.
   [[nodiscard]] bool is_joined(std::size_t wall, std::size_t triangle, const LineSegment& edge,
                                const Vec3& third) const {
     const Vec3 outward = outward_of(triangle, third);

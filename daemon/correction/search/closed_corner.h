@@ -38,10 +38,11 @@ struct ClosedCorner {
 /// walls, and nothing behind them. Walls nearly parallel to each other make no corner, as the space
 /// between them may lead on.
 ///
-/// A wall is triangles in one plane, to `keep_m`. Their edges are closed where, as far as they are
-/// in the box and in front of the other walls, another triangle keeps within `keep_m` of them that
-/// goes on in the plane or is part of another of the walls; so walls may stand on floors without
-/// sharing vertices with them. A side of the bounds that cuts the box is a wall without edges.
+/// A wall is a set of triangles within `keep_m` of one plane. Every part of their edges that lies
+/// in the box and in front of the other walls must be closed: within `keep_m` of another triangle
+/// that continues the wall beyond the edge or belongs to another wall. So a wall may stand on a
+/// floor without sharing vertices with it. A side of the bounds that cuts the box is a wall without
+/// edges.
 ///
 /// For searches, not for proofs: rounded, and nothing where it would take long to tell.
 std::optional<ClosedCorner> closed_corner(const collision::Obstacles& obstacles,

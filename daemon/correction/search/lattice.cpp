@@ -11,10 +11,11 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double kFarAway = 4.0;  // steps from the preferred way beyond which the cost is constant
-constexpr double kStray = 0.15;   // relative extra cost of a step there
-constexpr double kComfort = 0.5;  // share of the ball: gap from which a point is not near
-constexpr double kHorizon = 0.9;  // share of a step: two gaps exceed the longest diagonal
+constexpr double kEndReach = 1.8;  // steps to the end that is tried: over the diagonal of a cell
+constexpr double kFarAway = 4.0;   // steps from the preferred way beyond which the cost is constant
+constexpr double kStray = 0.15;    // relative extra cost of a step there
+constexpr double kComfort = 0.5;   // share of the ball: gap from which a point is not near
+constexpr double kHorizon = 0.9;   // share of a step: two gaps exceed the longest diagonal
 
 }  // namespace
 
@@ -58,7 +59,7 @@ bool Lattice::step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W, dou
 }
 
 bool Lattice::meets_end(const Vec3& place_W, double gap_m) const {
-  const double reach_m = 1.8 * options_.spacing_m;  // more than the diagonal of a cell
+  const double reach_m = kEndReach * options_.spacing_m;
   return (place_W - to_W_).norm() <= reach_m &&
          step_is_free(place_W, gap_m, to_W_, this->gap_m(to_W_));
 }

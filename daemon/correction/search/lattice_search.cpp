@@ -90,8 +90,9 @@ class LatticeSearch {
     }
   };
 
-  // Reads the clock at every 64th point only.
-  bool is_late() { return (++settled_ % 64 == 0) && deadline_.passed(); }
+  static constexpr std::size_t kStepsPerDeadlineCheck = 64;  // a step settles a point
+
+  bool is_late() { return (++settled_ % kStepsPerDeadlineCheck == 0) && deadline_.passed(); }
 
   void claim(std::uint32_t index, double cost_m) {
     Point& point = points_[index];

@@ -22,7 +22,7 @@ constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
                                            {1.0, 60000, true},
                                            {0.25, 60000, false},
                                            {0.125, 120000, false}}};
-constexpr int kOftenRunOut = 2;  // lattices in a row from which on wider ones are searched
+constexpr int kRunsBeforeWider = 2;  // lattices in a row from which on wider ones are searched
 constexpr std::size_t kFirstCostlyLevel = 2;
 constexpr std::size_t kFinestLattice = kLevels.size() - 1;
 
@@ -49,11 +49,11 @@ class LatticeWays {
       const Level& level = kLevels[i];
       if (i == 1 && use.is_hopeless()) return;
       if (i == kFirstCostlyLevel && use.is_done()) return;
-      if (level.is_wide && times_run_out < kOftenRunOut) continue;
+      if (level.is_wide && times_run_out < kRunsBeforeWider) continue;
       const LatticeResult found = searched(level, from_end);
       if (!found.way_W.empty() && use.use(found)) return;
-      if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted) continue;
-      if (++times_run_out != kOftenRunOut) continue;
+      const bool ran_out = found.way_W.empty() && !found.exhausted;
+      if (level.is_wide || from_end || !ran_out || ++times_run_out != kRunsBeforeWider) continue;
       // If less is reachable from the other end, this search finds a way or ends quickly.
       const LatticeResult back = searched(level, true);
       if (!back.way_W.empty() && use.use(back)) return;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "daemon/motion/path/quaternion.h"
@@ -25,6 +24,9 @@ constexpr double kBackOff = 0.92;        // share of the way to an obstacle
 constexpr double kLeastStep = 0.02;      // share of the ball's radius
 constexpr double kLeastDot = 0.2;        // least dot product of the quaternions of one motion
 constexpr std::size_t kBlockedKept = 64;
+constexpr int kReaches = 4;  // distances of samples from the way, each half the one before
+constexpr double kMostHalvings = 3.0;   // of what samples differ from a blocked motion
+constexpr double kBesideBlocked = 0.7;  // the largest difference, in radii of the ball and radians
 
 class Tree {
  public:
@@ -155,7 +157,7 @@ class TreeSearch {
     const double share = uniform();
     const SignedPose straight = motion::between(from_, to_, share);
     // The reach cycles through fractions, so samples are drawn at several distances from the way.
-    const double reach_m = options_.reach_m * std::exp2(-static_cast<double>(index % 4));
+    const double reach_m = options_.reach_m * std::exp2(-static_cast<double>(index % kReaches));
     Vec3 center_W = along_way_W(share);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       center_W[axis] += reach_m * (2.0 * uniform() - 1.0);
@@ -199,9 +201,9 @@ class TreeSearch {
   SignedPose next_to_blocked() {
     const auto which = static_cast<std::size_t>(uniform() * static_cast<double>(blocked_.size()));
     SignedPose pose = blocked_[which];
-    const double size = std::exp2(-3.0 * uniform());
-    pose.position += 0.7 * size * space_.ball_radius_m() * normal_vector();
-    return allowed(turned(pose, 0.7 * size * std::abs(normal())));
+    const double size = std::exp2(-kMostHalvings * uniform());
+    pose.position += kBesideBlocked * size * space_.ball_radius_m() * normal_vector();
+    return allowed(turned(pose, kBesideBlocked * size * std::abs(normal())));
   }
 
   [[nodiscard]] Guide path_through(std::size_t side, std::size_t node, std::size_t other) const {

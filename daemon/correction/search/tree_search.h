@@ -8,6 +8,9 @@
 
 namespace camway::correction {
 
+/// Turn of samples from the orientations between the ends, at most. Chosen by measurement.
+inline constexpr double kLargestTreeTurn_rad = 1.9;
+
 /// Options of `tree_way`.
 struct TreeOptions {
   int max_samples = 3000;  ///< limit of the random samples [Limit: value >= 0]
@@ -16,8 +19,8 @@ struct TreeOptions {
   /// ball. [Limit: two points or more]
   std::vector<geometry::Vec3> about_W;
   double reach_m = 0.0;  ///< largest distance of samples from `about_W`
-  double largest_turn_rad =
-      1.9;  ///< largest angle between samples and the orientations from `from` to `to`
+  /// Largest angle between samples and the orientations from `from` to `to`.
+  double largest_turn_rad = kLargestTreeTurn_rad;
   /// Poses of the interpolated path at equal steps in time, for the orientation policy. The way has
   /// no times yet, so a sample is compared with the pose at its share of the length of `about_W`.
   /// The caller must check later that the path meets the policy. [Limit: two or more]

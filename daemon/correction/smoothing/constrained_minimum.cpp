@@ -8,10 +8,10 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement.
-constexpr double kForceSettled = 1e-3;  // in radii of the ball
-constexpr double kWorthOfRoom = 0.6;    // of all missing gaps together, relative to the form
-constexpr int kSweepsOfCurve = 40;      // a curve that hugs what it passes has many tight bounds
-constexpr int kSweepsToSettle = 400;    // bounds that face each other take hundreds
+constexpr double kMultiplierSettled = 1e-3;  // in radii of the ball
+constexpr double kWorthOfRoom = 0.6;         // of all missing gaps together, relative to the form
+constexpr int kSweepsOfCurve = 40;    // a curve that hugs what it passes has many tight bounds
+constexpr int kSweepsToSettle = 400;  // bounds that face each other take hundreds
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, const Improvem
                                        double ball_radius_m, double viewing_distance_m)
     : form_(form),
       bounds_(improvement.objective, ball_radius_m, viewing_distance_m),
-      settled_m_(kForceSettled * ball_radius_m),
+      settled_m_(kMultiplierSettled * ball_radius_m),
       usual_sweeps_(measures_curve(improvement.objective) ? kSweepsOfCurve : kFewSweeps),
       may_turn_(improvement.may_turn),
       has_no_price_(improvement.makes_room) {}

@@ -36,7 +36,7 @@ double ContactBounds::little_m() const { return kLittle * wanted_m_; }
 
 void ContactBounds::clear() {
   bounds_.clear();
-  forces_.clear();
+  multipliers_.clear();
 }
 
 void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double response,
@@ -82,18 +82,18 @@ void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, doub
 }
 
 void ContactBounds::add_hard(std::size_t sample, double bound_m, Contact& contact) {
-  bounds_.push_back({sample, contact.row.direction, bound_m, 0.0, contact.hard_force});
-  forces_.push_back(&contact.hard_force);
+  bounds_.push_back({sample, contact.row.direction, bound_m, 0.0, contact.hard_multiplier});
+  multipliers_.push_back(&contact.hard_multiplier);
 }
 
 void ContactBounds::add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
-                             double compliance, double& force) {
-  bounds_.push_back({sample, direction, bound_m, compliance, force});
-  forces_.push_back(&force);
+                             double compliance, double& multiplier) {
+  bounds_.push_back({sample, direction, bound_m, compliance, multiplier});
+  multipliers_.push_back(&multiplier);
 }
 
 void ContactBounds::remember() const {
-  for (std::size_t i = 0; i < bounds_.size(); ++i) *forces_[i] = bounds_[i].multiplier;
+  for (std::size_t i = 0; i < bounds_.size(); ++i) *multipliers_[i] = bounds_[i].multiplier;
 }
 
 }  // namespace camway::correction

@@ -13,7 +13,7 @@ namespace camway::correction {
 /// A contact with its last multipliers, from which the next solution starts.
 struct Contact {
   ContactRow row;
-  double hard_force = 0.0;       ///< multiplier of the hard bound
+  double hard_multiplier = 0.0;  ///< multiplier of the hard bound
   double soft_multiplier = 0.0;  ///< multiplier of the soft bound
 };
 
@@ -54,7 +54,7 @@ class ContactBounds {
   void add_kept(std::size_t sample, const StackedPoint& moved, double response, Contact& contact);
   void add_hard(std::size_t sample, double bound_m, Contact& contact);
   void add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
-                double compliance, double& force);
+                double compliance, double& multiplier);
 
   const bool is_safest_;
   const double wanted_m_;
@@ -62,7 +62,7 @@ class ContactBounds {
   double least_gap_m_ = 0.0;
   double price_of_room_ = 0.0;
   std::vector<BoundConstraint> bounds_;
-  std::vector<double*> forces_;  ///< the multiplier in the contact of each bound
+  std::vector<double*> multipliers_;  ///< the multiplier in the contact of each bound
 };
 
 }  // namespace camway::correction

@@ -2,7 +2,6 @@
 #include "daemon/correction/smoothing/contact_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "daemon/geometry/triangle_distance.h"

@@ -108,7 +108,7 @@ void SampleProbe::update_rows(PathSample& sample, const StackedPoint& there, boo
 // contact for the nearest obstacle.
 double SampleProbe::gap_m(PathSample& sample, const StackedPoint& there, SampleCheck& check) {
   const motion::Pose pose = this->pose(there);
-  const double at_least_m = space_.at_least_m(pose);
+  const double at_least_m = space_.gap_at_least_m(pose);
   if (at_least_m > kFarEnough * horizon_m_) return at_least_m;
   const std::optional<scene::Nearest> nearest = space_.nearest(pose, horizon_m_);
   if (!nearest) return horizon_m_;

@@ -17,7 +17,6 @@ using motion::CubicPoint;
 using motion::KnotBump;
 
 constexpr double kRoundedShare = 0.01;  // of the largest offset: δ
-constexpr int kBumpReach = 2;           // knots from a bump's peak to the end of its support
 constexpr double kSwerve = 0.2;     // spread for `kSafest`, by a weight that outweighs distances
 constexpr double kRounding = 0.03;  // share of the interval: how wide `kShortest` rounds a corner
 
@@ -47,20 +46,7 @@ CubicPoint difference(const CubicPoint& a, const CubicPoint& b) {
   return {a.position - b.position, a.image - b.image};
 }
 
-/// Number of knots beyond a keyframe, to one side, at which a bump may have its peak without
-/// reaching the next keyframe; 0 also where not even a bump at the keyframe itself stays clear of
-/// it.
-int knots_beyond(const motion::KnotRow& knots, int keyframe, int side, double next_s) {
-  const auto reaches = [&](int beyond) {
-    const double end_s = knots.knot_s(keyframe + side * (beyond + kBumpReach));
-    return side < 0 ? end_s < next_s : end_s > next_s;
-  };
-  int beyond = 0;
-  while (beyond < knots.count / 2 && !reaches(beyond + 1)) ++beyond;
-  return beyond;
-}
-
-/// Times between a knot of a row, or a joint of the path, and the next.
+/// Times between a knot of a row or of the path, and the next.
 struct Step {
   double begin_s;
   double end_s;
@@ -98,7 +84,7 @@ StackedPoint moved_by(const geometry::Vec3& move) {
   return stacked({move, geometry::Vec4::Zero()}, 1.0);
 }
 
-/// A derivative of the row of bumps at a time between the knots `knot` and `knot + 1`.
+/// The value or a derivative of the row of bumps at a time between the knots `knot` and `knot + 1`.
 Terms sum_of_bumps(int knot, const FreeCoefficients& free,
                    double (KnotBump::*derivative)(double) const, double time_s) {
   Terms terms;
@@ -110,86 +96,6 @@ Terms sum_of_bumps(int knot, const FreeCoefficients& free,
 }
 
 }  // namespace
-
-bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots) {
-  const std::size_t leg = problem.leg;
-  const std::vector<double>& times_s = problem.keyframes_s;
-  return (leg == 0 || knots.knot_s(-kBumpReach) >= times_s[leg - 1]) &&
-         (leg + 2 == times_s.size() || knots.knot_s(knots.count + kBumpReach) <= times_s[leg + 2]);
-}
-
-FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends)
-    : knots_(knots), first_(2), last_(knots.count - 2) {
-  if (ends == Ends::kFree) {
-    const std::size_t leg = problem.leg;
-    const std::vector<double>& times_s = problem.keyframes_s;
-    const bool is_last = leg + 2 == times_s.size();
-    first_ = leg == 0 ? -1 : -knots_beyond(knots, 0, -1, times_s[leg - 1]);
-    last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[leg + 2]));
-    hold(0);
-    hold(knots.count);
-  } else {
-    for (int k = 1; k < knots.count; ++k) {
-      if (std::ranges::binary_search(problem.keyframes_s, knots.knot_s(k))) hold(k);
-    }
-  }
-  for (int k = first_; k <= last_; ++k) {
-    variables_.push_back(is_held(k) ? kNoVariable : size_++);
-    bumps_.push_back(knots.bump(k));
-  }
-}
-
-void FreeCoefficients::hold(int knot) {
-  const double peak = knots_.bump_at_knot(knot, knot);
-  held_.push_back({knot, -knots_.bump_at_knot(knot - 1, knot) / peak,
-                   -knots_.bump_at_knot(knot + 1, knot) / peak});
-}
-
-void FreeCoefficients::add(int k, double factor, Terms& terms) const {
-  if (k < first_ || k > last_ || factor == 0.0) return;
-  const Eigen::Index variable = this->variable(k);
-  if (variable == kNoVariable) {
-    const auto held = std::ranges::find(held_, k, &Held::knot);
-    add(k - 1, factor * held->of_before, terms);
-    add(k + 1, factor * held->of_after, terms);
-    return;
-  }
-  const auto known = std::ranges::find(terms, variable, &Term::variable);
-  if (known != terms.end()) {
-    known->share += factor;
-  } else {
-    terms.push_back({variable, factor});
-  }
-}
-
-Terms FreeCoefficients::at(double time_s) const {
-  Terms terms;
-  for (int k = first_; k <= last_; ++k) {
-    const motion::KnotBump& bump = this->bump(k);
-    if (bump.knots_s.back() <= time_s) continue;
-    if (bump.knots_s.front() >= time_s) break;
-    add(k, bump.value(time_s), terms);
-  }
-  return terms;
-}
-
-StackedPoints FreeCoefficients::variables_of(const Offsets& offsets, double lever_m) const {
-  StackedPoints variables(size_, 7);
-  for (int k = first_; k <= last_; ++k) {
-    if (!is_held(k)) variables.row(variable(k)) = stacked(offsets(k), lever_m).transpose();
-  }
-  return variables;
-}
-
-Offsets FreeCoefficients::offsets_of(const StackedPoints& variables, double lever_m) const {
-  Offsets offsets{knots_, first_, {}};
-  for (int k = first_; k <= last_; ++k) {
-    Terms terms;
-    add(k, 1.0, terms);
-    offsets.at.push_back(unstacked(combined(terms, variables), lever_m));
-  }
-  return offsets;
-}
 
 SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& free,
                              Objective objective, double lever_m, const Closeness& closeness,
@@ -218,7 +124,8 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
   }
 }
 
-// Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
+// Between two knots of the row the bumps are cubic, and so is the offset where the path has no knot
+// there.
 // Gauss's rule with four points is exact for the squares of both.
 void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& free,
                                 double lever_m, double bend_weight) {
@@ -231,11 +138,8 @@ void SmoothingForm::find_places(const Problem& problem, const FreeCoefficients& 
       const double time_s = std::lerp(begin_s, end_s, share);
       Place& place = places_.emplace_back();
       place.share_s = weight * (end_s - begin_s);
-      Terms bent;
-      for (int near = std::max(k - 1, free.first()); near <= std::min(k + 2, free.last()); ++near) {
-        free.add(near, free.bump(near).value(time_s), place.value);
-        free.add(near, free.bump(near).second_derivative(time_s), bent);
-      }
+      place.value = sum_of_bumps(k, free, &KnotBump::value, time_s);
+      const Terms bent = sum_of_bumps(k, free, &KnotBump::second_derivative, time_s);
       place.constant =
           stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m);
       bending_.count(place.share_s * bend_weight, bent,

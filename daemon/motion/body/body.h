@@ -96,6 +96,11 @@ class Body {
 
   /// Triangles of solids are counter-clockwise seen from outside, those of a mesh as given.
   [[nodiscard]] std::span<const geometry::Triangle> triangles_C() const { return triangles_C_; }
+  /// A point of the body: the centroid of its first triangle, as computed.
+  [[nodiscard]] geometry::Vec3 point_C() const {
+    const geometry::Triangle& part = triangles_C_.front();
+    return (part[0] + part[1] + part[2]) / 3.0;
+  }
   [[nodiscard]] double ball_radius_m() const { return ball_radius_m_; }
   [[nodiscard]] std::span<const Solid> solids_C() const { return solids_C_; }
   /// Largest distance of a triangle's vertex from the eye, rounded up. Under rotation alone no

@@ -31,4 +31,10 @@ SignedPose between(const SignedPose& from, const SignedPose& to, double u) {
           bezier::lerp(from.orientation, to.orientation, u).normalized()};
 }
 
+SignedPose signed_like(const Pose& pose, const SignedPose& other) {
+  SignedPose result = signed_pose(pose);
+  if (result.orientation.dot(other.orientation) < 0.0) result.orientation *= -1.0;
+  return result;
+}
+
 }  // namespace camway::motion

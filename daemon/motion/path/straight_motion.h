@@ -26,5 +26,7 @@ inline SignedPose signed_pose(const Pose& pose) {
 inline Pose unsigned_pose(const SignedPose& pose) {
   return {pose.position, geometry::from_wxyz(pose.orientation)};
 }
+/// Returns the pose with the sign whose quaternion is nearer to that of `other`.
+SignedPose signed_like(const Pose& pose, const SignedPose& other);
 
 }  // namespace camway::motion

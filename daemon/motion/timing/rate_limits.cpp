@@ -79,11 +79,17 @@ RateLimits scaled_limits(const RateLimits& limits, double factor) {
           limits.turn_rate_rad_per_s * factor};
 }
 
-double needed_slow_down(const Segment& segment, double u, const RateLimits& limits) {
+double SlowDowns::largest() const { return std::max({speed, acceleration, turn_rate}); }
+
+SlowDowns slow_downs(const Segment& segment, double u, const RateLimits& limits) {
   const SegmentDerivatives at = derivatives_at(segment, u);
-  return std::max({at.velocity_m_per_s.norm() / limits.speed_m_per_s,
-                   std::sqrt(at.acceleration_m_per_s2.norm() / limits.acceleration_m_per_s2),
-                   2.0 * at.orientation_rate_per_s.norm() / limits.turn_rate_rad_per_s});
+  return {at.velocity_m_per_s.norm() / limits.speed_m_per_s,
+          std::sqrt(at.acceleration_m_per_s2.norm() / limits.acceleration_m_per_s2),
+          2.0 * at.orientation_rate_per_s.norm() / limits.turn_rate_rad_per_s};
+}
+
+double needed_slow_down(const Segment& segment, double u, const RateLimits& limits) {
+  return slow_downs(segment, u, limits).largest();
 }
 
 bool meets(const Segment& segment, const RateLimits& limits) {

@@ -26,10 +26,22 @@ struct RateLimits {
 /// multiplied by `factor`. [Limit: 0 < factor]
 RateLimits scaled_limits(const RateLimits& limits, double factor);
 
-/// Returns the least factor that all times must be multiplied by to meet the limits at parameter
-/// `u` of `segment`. It is above 1 exactly if the limits are broken there; it may be anything from
-/// 0 on. Speed and turn rate fall with the factor, acceleration with its square (Hollerbach 1984,
-/// "Dynamic scaling of manipulator trajectories"). [Limit: 0 <= u <= 1]
+/// For each limit the least factor that all times must be multiplied by to meet it. It is above 1
+/// exactly if the limit is broken; it may be anything from 0 on. Speed and turn rate fall with the
+/// factor, acceleration with its square (Hollerbach 1984, "Dynamic scaling of manipulator
+/// trajectories").
+struct SlowDowns {
+  double speed = 0.0;
+  double acceleration = 0.0;
+  double turn_rate = 0.0;
+
+  /// The least factor by which all limits are met.
+  [[nodiscard]] double largest() const;
+};
+
+/// Returns what the limits need at parameter `u` of `segment`. [Limit: 0 <= u <= 1]
+SlowDowns slow_downs(const Segment& segment, double u, const RateLimits& limits);
+/// Returns the largest of these.
 double needed_slow_down(const Segment& segment, double u, const RateLimits& limits);
 
 /// Returns true only if the limits are shown to hold for every u in [0, 1]. False may also mean

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,12 +12,12 @@
 namespace camway::planning {
 
 /// A camera whose roll is larger than this looks rolled: 60 degrees. [Units: radians]
-inline constexpr double kRolled_rad = 1.0471975511965976;
+inline constexpr double kRolled_rad = std::numbers::pi / 3.0;
 /// A camera whose roll is at most this looks upright: 15 degrees. [Units: radians]
-inline constexpr double kUpright_rad = 0.2617993877991494;
+inline constexpr double kUpright_rad = std::numbers::pi / 12.0;
 /// Roll is not defined for a camera that looks along the up axis to within this angle: 10 degrees.
 /// [Units: radians]
-inline constexpr double kLooksAlong_rad = 0.17453292519943295;
+inline constexpr double kLooksAlong_rad = std::numbers::pi / 18.0;
 
 /// Order of the four numbers of a quaternion in a message or file.
 enum class QuaternionOrder { kWxyz, kXyzw };

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "daemon/planning/request/body_members.h"
+#include "daemon/planning/request/option_table.h"
 
 namespace camway::planning {
 namespace {

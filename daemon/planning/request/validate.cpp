@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/planning/request/validate.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "daemon/motion/spline/knot_row.h"
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/request/request.h"
 
 namespace camway::planning {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "daemon/motion/body/corner_rounding.h"
 #include "daemon/motion/path/straight_motion.h"
+#include "daemon/planning/request/validate.h"
 
 namespace camway::planning {
 

@@ -8,6 +8,7 @@
 
 #include "daemon/motion/path/path.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/planning/request/validate.h"
 
 /// Checks of a path that was made elsewhere, besides the search for collisions.
 /// Thread-safe.

@@ -38,9 +38,6 @@ constexpr std::array<std::string_view, 7> names_of(Status) {
   return {"ok", "partial", "infeasible", "timeout", "invalid", "unknown_scene", "internal_error"};
 }
 inline std::string_view to_string(Status status) { return base::name_of(status); }
-inline std::optional<Status> status_from_string(std::string_view text) {
-  return base::value_of<Status>(text);
-}
 
 /// Whether the returned segments, exactly as sent, are proved free of collision. With `kOk` always;
 /// with `kPartial` and `kTimeout` only where the path fails nothing but motion limits.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <string_view>
 #include <tuple>
 #include <type_traits>

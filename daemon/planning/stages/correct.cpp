@@ -2,7 +2,6 @@
 #include "daemon/planning/stages/correct.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include "daemon/correction/ladder/ladder.h"

@@ -15,7 +15,6 @@ namespace camway::planning {
 namespace {
 
 constexpr double kMeasuredShare = 0.99;  // the true distance is at least this share
-constexpr std::size_t kKeyframesPerClock = 256;
 // Upper bound of the rounding of a difference, a product and a quotient, which the bound of
 // `kClearanceTolerance` does not count.
 constexpr double kRoundUp = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
@@ -24,6 +23,7 @@ constexpr double kRoundUp = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
 std::optional<FixedPlace> nearest_given_keyframe(const collision::Query& query,
                                                  const PlanResult& result, double limit_m,
                                                  const base::Deadline& deadline) {
+  constexpr std::size_t kStepsPerDeadlineCheck = 256;  // a step is a keyframe
   const collision::Obstacles scene = query.obstacles.without_bounds();
   collision::Probe probe(scene, query.body, /*clearance_m=*/0.0);
   std::optional<FixedPlace> nearest;
@@ -31,7 +31,7 @@ std::optional<FixedPlace> nearest_given_keyframe(const collision::Query& query,
   for (const motion::Keyframe& keyframe : result.keyframes) {
     if (keyframe.origin == motion::KeyframeOrigin::kInserted) continue;
     const std::size_t number = given++;
-    if (number % kKeyframesPerClock == 0 && deadline.passed()) return std::nullopt;
+    if (number % kStepsPerDeadlineCheck == 0 && deadline.passed()) return std::nullopt;
     const collision::ProbeResult seen =
         probe.check_refined(motion::standing_at(keyframe.pose), limit_m, kMeasuredShare);
     if (seen.free || !(seen.gap_m < limit_m)) continue;

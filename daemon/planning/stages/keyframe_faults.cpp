@@ -24,7 +24,6 @@ constexpr double kMargin = 10.0;
 // A keyframe is moved up to this many times as far to be visible from its neighbours: most scenes
 // are not closed edge for edge, and the space behind a wall or under a floor is free as well.
 constexpr double kWorthTheView = 1.5;
-constexpr std::size_t kKeyframesBetweenLooks = 256;  // at the clock
 
 /// Surfaces that a free pose must be inside of, and those that it may or may not be inside of.
 struct Side {
@@ -41,7 +40,7 @@ class Search {
         margin_m_(kMargin * query.options.tolerance_m),
         keyframes_(keyframes),
         deadline_(deadline),
-        part_C_(query.body.triangles_C().front()) {}
+        point_C_(query.body.point_C()) {}
 
   KeyframeFaults run() && {
     find_faults();
@@ -65,10 +64,10 @@ class Search {
 
   void find_faults() {
     for (; checked_ < keyframes_.size() && faults_.size() < kMostKeyframeFaults; ++checked_) {
-      if (checked_ % kKeyframesBetweenLooks == kKeyframesBetweenLooks - 1 && deadline_.passed())
+      if (checked_ % kStepsPerDeadlineCheck == kStepsPerDeadlineCheck - 1 && deadline_.passed())
         return;
       const Pose& pose = keyframes_[checked_].pose;
-      if (space_.gap_m(pose, space_.detect().tolerance_m) > 0.0) continue;
+      if (space_.gap_m(pose, space_.detect_options().tolerance_m) > 0.0) continue;
       // A contact takes longer to find than a gap. Late, the first one will do for the message.
       const bool is_late = !faults_.empty() && deadline_.passed();
       const std::optional<collision::Witness> contact =
@@ -84,13 +83,12 @@ class Search {
 
   // Returns the same point of the body for every pose. On a free motion it stays on its side of
   // every surface.
-  [[nodiscard]] Vec3 part_W(const Pose& pose) const {
-    const Vec3 point_C = (part_C_[0] + part_C_[1] + part_C_[2]) / 3.0;
-    return pose.position + pose.orientation * point_C;
+  [[nodiscard]] Vec3 point_W(const Pose& pose) const {
+    return pose.position + pose.orientation * point_C_;
   }
 
   [[nodiscard]] std::optional<IndexSet> around(const Pose& pose) const {
-    return sides_->around(part_W(pose));
+    return sides_->around(point_W(pose));
   }
 
   /// Returns the nearest free keyframes before and after, as far as there are any.
@@ -147,7 +145,7 @@ class Search {
     };
     const auto is_seen = [&](const Pose& pose) {
       return std::ranges::any_of(neighbours, [&](std::size_t i) {
-        return !space_.obstacles().index.closest_hit({part_W(keyframes_[i].pose), part_W(pose)});
+        return !space_.obstacles().index.closest_hit({point_W(keyframes_[i].pose), point_W(pose)});
       });
     };
     const std::optional<FreePose> any = nearest(keyframe, is_on_side);
@@ -166,12 +164,14 @@ class Search {
                                          deadline_);
   }
 
+  static constexpr std::size_t kStepsPerDeadlineCheck = 256;  // a step is a keyframe
+
   const scene::Snapshot& snapshot_;
   correction::FreeSpace space_;
   const double margin_m_;
   const std::vector<Keyframe>& keyframes_;
   const Deadline& deadline_;
-  const geometry::Triangle part_C_;
+  const Vec3 point_C_;
   std::optional<correction::SurfaceSides> sides_;
   std::vector<KeyframeFault> faults_;
   std::size_t checked_ = 0;  ///< number of keyframes that were checked; the others are unknown

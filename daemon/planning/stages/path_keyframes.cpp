@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/motion/spline/path_frame.h"
+#include "daemon/planning/request/validate.h"
 
 namespace camway::planning {
 

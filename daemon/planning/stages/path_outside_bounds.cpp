@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string>
-
 #include "daemon/collision/probe.h"
 
 namespace camway::planning {

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/motion/spline/path_frame.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/planning/stages/keyframe_faults.h"
 #include "daemon/planning/stages/keyframe_times.h"
 #include "daemon/planning/stages/path_check.h"
@@ -74,7 +74,7 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request, double s
     result.keyframes[fault.keyframe].is_repaired = true;
   }
   if (!found.complete) {
-    give_up(deadline_reached(request) + " before all keyframes were looked at", result);
+    give_up(deadline_text(request) + " before all keyframes were looked at", result);
   }
   return found.complete;
 }

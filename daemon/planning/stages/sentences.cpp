@@ -210,7 +210,7 @@ std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
       request.name_of("options.limits.retime"));
 }
 
-std::string deadline_reached(const PlanRequest& request) {
+std::string deadline_text(const PlanRequest& request) {
   // The other half is for smaller cameras (`plan_with_shrinking`).
   return fmt::format("{}the deadline of {} s was reached", may_shrink(request) ? "half of " : "",
                      request.options.deadline_s);
@@ -257,7 +257,7 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
         fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
   } else {
     message += may_repair ? "; it could not be repaired: " : "; ";
-    message += timed_out ? deadline_reached(request) + " before a free pose was found"
+    message += timed_out ? deadline_text(request) + " before a free pose was found"
                          : "no free pose was found near it";
   }
   const bool are_too_many = faults.size() >= kMostKeyframeFaults;

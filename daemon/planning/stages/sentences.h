@@ -84,7 +84,7 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
 
 /// "the deadline of 0.05 s was reached", for what was cut short by it; "half of the deadline" where
 /// the other half is for smaller cameras.
-std::string deadline_reached(const PlanRequest& request);
+std::string deadline_text(const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for
 /// `fault_to_name`. `timed_out`: the deadline passed before free poses were found. `are_all`: all

@@ -71,7 +71,7 @@ void set_status_of_free(const Outcomes& plan, PlanResult& result) {
   } else if (plan.slowed.is_too_fast) {
     result.status = Status::kTimeout;
     result.message = plan.request.name_of("options.limits") +
-                     ": the path is free, but too fast, and " + deadline_reached(plan.request) +
+                     ": the path is free, but too fast, and " + deadline_text(plan.request) +
                      " before it was slowed";
   } else {
     result.status = Status::kOk;
@@ -91,7 +91,7 @@ void set_status_of_colliding(const Outcomes& plan, PlanResult& result) {
                                                           plan.request.name_of("options.limits")
                                                     : "";
   if (!plan.is_searched) {
-    result.message = deadline_reached(plan.request) +
+    result.message = deadline_text(plan.request) +
                      " before the path was searched for collisions: nothing is known of it" +
                      haste + notes(plan, result);
     return;
@@ -99,7 +99,7 @@ void set_status_of_colliding(const Outcomes& plan, PlanResult& result) {
   if (!result.shut_in.empty()) result.keyframe = result.shut_in.front().keyframe;
   result.message =
       fmt::format("{}the path still collides {} ({})",
-                  plan.corrected.timed_out ? deadline_reached(plan.request) + "; " : "",
+                  plan.corrected.timed_out ? deadline_text(plan.request) + "; " : "",
                   counted(result.remaining_collisions.size(), "time"), what_was_done(result)) +
       note_of_shut_in(result.shut_in, plan.query.obstacles.bounds.any()) +
       note_of_keyframe_limit(plan.request, result, plan.corrected.needed_keyframes) +

@@ -51,14 +51,13 @@ std::string describe_rate(const Segment& segment, double u, const RateLimits& li
     return fmt::format("its {0} is up to {1:.3g} {3}, of {2:.3g} {3} that are allowed", name, rate,
                        limit, unit);
   };
-  const double speed = at.velocity_m_per_s.norm();
-  const double turn_rate = 2.0 * at.orientation_rate_per_s.norm();
-  const double needed = motion::needed_slow_down(segment, u, limits);
-  if (needed == speed / limits.speed_m_per_s)
-    return text("speed", speed, limits.speed_m_per_s, "m/s");
-  if (needed == turn_rate / limits.turn_rate_rad_per_s) {
-    return text("turn rate", turn_rate * kDegrees, limits.turn_rate_rad_per_s * kDegrees,
-                "degrees/s");
+  const motion::SlowDowns needed = motion::slow_downs(segment, u, limits);
+  if (needed.speed >= std::max(needed.acceleration, needed.turn_rate)) {
+    return text("speed", at.velocity_m_per_s.norm(), limits.speed_m_per_s, "m/s");
+  }
+  if (needed.turn_rate >= needed.acceleration) {
+    return text("turn rate", 2.0 * at.orientation_rate_per_s.norm() * kDegrees,
+                limits.turn_rate_rad_per_s * kDegrees, "degrees/s");
   }
   return text("acceleration", at.acceleration_m_per_s2.norm(), limits.acceleration_m_per_s2,
               "m/s²");

@@ -3,14 +3,12 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "daemon/base/deadline.h"
 #include "daemon/collision/query.h"
 #include "daemon/correction/path/constraints.h"
-#include "daemon/motion/body/body.h"
 #include "daemon/motion/path/time_origin.h"
 #include "daemon/motion/spline/cubic_path.h"
 #include "daemon/motion/timing/time_law.h"

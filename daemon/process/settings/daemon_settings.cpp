@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "daemon/planning/request/validate.h"
 #include "daemon/process/metrics/http_page.h"
 #include "daemon/service/transport/lcm_url.h"
 #include "lcmtypes/wire/channels.h"

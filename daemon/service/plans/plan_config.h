@@ -5,6 +5,7 @@
 
 #include "daemon/messages/deadline_limits.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/planning/request/validate.h"
 #include "lcmtypes/wire/layout.h"
 #include "lcmtypes/wire/page_assembly.h"
 

@@ -129,9 +129,9 @@ TEST_F(CorrectedPathTest, RestoresOneChangedPartAndKeepsTheOthersBitForBit) {
   EXPECT_TRUE(corrected.take(bump(corrected, 8.0, 0.4)));
   const Problem problem = corrected.restored(corrected.changed_parts()[1], {}, 0.1);
   EXPECT_EQ(problem.keyframes_s, (std::vector<double>{0.0, 10.0}));
-  std::vector<double> joints_s;
-  for (const motion::CubicPiece& piece : problem.path.pieces) joints_s.push_back(piece.t0_s);
-  EXPECT_EQ(joints_s, (std::vector<double>{0, 1, 2, 3, 4, 5})) << "none of the second part";
+  std::vector<double> knots_s;
+  for (const motion::CubicPiece& piece : problem.path.pieces) knots_s.push_back(piece.t0_s);
+  EXPECT_EQ(knots_s, (std::vector<double>{0, 1, 2, 3, 4, 5})) << "none of the second part";
   for (double time_s = 0.0; time_s <= 10.0; time_s += 0.125) {
     const CubicPath& kept = time_s <= 5.0 ? corrected.path() : interpolated_;
     const geometry::Vec3 difference = problem.path.at(time_s).position - kept.at(time_s).position;

@@ -67,12 +67,12 @@ TEST(KnotChoice, OnlyListsThatKeepKeyframesAreValid) {
 
 TEST(KnotChoice, TakesTheJointsOfThePart) {
   const ChoiceCase c = case_on({8, 9, 10, 11, 12, 14});
-  EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path), c.knots_s);
+  EXPECT_EQ(KnotChoice(c.problem, c.part).knots_of(c.path), c.knots_s);
 }
 
 TEST(KnotChoice, GoesOnBeyondAnEndOfThePath) {
   const ChoiceCase c = case_on({36, 37, 38, 39, 40});
-  EXPECT_EQ(KnotChoice(c.problem, c.part).joints_of(c.path),
+  EXPECT_EQ(KnotChoice(c.problem, c.part).knots_of(c.path),
             (std::vector<double>{36, 37, 38, 39, 40, 41, 42, 43}));
 }
 

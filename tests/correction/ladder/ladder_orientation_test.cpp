@@ -41,6 +41,7 @@ Outcome corrected(const PolicyCase& c, const OrientationPolicy& policy, Objectiv
   const scene::SceneIndex index = scene::SceneIndex::build(c.mesh);
   const collision::Query query{collision::Obstacles(index), c.body};
   LadderOptions options;
+  options.max_inserted_keyframes = 200;
   options.orientation = policy;
   options.objective = objective;
   const CubicPath before = motion::interpolate_cubic(c.keyframes);

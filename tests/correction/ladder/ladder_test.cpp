@@ -59,7 +59,8 @@ void expect_corrected(const LadderCase& c, const std::vector<CorrectionKind>& ki
   expect_same_keyframes(c, result.path);
   ASSERT_FALSE(result.corrections.empty());
   for (const Correction& correction : result.corrections) {
-    EXPECT_TRUE(std::ranges::count(kinds, correction.kind) == 1) << to_string(correction.kind);
+    EXPECT_TRUE(std::ranges::count(kinds, correction.kind) == 1)
+        << static_cast<int>(correction.kind);
   }
 }
 

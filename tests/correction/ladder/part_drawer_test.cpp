@@ -41,7 +41,7 @@ TEST_F(PartDrawerTest, RemovesKnotsAsFarAsTheCostAllows) {
   std::size_t last = kHillKnots + 1;
   for (const double growth : {1.0001, 1.02, 1.5}) {
     PartDrawer drawer(problem_, part_, part_, Objective::kClosest, space, space, never_);
-    std::optional<Drawing> drawing = drawer.drawing(drawer.choice().joints_of(path_), path_);
+    std::optional<Drawing> drawing = drawer.drawing(drawer.choice().knots_of(path_), path_);
     ASSERT_TRUE(drawing);
     const double most = growth * drawing->cost;
     drawer.limit_cost(most);
@@ -62,14 +62,14 @@ TEST_F(PartDrawerTest, ProvesDrawingsInItsSpace) {
   FreeSpace keeping = c_.space(kept_m);
   FreeSpace measured = c_.space();
   PartDrawer drawer(problem_, part_, part_, Objective::kClosest, keeping, measured, never_);
-  std::optional<Drawing> drawing = drawer.drawing(drawer.choice().joints_of(path_), path_);
+  std::optional<Drawing> drawing = drawer.drawing(drawer.choice().knots_of(path_), path_);
   ASSERT_TRUE(drawing);
   drawer.thin_out(*drawing);  // whatever it costs
   EXPECT_LT(drawing->knots_s.size(), std::size_t{kHillKnots} / 4);
   EXPECT_GE(c_.clearance(drawing->drawn.candidate.path).upper_bound_m, kept_m);
   FreeSpace wide = c_.space(3.0 * c_.clearance(path_).upper_bound_m);
   const PartDrawer too_wide(problem_, part_, part_, Objective::kClosest, wide, measured, never_);
-  EXPECT_FALSE(too_wide.drawing(too_wide.choice().joints_of(path_), path_));
+  EXPECT_FALSE(too_wide.drawing(too_wide.choice().knots_of(path_), path_));
 }
 
 }  // namespace

@@ -63,13 +63,13 @@ TEST(WayOut, IsNoneWhereOnlyTheBoundsAreNear) {
 
 TEST(WayOut, LiftsARingOffItsPole) {
   for (const double spare : {0.02, 0.1, 3.0}) {
-    const HasRoom has_room = spare > 1.0 ? HasRoom::kByBall : HasRoom::kByGap;
+    const RoomTest room_test = spare > 1.0 ? RoomTest::kBall : RoomTest::kGap;
     for (const double tilt_rad : {0.0, 0.01}) {
       const SearchScene scene = pole(spare);
       FreeSpace space = scene.space();
       const SignedPose from =
           motion::signed_pose({Vec3(0, 0, 1.0), Quat(Eigen::AngleAxisd(tilt_rad, Vec3::UnitX()))});
-      const std::optional<Guide> way = way_out(space, from, has_room, Deadline::never());
+      const std::optional<Guide> way = way_out(space, from, room_test, Deadline::never());
       ASSERT_TRUE(way) << spare;
       EXPECT_EQ(way->front().position, from.position);
       EXPECT_GT(way->back().position.z(), kPoleTop_m);
@@ -82,7 +82,7 @@ TEST(WayOut, IsNoneWhereTheBodyHasRoomAlready) {
   const SearchScene scene = pole(0.1);
   FreeSpace space = scene.space();
   const SignedPose from = motion::signed_pose({Vec3(1.8, 0, 1.2), Quat::Identity()});
-  const std::optional<Guide> way = way_out(space, from, HasRoom::kByGap, Deadline::never());
+  const std::optional<Guide> way = way_out(space, from, RoomTest::kGap, Deadline::never());
   ASSERT_TRUE(way);
   EXPECT_EQ(way->size(), 1U);
 }
@@ -95,7 +95,7 @@ TEST(WayOut, IsNotFoundFromAnotherRingThatIsClosed) {
   const SearchScene scene(mesh, ring());
   FreeSpace space = scene.space();
   const SignedPose from = motion::signed_pose({Vec3(0, 0, 1.0), Quat::Identity()});
-  EXPECT_FALSE(way_out(space, from, HasRoom::kByGap, Deadline::never()));
+  EXPECT_FALSE(way_out(space, from, RoomTest::kGap, Deadline::never()));
 }
 
 TEST(Corridor, LeadsThroughAPipeToBothSides) {

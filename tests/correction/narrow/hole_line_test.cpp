@@ -25,6 +25,7 @@ constexpr double kMostLean_rad = 0.35;
 /// nearer to two of its edges.
 TEST(HoleLine, WidensUntilItGoesStraightThroughASlit) {
   testing::Random random(kLineSeed);
+  int checked = 0;
   for (int run = 0; run < 40; ++run) {
     SCOPED_TRACE(run);
     const double width_m = kRadius_m * random.uniform(1.0, 1.8);
@@ -41,10 +42,12 @@ TEST(HoleLine, WidensUntilItGoesStraightThroughASlit) {
     const Vec3 along_W = world_W * Quat(Eigen::AngleAxisd(lean_rad, Vec3::UnitY())) * Vec3::UnitZ();
     const HoleLine leaning = line_about(space, Vec3::Zero(), along_W, kHalfLength);
     if (!(room_m(space, leaning) > 0.0)) continue;
+    ++checked;
     const HoleLine wide = widened(space, leaning);
     EXPECT_GT(room_m(space, wide), 0.9 * 0.5 * width_m);
     EXPECT_LE(room_m(space, wide), 0.5 * width_m);
   }
+  EXPECT_GT(checked, 20);
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
         EXPECT_TRUE(collision::Obstacles::is_side(nearest->triangle));
         EXPECT_NEAR(nearest->distance_m, depth_m(pose), kDistanceRounding_m);
       }
-      EXPECT_LE(space.at_least_m(pose), truth_m + kDistanceRounding_m);
+      EXPECT_LE(space.gap_at_least_m(pose), truth_m + kDistanceRounding_m);
       const double ball_m = 0.1;
       const Vec3 other_W = anywhere(random, 1.2);
       EXPECT_EQ(space.ball_gap_m(other_W, ball_m, 0.3) > 0.0,

@@ -180,9 +180,9 @@ TEST(ContactBounds, RememberForcesForTheNextTime) {
   double force = 1.0;
   for (BoundConstraint& bound : bounds.bounds()) bound.multiplier = force++;
   bounds.remember();
-  EXPECT_EQ(near[0].hard_force, 1.0);
+  EXPECT_EQ(near[0].hard_multiplier, 1.0);
   EXPECT_EQ(near[0].soft_multiplier, 2.0);
-  EXPECT_EQ(near[1].hard_force, 3.0);
+  EXPECT_EQ(near[1].hard_multiplier, 3.0);
   bounds.clear();
   EXPECT_TRUE(bounds.bounds().empty());
   bounds.add(0, StackedPoint::Zero(), kReply, near);

@@ -239,8 +239,8 @@ CubicPath path_with(const FormCase& c, Ends ends, const FreeCoefficients& free,
   return motion::with_bumps(c.problem.path, std::vector{row});
 }
 
-// The form is the energy that an answer reports, although the path has joints between two knots.
-// Orientations have no part in it.
+// The form is the energy that an answer reports, although the path has knots between two of the
+// row. Orientations have no part in it.
 TEST(SmoothingForm, OfSmoothestIsTheBendingEnergy) {
   constexpr double kSumRounding = 1e-10;  // share of the energy, which cancels in the difference
   Draw draw(4112);
@@ -335,7 +335,7 @@ double integral_of_offset(const FormCase& c, const FreeCoefficients& free, const
     const double begin_s = std::max(c.knots.knot_s(k), path.begin_s());
     const double end_s = std::min(c.knots.knot_s(k + 1), path.end_s());
     if (!(begin_s < end_s)) continue;
-    // The second derivative of the original jumps at its joints, which coincide with knots.
+    // The second derivative of the original jumps at its knots, which are knots of the row.
     const double inset_s = 1e-9 * (end_s - begin_s);
     for (int i = 0; i <= kSteps; ++i) {
       const double weight = i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;

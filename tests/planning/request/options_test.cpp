@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/motion/spline/derive_times.h"
+#include "daemon/planning/request/option_table.h"
 
 namespace camway::planning {
 namespace {
@@ -70,12 +71,6 @@ TEST(OptionTable, IsThatOfTheDocuments) {
 
 TEST(OptionTable, NamesTheSpeedThatDerivedTimesHave) {
   EXPECT_EQ(option::kDefaultSpeed.unset, fmt::format("{}", motion::kNominalSpeed_m_per_s));
-}
-
-TEST(OptionTable, KindsOfCorrectionHaveTheNamesOfTheirRoom) {
-  for (const auto& [name, kind] : base::named_values<correction::CorrectionKind>()) {
-    EXPECT_EQ(name, correction::to_string(kind));
-  }
 }
 
 TEST(OptionTable, RangesReadAsSentences) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/planning/request/validate.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include "daemon/planning/request/option_table.h"
 #include "daemon/planning/request/options.h"
 #include "daemon/planning/request/request.h"
 #include "tests/support/random.h"
@@ -371,8 +374,9 @@ TEST(Validate, AQuaternionNeedNotBeOfUnitLength) {
 }
 
 TEST(Method, NamesRoundTrip) {
-  EXPECT_EQ(method_from_string(to_string(Method::kKeyframeInsertion)), Method::kKeyframeInsertion);
-  EXPECT_FALSE(method_from_string("teleport"));
+  EXPECT_EQ(base::value_of<Method>(to_string(Method::kKeyframeInsertion)),
+            Method::kKeyframeInsertion);
+  EXPECT_FALSE(base::value_of<Method>("teleport"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "daemon/motion/spline/knot_row.h"
 #include "daemon/planning/plan.h"
+#include "daemon/planning/request/validate.h"
 #include "tests/planning/plan_fixture.h"
 #include "tests/support/path_continuity.h"
 #include "tests/support/random.h"

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // A lower bound must remain one when it is rounded.
-TEST(EffortText, LowerBoundsAreRoundedDown) {
+TEST(Sentences, LowerBoundsAreRoundedDown) {
   EXPECT_EQ(rounded_down(0.0042799), "0.00427");
   EXPECT_EQ(rounded_down(0.31299999), "0.312");
   EXPECT_EQ(rounded_down(99.999), "99.9");
@@ -36,14 +36,14 @@ TEST(EffortText, LowerBoundsAreRoundedDown) {
   }
 }
 
-TEST(EffortText, NamesWhatWasTriedByWhatItWasFor) {
+TEST(Sentences, NamesWhatWasTriedByWhatItWasFor) {
   EXPECT_EQ(effort_text({14, 1, 20000, 3000}),
             "14 directions to move or turn in, 1 changed path, 20000 places on a way round, 3000 "
             "poses on a way round that turns");
   EXPECT_EQ(effort_text({}), "");
 }
 
-TEST(EffortText, NamesKeyframesWithoutAWayOut) {
+TEST(Sentences, NamesKeyframesWithoutAWayOut) {
   using correction::ShutIn;
   EXPECT_EQ(note_of_shut_in({}, false), "");
   const ShutIn complete{1, {geometry::Vec3(0, 0, 0), geometry::Vec3(1, 2, 3)}, 0.0, true};
@@ -59,7 +59,7 @@ TEST(EffortText, NamesKeyframesWithoutAWayOut) {
             "are");
 }
 
-TEST(EffortText, SaysWhyThereIsNoPath) {
+TEST(Sentences, SaysWhyThereIsNoPath) {
   Infeasibility proof{2, 0, {3}};
   EXPECT_EQ(why_infeasible(proof, false),
             "no path exists: keyframe 2 is inside a closed surface of 1 triangle of the scene, "

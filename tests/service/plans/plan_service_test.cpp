@@ -16,6 +16,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "daemon/messages/plan.h"
+#include "daemon/planning/request/validate.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/messages/request_on_wire.h"
 #include "tests/service/running_service.h"

@@ -14,6 +14,7 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/scene/import/import.h"
 #include "tests/support/random.h"
 #include "tests/tools/drawing/drawn_house.h"

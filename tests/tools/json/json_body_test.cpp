@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "daemon/planning/request/validate.h"
 #include "tools/json/json_request.h"
 
 namespace camway::tools {

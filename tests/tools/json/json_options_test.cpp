@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 
+#include "daemon/planning/request/option_table.h"
 #include "tests/messages/plan_samples.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_request.h"

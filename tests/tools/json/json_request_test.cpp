@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/planning/request/validate.h"
 #include "tests/support/random.h"
 
 namespace camway::tools {

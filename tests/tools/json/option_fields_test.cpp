@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/planning/request/option_table.h"
 #include "tools/json/json_request.h"
 
 namespace camway::tools {

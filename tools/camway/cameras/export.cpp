@@ -14,6 +14,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/planning/request/validate.h"
 #include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/cameras/export/path_export.h"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "daemon/planning/request/validate.h"
 #include "daemon/planning/stages/sentences.h"
 #include "tools/answers/check_input.h"
 #include "tools/answers/check_report.h"

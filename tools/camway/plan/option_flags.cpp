@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "daemon/cli_support/flag_checks.h"
+#include "daemon/planning/request/option_table.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/planning/request/validate.h"
 #include "tools/answers/plan_answer.h"
 #include "tools/answers/scene_record.h"
 #include "tools/camway/common/commands.h"

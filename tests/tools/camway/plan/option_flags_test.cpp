@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "daemon/planning/request/option_table.h"
 #include "tools/json/json_request.h"
 
 namespace camway::tools {
@@ -56,9 +57,10 @@ TEST(OptionFlags, EveryNumberNameAndSwitchHasAFlag) {
 
 TEST(OptionFlags, OverrideTheOptionsThatAreGiven) {
   EXPECT_EQ(request_with({}).options, planning::PlanOptions{});
-  const planning::PlanRequest request = request_with(
-      {"--objective", "safest", "--clearance-m", "0.25", "--max-inserted-keyframes", "7",
-       "--repair-keyframes", "--clearance-profile", "--default-speed-m-per-s", "2", "--max-turn-deg", "90"});
+  const planning::PlanRequest request =
+      request_with({"--objective", "safest", "--clearance-m", "0.25", "--max-inserted-keyframes",
+                    "7", "--repair-keyframes", "--clearance-profile", "--default-speed-m-per-s",
+                    "2", "--max-turn-deg", "90"});
   planning::PlanOptions expected;
   expected.objective = correction::Objective::kSafest;
   expected.clearance_m = 0.25;

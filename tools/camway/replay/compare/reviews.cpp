@@ -9,6 +9,7 @@
 
 #include "daemon/base/result.h"
 #include "daemon/planning/request/request.h"
+#include "daemon/planning/request/validate.h"
 #include "tools/camway/replay/compare/difference.h"
 #include "tools/json/json_request.h"
 #include "tools/json/json_response.h"
@@ -107,7 +108,8 @@ std::vector<std::size_t> wanted_of(const std::vector<ComparedRequest>& compared,
 view::ReviewShelf::Put put(std::size_t index, const ComparedRequest& compared,
                            const ReportHead& head, SceneDesk& scenes, view::ReviewShelf& shelf) {
   using view::code::kInvalid;
-  if (!scenes.open(*compared.recorded)) return {kInvalid, "its scene is not known (--scene, --root)"};
+  if (!scenes.open(*compared.recorded))
+    return {kInvalid, "its scene is not known (--scene, --root)"};
   const base::Result<view::ReviewOrder> review = review_of(compared, scenes.name(), head);
   if (!review) return {kInvalid, review.error};
   return shelf.put(index, *review, scenes.backend(), scenes.meshes());
