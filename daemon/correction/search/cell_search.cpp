@@ -64,8 +64,8 @@ class CellSearch {
                              const CellOptions& options) {
     geometry::Box box = space.obstacles().index.bounds();
     box.extend(from_W).extend(to_W);
-    const double margin_m =
-        kMarginAround * (options.comfort_m + options.ball_radius_m + space.query().kept_m());
+    const double margin_m = kMarginAround * (options.comfort_m + options.ball_radius_m +
+                                             space.query().required_clearance_m());
     // The ball cannot be beyond the bounds.
     const geometry::Bounds& bounds = space.obstacles().bounds;
     return {(box.min().array() - margin_m).max(bounds.min_W.array()),
