@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/collision/least_gap.h"
+#include "daemon/collision/open_interval.h"
 #include "daemon/collision/probe.h"
 #include "daemon/collision/step_control.h"
 #include "daemon/motion/path/stretch.h"
@@ -16,9 +18,6 @@ namespace {
 using motion::Segment;
 using motion::SegmentMotion;
 using motion::Stretch;
-
-// Upper bound of the rounding of a bound: sums and a product.
-constexpr double kRoundDown = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
 
 class ClearanceSearch {
  public:
@@ -35,10 +34,6 @@ class ClearanceSearch {
   }
 
  private:
-  [[nodiscard]] unsigned steps_per_clock() const {
-    return probe_.body().tree() != nullptr ? kStepsPerClockOfTree : kStepsPerClock;
-  }
-
   // Finds a first upper bound at the closest of a few places; a small one excludes most of the
   // path.
   void seed(const motion::Path& path) {
@@ -69,7 +64,7 @@ class ClearanceSearch {
     const SegmentMotion motion(segment);
     double width = 1.0;
     for (double u = 0.0; u < 1.0;) {
-      if (steps_++ % steps_per_clock() == 0 && deadline_.passed()) {
+      if (steps_++ % steps_per_clock(probe_) == 0 && deadline_.passed()) {
         timed_out_ = true;
         return false;
       }
@@ -77,7 +72,7 @@ class ClearanceSearch {
       width = end - u;
       const Stretch stretch = motion.around(u, end);
       const double reach_m = probe_.reach_m(stretch);
-      const bool splittable = 0.5 * (u + end) > u && 0.5 * (u + end) < end;
+      const bool splittable = Piece{&segment, u, end}.splittable();
       if (!is_too_long(reach_m, target_reach_m_) || !splittable) {
         const double middle_s = motion::segment_time_s(segment, 0.5 * (u + end));
         const Verdict verdict = settle(stretch, middle_s, splittable);
@@ -103,9 +98,7 @@ class ClearanceSearch {
       return Verdict::kSettled;
     }
     const double everywhere_m =
-        is_measured ? kRoundDown * (kShare * (seen.gap_m + probe_.keep_m()) - probe_.keep_m()) -
-                          (seen.reach_m + seen.rounding_m) / kRoundDown
-                    : 0.0;
+        is_measured ? least_gap_m(least_gap_at_middle_m(probe_, seen, kShare), seen) : 0.0;
     if (is_hopeless && !(everywhere_m > 0.0)) return Verdict::kTouches;
     if (!(seen.gap_m > 0.0)) return Verdict::kTouches;
     target_reach_m_ = std::max(kApproach * (seen.gap_m - enough_m), 1.5 * seen.rounding_m);

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "daemon/collision/clearance.h"
+#include "daemon/collision/least_gap.h"
+#include "daemon/collision/open_interval.h"
 #include "daemon/collision/probe.h"
 #include "daemon/collision/step_control.h"
 #include "daemon/motion/path/stretch.h"
@@ -17,9 +19,6 @@ namespace {
 using motion::Segment;
 using motion::SegmentMotion;
 using motion::Stretch;
-
-// Upper bound of the rounding of a bound: sums and a product.
-constexpr double kProfileRoundDown = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
 
 // Relative rounding of a time that belongs to a parameter of a segment: of a product, a sum and a
 // quotient in each direction.
@@ -65,7 +64,7 @@ class ProfileWalk {
       width = end - u;
       const Stretch stretch = motion.around(u, end);
       const double reach_m = probe_.reach_m(stretch);
-      const bool is_splittable = 0.5 * (u + end) > u && 0.5 * (u + end) < end;
+      const bool is_splittable = Piece{&segment, u, end}.splittable();
       if (!is_splittable || !is_too_long(reach_m, target_reach_m_)) {
         if (settle(stretch, is_splittable)) {
           const double end_s = end == u1 ? to_s : motion::segment_time_s(segment, end);
@@ -89,10 +88,8 @@ class ProfileWalk {
     }
     // No stretch at this place has a larger bound.
     const double best_m =
-        seen.gap_m > 0.0
-            ? kProfileRoundDown * (kProfileShare * (seen.gap_m + probe_.keep_m()) - probe_.keep_m())
-            : 0.0;
-    const double everywhere_m = best_m - (seen.reach_m + seen.rounding_m) / kProfileRoundDown;
+        seen.gap_m > 0.0 ? least_gap_at_middle_m(probe_, seen, kProfileShare) : 0.0;
+    const double everywhere_m = least_gap_m(best_m, seen);
     bound_m_ = std::clamp(everywhere_m, 0.0, kLargestClearance_m);
     target_reach_m_ = std::max(kReachOfBest * best_m, kFinestReach_m);
     // If the reach is mostly rounding, splitting does not help.
@@ -108,9 +105,7 @@ class ProfileWalk {
   }
 
   bool is_late() {
-    const unsigned steps_per_clock =
-        probe_.body().tree() != nullptr ? kStepsPerClockOfTree : kStepsPerClock;
-    is_late_ = is_late_ || (steps_++ % steps_per_clock == 0 && deadline_.passed());
+    is_late_ = is_late_ || (steps_++ % steps_per_clock(probe_) == 0 && deadline_.passed());
     return is_late_;
   }
 

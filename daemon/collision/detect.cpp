@@ -232,9 +232,7 @@ class Detector {
   }
 
   bool out_of_time() {
-    const unsigned steps_per_clock =
-        probe_.body().tree() != nullptr ? kStepsPerClockOfTree : kStepsPerClock;
-    if (steps_++ % steps_per_clock != 0 || !deadline_.passed()) return false;
+    if (steps_++ % steps_per_clock(probe_) != 0 || !deadline_.passed()) return false;
     timed_out_ = finished_ = true;
     return true;
   }
@@ -315,32 +313,6 @@ class Detector {
   std::vector<CollisionInterval> intervals_;
 };
 
-}  // namespace
-
-std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,
-                                                                const motion::Path& path,
-                                                                double t_begin_s, double t_end_s,
-                                                                const base::Deadline& deadline) {
-  Search search = search_collisions(query, path, t_begin_s, t_end_s, deadline);
-  if (!search.complete) return std::nullopt;
-  return std::move(search.collisions);
-}
-
-Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
-                         double t_end_s, const base::Deadline& deadline) {
-  Detector detector(query, deadline, Goal::kAll);
-  detector.run(path, t_begin_s, t_end_s);
-  Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
-  if (search.collisions.size() > 1) {
-    const double travel_m = travel_bound_m(path, query.body.radius_m());
-    join_close_intervals(search.collisions, query.options.joining_distance_m / travel_m *
-                                                (path.end_s() - path.begin_s()));
-  }
-  return search;
-}
-
-namespace {
-
 FirstCollision searched(const Query& query, const motion::Path& path, double t_begin_s,
                         double t_end_s, const base::Deadline& deadline, Goal goal) {
   Detector detector(query, deadline, goal);
@@ -351,6 +323,28 @@ FirstCollision searched(const Query& query, const motion::Path& path, double t_b
 }
 
 }  // namespace
+
+std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,
+                                                                const motion::Path& path,
+                                                                double t_begin_s, double t_end_s,
+                                                                const base::Deadline& deadline) {
+  FoundCollisions found = search_collisions(query, path, t_begin_s, t_end_s, deadline);
+  if (!found.complete) return std::nullopt;
+  return std::move(found.collisions);
+}
+
+FoundCollisions search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
+                                  double t_end_s, const base::Deadline& deadline) {
+  Detector detector(query, deadline, Goal::kAll);
+  detector.run(path, t_begin_s, t_end_s);
+  FoundCollisions found{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
+  if (found.collisions.size() > 1) {
+    const double travel_m = travel_bound_m(path, query.body.radius_m());
+    join_close_intervals(found.collisions, query.options.joining_distance_m / travel_m *
+                                               (path.end_s() - path.begin_s()));
+  }
+  return found;
+}
 
 FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
                                double t_end_s, const base::Deadline& deadline) {

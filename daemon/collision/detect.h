@@ -26,7 +26,7 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& que
                                                                 const base::Deadline& deadline);
 
 /// Result of `search_collisions`.
-struct Search {
+struct FoundCollisions {
   bool complete = false;  ///< false if the deadline struck before the end
   /// Collision intervals that end by `until_s`, as `detect_collisions` defines them.
   std::vector<CollisionInterval> collisions;
@@ -35,8 +35,8 @@ struct Search {
 
 /// Does what `detect_collisions` does, but if the deadline strikes before the end, returns the
 /// intervals up to there.
-Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
-                         double t_end_s, const base::Deadline& deadline);
+FoundCollisions search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
+                                  double t_end_s, const base::Deadline& deadline);
 
 /// Removes from `collisions`, which one of the above found on `path`, those that are proved free if
 /// the tolerance is `kFinerTolerance` of that of `query`. It is partly chance which stretches of a

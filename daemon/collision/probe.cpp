@@ -37,19 +37,14 @@ Box bounds_of(std::span<const Triangle> triangles) {
   return box;
 }
 
-bool is_inside(const motion::Solid& solid, const Vec3& point_C) {
-  return std::ranges::all_of(solid.faces_C, [&](const geometry::HalfSpace& face) {
-    return face.normal.dot(point_C) <= face.offset_m;
-  });
-}
-
 }  // namespace
 
 Probe::Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m)
     : obstacles_(obstacles),
       body_(body),
       has_bounds_(obstacles.bounds.any()),
-      keep_m_((body.ball_radius_m() + clearance_m + obstacles.surface_error_m) * kRoundUp),
+      required_distance_m_((body.ball_radius_m() + clearance_m + obstacles.surface_error_m) *
+                           kRoundUp),
       radius_m_(body.radius_m()),
       center_radius_m_(body.center_radius_m() * kRoundUp) {
   if (body.tree() != nullptr) {
@@ -115,7 +110,7 @@ std::optional<scene::SweptResult> Probe::swept(const motion::Stretch& stretch, d
   const double reach_m = this->reach_m(stretch);
   const double error_m = tree_ ? tree_->error_m() : obstacles_.index.nearest_error_m(ends_);
   rounding_m += error_m;
-  keep_m = (keep_m + error_m + keep_m_) * kRoundUp;
+  keep_m = (keep_m + error_m + required_distance_m_) * kRoundUp;
   // If the motion is too large or not a number, nothing is known.
   if (!(bend_m + reach_m + keep_m < geometry::kLargestCoordinate_m)) return std::nullopt;
   if (!tree_)
@@ -146,7 +141,8 @@ bool Probe::is_free(const motion::Pose& pose, double margin_m) {
 bool Probe::is_surely_near(std::uint32_t obstacle, double margin_m) {
   const Triangle other = obstacles_.index.triangle(obstacle);
   if (touches(other)) return true;
-  const double near_m = margin_m + keep_m_ - 2.0 * obstacles_.index.nearest_error_m(ends_);
+  const double near_m =
+      margin_m + required_distance_m_ - 2.0 * obstacles_.index.nearest_error_m(ends_);
   return near_m > 0.0 && std::ranges::any_of(placed_, [&](const Triangle& part) {
            return geometry::triangle_distance(part, other, near_m) < near_m;
          });
@@ -159,10 +155,10 @@ ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, 
   // The distance of the ball about the triangles: if it is free, no solid of the body holds a part
   // of the scene, and no solid of the scene a part of the body.
   const double field_m = field_distance_m(stretch);
-  if (field_m > (result.reach_m + margin_m + keep_m_) * kRoundUp) {
+  if (field_m > (result.reach_m + margin_m + required_distance_m_) * kRoundUp) {
     result.free = true;
     result.is_measured = false;
-    result.gap_m = field_m - keep_m_;
+    result.gap_m = field_m - required_distance_m_;
     result.step_scale = result.gap_m / result.reach_m;
     return result;
   }
@@ -176,7 +172,7 @@ ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, 
   result.step_scale = swept->step_scale;
   // Inside of a solid the gap stays 0, however far the surface is.
   if (result.contains) return result;
-  result.gap_m = swept->nearest ? swept->nearest->distance_m - keep_m_ : margin_m;
+  result.gap_m = swept->nearest ? swept->nearest->distance_m - required_distance_m_ : margin_m;
   return result;
 }
 
@@ -234,10 +230,10 @@ void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way wa
   result.free = result.free && is_inside;
 }
 
-std::optional<Edge> Probe::nearest_edge() const {
+std::optional<VertexAtSide> Probe::least_deep_vertex() const {
   if (!has_bounds_) return std::nullopt;
-  if (tree_) return tree_->nearest_edge();
-  Edge nearest{0, 0, std::numeric_limits<double>::infinity()};
+  if (tree_) return tree_->least_deep_vertex();
+  VertexAtSide nearest{0, 0, std::numeric_limits<double>::infinity()};
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
     for (std::size_t vertex = 0; vertex < 3 * placed_.size(); ++vertex) {
       const Vec3& vertex_W = placed_[vertex / 3][vertex % 3];
@@ -249,11 +245,12 @@ std::optional<Edge> Probe::nearest_edge() const {
 }
 
 void Probe::refine(const motion::Stretch& stretch, ProbeResult& result, double share) {
-  if (result.free || result.contains || !(result.gap_m + keep_m_ > 0.0)) return;
+  if (result.free || result.contains || !(result.gap_m + required_distance_m_ > 0.0)) return;
   place(stretch);
   // If no triangle is nearer, the gap found before holds.
-  const std::optional<scene::Nearest> nearest = nearest_in_scene(result.gap_m + keep_m_, share);
-  if (nearest) result.gap_m = nearest->distance_m - keep_m_;
+  const std::optional<scene::Nearest> nearest =
+      nearest_in_scene(result.gap_m + required_distance_m_, share);
+  if (nearest) result.gap_m = nearest->distance_m - required_distance_m_;
 }
 
 std::optional<scene::Nearest> Probe::nearest_in_scene(double cutoff_m, double share) {
@@ -274,7 +271,7 @@ bool Probe::is_in_body(const motion::Stretch& stretch, const Vec3& point_W) cons
     return geometry::winding_number(point_C, body_.triangles_C(), *body_.tree()) != 0;
   }
   return std::ranges::any_of(body_.solids_C(),
-                             [&](const motion::Solid& solid) { return is_inside(solid, point_C); });
+                             [&](const motion::Solid& solid) { return solid.holds(point_C); });
 }
 
 bool Probe::holds_scene(const motion::Stretch& stretch) {
@@ -333,11 +330,13 @@ bool Probe::is_in_solid() const {
 std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch& stretch,
                                                           std::uint32_t guess) {
   place(stretch);
-  if (const std::optional<Edge> edge = nearest_edge(); edge && edge->gap_m <= 0.0)
-    return Obstacles::number_of_side(edge->side);
+  if (const std::optional<VertexAtSide> vertex = least_deep_vertex();
+      vertex && vertex->gap_m <= 0.0)
+    return Obstacles::number_of_side(vertex->side);
   if (guess < obstacles_.index.size() && touches(obstacles_.index.triangle(guess))) return guess;
   // `any_within` means "nearer than"; the next double makes it "not farther than".
-  const double further_m = std::nextafter(keep_m_, std::numeric_limits<double>::infinity());
+  const double further_m =
+      std::nextafter(required_distance_m_, std::numeric_limits<double>::infinity());
   const std::optional<scene::Nearest> found =
       tree_ ? tree_->any_within(further_m) : obstacles_.index.any_within(placed_, further_m);
   if (!found) return std::nullopt;
@@ -357,7 +356,7 @@ bool Probe::surely_collides_with(std::uint32_t obstacle, const motion::Stretch& 
   if (!may_surely_meet(moved_m)) return false;
   bool is_proved = false;
   int tried = 0;
-  for_each_pair_with(obstacle, keep_m_,
+  for_each_pair_with(obstacle, required_distance_m_,
                      [&](std::uint32_t, const Triangle& part, const Triangle& other) {
                        is_proved = surely_meets(part, other, moved_m);
                        return !is_proved && !(tree_ && ++tried == kMaxPairsTried);
@@ -367,16 +366,16 @@ bool Probe::surely_collides_with(std::uint32_t obstacle, const motion::Stretch& 
 
 // Whether one vertex stays beyond one side.
 bool Probe::surely_leaves(double moved_m) const {
-  const std::optional<Edge> edge = nearest_edge();
+  const std::optional<VertexAtSide> vertex = least_deep_vertex();
   // A depth of about the ball's radius has about the rounding of that radius.
   const double rounding_m = (kRoundUp - 1.0) * body_.ball_radius_m();
-  return edge && -edge->gap_m > (moved_m + rounding_m) * kRoundUp;
+  return vertex && -vertex->gap_m > (moved_m + rounding_m) * kRoundUp;
 }
 
 std::optional<std::uint32_t> Probe::surely_hit(const motion::Stretch& stretch) {
   place(stretch);
   const double least_m = reach_m(stretch);
-  if (surely_leaves(least_m)) return Obstacles::number_of_side(nearest_edge()->side);
+  if (surely_leaves(least_m)) return Obstacles::number_of_side(least_deep_vertex()->side);
   if (!may_surely_meet(least_m)) return std::nullopt;
   return tree_ ? surely_hit_by_tree(least_m) : surely_hit_by_few(least_m);
 }
@@ -397,8 +396,8 @@ std::optional<std::uint32_t> Probe::surely_hit_by_few(double moved_m) {
 std::optional<std::uint32_t> Probe::surely_hit_by_tree(double moved_m) {
   std::optional<std::uint32_t> hit;
   int tried = 0;
-  for_each_pair(keep_m_, [&](std::uint32_t, const Triangle& part, std::uint32_t index,
-                             const Triangle& obstacle) {
+  for_each_pair(required_distance_m_, [&](std::uint32_t, const Triangle& part, std::uint32_t index,
+                                          const Triangle& obstacle) {
     if (surely_meets(part, obstacle, moved_m)) hit = index;
     return !hit && ++tried < kMaxPairsTried;
   });
@@ -408,7 +407,7 @@ std::optional<std::uint32_t> Probe::surely_hit_by_tree(double moved_m) {
 // An edge crosses a triangle with a margin no longer than the edge, and than an edge of the
 // triangle: one of the two belongs to the body.
 bool Probe::may_surely_meet(double moved_m) const {
-  return !tree_ || keep_m_ > moved_m || body_.longest_edge_m() > moved_m;
+  return !tree_ || required_distance_m_ > moved_m || body_.longest_edge_m() > moved_m;
 }
 
 double Probe::reach_m(const motion::Stretch& stretch) const {
@@ -420,10 +419,10 @@ double Probe::rounding_m(const motion::Stretch& stretch) const {
 }
 
 bool Probe::surely_meets(const Triangle& part, const Triangle& obstacle, double moved_m) const {
-  if (keep_m_ > moved_m) {
+  if (required_distance_m_ > moved_m) {
     const double far_m = geometry::triangle_distance(part, obstacle) +
                          geometry::triangle_distance_error_m(part, obstacle);
-    if ((far_m + moved_m) * kRoundUp < keep_m_) return true;
+    if ((far_m + moved_m) * kRoundUp < required_distance_m_) return true;
   }
   return crossing_margin_m(part, obstacle, moved_m) > moved_m;
 }

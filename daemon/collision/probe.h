@@ -29,7 +29,7 @@ struct ProbeResult {
   double reach_m = 0.0;
   /// The part of `reach_m` that is rounding; splitting the stretch does not reduce it.
   double rounding_m = 0.0;
-  /// Whether `gap_m` was measured. Otherwise it is a lower bound, and the stretch is free.
+  /// False if `gap_m` is only a lower bound: then the stretch is free and nothing was near.
   bool is_measured = true;
   /// How far the body is from colliding with something near at the middle of the stretch, as
   /// computed: distance less the required clearance, or depth inside the bounds. Another obstacle
@@ -83,7 +83,8 @@ class Probe {
   enum class Way { kForwards, kBackwards };
 
   /// Checks a stretch, with `margin_m` added to the required clearance. `ProbeResult::step_scale`
-  /// refers to the direction `way`. If the stretch is not free, `gap_m` is not yet measured.
+  /// refers to the direction `way`. If the stretch is not free, `gap_m` is that of the triangle or
+  /// side at which the check stopped; `refine` measures the nearest.
   ProbeResult check(const motion::Stretch& stretch, double margin_m = 0.0,
                     Way way = Way::kForwards);
 
@@ -124,7 +125,7 @@ class Probe {
   /// Lower bound of the gap at the middle of `stretch` from the distance field; negative if the
   /// field cannot tell.
   [[nodiscard]] double at_least_m(const motion::Stretch& stretch) const {
-    const double scene_m = field_distance_m(stretch) - keep_m_;
+    const double scene_m = field_distance_m(stretch) - required_distance_m_;
     return has_bounds_ ? std::min(scene_m, ball_depth_m(stretch) - body_.ball_radius_m()) : scene_m;
   }
   /// Places the body at the middle of `stretch`.
@@ -159,10 +160,10 @@ class Probe {
   [[nodiscard]] const motion::Body& body() const { return body_; }
   /// The vertex and the side of the bounds with the least depth inside, as computed, for the body
   /// as it was placed last; nothing without bounds.
-  [[nodiscard]] std::optional<Edge> nearest_edge() const;
-  /// Distance of the body's triangles from the scene at which the body collides: radius of its ball
-  /// plus required clearance.
-  [[nodiscard]] double keep_m() const { return keep_m_; }
+  [[nodiscard]] std::optional<VertexAtSide> least_deep_vertex() const;
+  /// Distance that the body's triangles must have from the triangles of the scene: radius of its
+  /// ball, plus the required clearance, plus the error of smooth surfaces.
+  [[nodiscard]] double required_distance_m() const { return required_distance_m_; }
 
  private:
   /// Upper bound of the rounding of a sum of a few positive numbers, half an epsilon each.
@@ -210,7 +211,7 @@ class Probe {
   Obstacles obstacles_;
   const motion::Body& body_;
   bool has_bounds_;
-  double keep_m_;
+  double required_distance_m_;
   double radius_m_;
   double center_radius_m_;  ///< radius of a ball about the middle of the body's box
   /// The body on the stretch, if it has a tree; otherwise its triangles, and two ends of each.

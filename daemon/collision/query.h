@@ -33,8 +33,10 @@ struct Query {
   const motion::Body& body;
   DetectOptions options = {};
 
-  /// How far the body must be from the triangles of the scene.
-  [[nodiscard]] double kept_m() const { return options.clearance_m + obstacles.surface_error_m; }
+  /// Required clearance plus the error of smooth surfaces, without the ball.
+  [[nodiscard]] double required_clearance_m() const {
+    return options.clearance_m + obstacles.surface_error_m;
+  }
 };
 
 }  // namespace camway::collision

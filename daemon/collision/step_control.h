@@ -20,11 +20,9 @@ namespace camway::collision {
 /// separately, and stay as they are because bits of answers depend on the steps.
 constexpr double kDetectionGrowth = 8.0;
 constexpr double kClearanceGrowth = 4.0;
-/// Number of steps between two readings of the clock. One reading costs as much as one look-up in
-/// the distance field.
-constexpr unsigned kStepsPerClock = 16;
-/// The same for a body that has a tree, a step of which may take a thousand times as long.
-constexpr unsigned kStepsPerClockOfTree = 1;
+
+/// Returns the number of steps between two readings of the clock.
+unsigned steps_per_clock(const Probe& probe);
 
 /// Returns the reach to aim at for the next stretch. If `seen` is free, the next stretch begins
 /// where `seen` ends; otherwise it begins where `seen` begins. The reach is the largest one that

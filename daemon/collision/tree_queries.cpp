@@ -90,7 +90,7 @@ TreeQueries::SideDepth TreeQueries::depth_in(const geometry::Bounds& bounds, std
 }
 
 // Branch and bound. The depths are those of the vertices as placed in doubles.
-void TreeQueries::find_least(const SideDepth& depth, Edge& least) const {
+void TreeQueries::find_least(const SideDepth& depth, VertexAtSide& least) const {
   descend(
       depth, [&] { return least.gap_m; },
       [&](const Node& leaf) {
@@ -99,7 +99,8 @@ void TreeQueries::find_least(const SideDepth& depth, Edge& least) const {
       });
 }
 
-void TreeQueries::find_least_in_leaf(const SideDepth& depth, const Node& leaf, Edge& least) const {
+void TreeQueries::find_least_in_leaf(const SideDepth& depth, const Node& leaf,
+                                     VertexAtSide& least) const {
   for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
     const std::uint32_t number = body_.tree().order()[i];
     const Triangle placed = depth.instant == Instant::kMiddle
@@ -112,8 +113,8 @@ void TreeQueries::find_least_in_leaf(const SideDepth& depth, const Node& leaf, E
   }
 }
 
-Edge TreeQueries::least_depth(Instant instant) const {
-  Edge least{0, 0, std::numeric_limits<double>::infinity()};
+VertexAtSide TreeQueries::least_depth(Instant instant) const {
+  VertexAtSide least{0, 0, std::numeric_limits<double>::infinity()};
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
     if (std::isfinite(obstacles_.bounds.limit_m(side)))
       find_least(depth_in(obstacles_.bounds, side, instant), least);
@@ -126,8 +127,8 @@ Depths TreeQueries::least_depths() const {
           least_depth(Instant::kEnd).gap_m};
 }
 
-Edge TreeQueries::nearest_edge() const {
-  Edge least = least_depth(Instant::kMiddle);
+VertexAtSide TreeQueries::least_deep_vertex() const {
+  VertexAtSide least = least_depth(Instant::kMiddle);
   least.gap_m -= motion_body_.ball_radius_m();
   return least;
 }
@@ -136,7 +137,7 @@ geometry::Box TreeQueries::vertex_box() const {
   const geometry::Bounds zero{Vec3::Zero(), Vec3::Zero()};
   geometry::Box box;
   for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
-    Edge least{side, 0, std::numeric_limits<double>::infinity()};
+    VertexAtSide least{side, 0, std::numeric_limits<double>::infinity()};
     find_least(depth_in(zero, side, Instant::kMiddle), least);
     const auto axis = static_cast<Eigen::Index>(side % 3);
     (side < 3 ? box.min() : box.max())[axis] = side < 3 ? least.gap_m : -least.gap_m;

@@ -16,7 +16,7 @@
 namespace camway::collision {
 
 /// A vertex of the body and a side of the bounds.
-struct Edge {
+struct VertexAtSide {
   std::size_t side = 0;
   std::size_t vertex = 0;  ///< vertex of the body: 3 × its triangle + its index in it
   double gap_m = 0.0;      ///< depth of the vertex inside the side, less the radius of the ball
@@ -82,8 +82,8 @@ class TreeQueries {
   /// Box that holds the body as it was placed or moved last.
   [[nodiscard]] geometry::Box bounds() const { return body_.bounds(); }
 
-  /// As `Probe::nearest_edge` and `Depths`, for the body as it was placed or moved last.
-  [[nodiscard]] Edge nearest_edge() const;
+  /// As `Probe::least_deep_vertex` and `Depths`, for the body as it was placed or moved last.
+  [[nodiscard]] VertexAtSide least_deep_vertex() const;
   [[nodiscard]] Depths least_depths() const;
   /// Calls `visit(number)` for triangles of the body as it was placed last, until it returns false:
   /// for all with a vertex that is at most `within_m` deep inside a side of the bounds, and maybe
@@ -131,14 +131,14 @@ class TreeQueries {
   [[nodiscard]] SideDepth depth_in(const geometry::Bounds& bounds, std::size_t side,
                                    Instant instant) const;
   /// Replaces `least` by the vertex of least depth, if that is less.
-  void find_least(const SideDepth& depth, Edge& least) const;
+  void find_least(const SideDepth& depth, VertexAtSide& least) const;
   /// Calls `visit(leaf)` for the leaves that may be at most `limit_m()` deep, the less deep ones
   /// first, until it returns false.
   template <class Limit, class Visit>
   void descend(const SideDepth& depth, const Limit& limit_m, const Visit& visit) const;
   void find_least_in_leaf(const SideDepth& depth, const geometry::TriangleTree::Node& leaf,
-                          Edge& least) const;
-  [[nodiscard]] Edge least_depth(Instant instant) const;
+                          VertexAtSide& least) const;
+  [[nodiscard]] VertexAtSide least_depth(Instant instant) const;
 
   Obstacles obstacles_;
   const motion::Body& motion_body_;

@@ -93,8 +93,9 @@ std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stret
   index.for_each_touching(probe.vertex_box(), [&](std::uint32_t number) {
     const Vec3 point_W = index.triangle(number)[0];
     const std::optional<double> depth_m = probe.depth_in_body_m(stretch, point_W);
-    if (!depth_m || (deepest && *depth_m + probe.keep_m() <= deepest->depth_m)) return true;
-    deepest = Witness{0.0, number, 0, *depth_m + probe.keep_m(), point_W};
+    if (!depth_m || (deepest && *depth_m + probe.required_distance_m() <= deepest->depth_m))
+      return true;
+    deepest = Witness{0.0, number, 0, *depth_m + probe.required_distance_m(), point_W};
     return true;
   });
   return deepest;
@@ -102,24 +103,24 @@ std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stret
 
 // The vertex that is farthest beyond the bounds. Requires the body to be placed.
 std::optional<Witness> beyond_bounds(const Probe& probe, double beyond_m) {
-  const std::optional<Edge> edge = probe.nearest_edge();
-  if (!edge || edge->gap_m > beyond_m) return std::nullopt;
-  const Vec3 vertex_W = probe.vertex_W(edge->vertex);
+  const std::optional<VertexAtSide> vertex = probe.least_deep_vertex();
+  if (!vertex || vertex->gap_m > beyond_m) return std::nullopt;
+  const Vec3 vertex_W = probe.vertex_W(vertex->vertex);
   Witness witness;
-  witness.triangle = Obstacles::number_of_side(edge->side);
-  witness.depth_m = std::max(0.0, -edge->gap_m);
-  const Vec3 inward = geometry::Bounds::inward(edge->side);
-  witness.point_W = vertex_W - probe.obstacles().bounds.depth_m(edge->side, vertex_W) * inward;
+  witness.triangle = Obstacles::number_of_side(vertex->side);
+  witness.depth_m = std::max(0.0, -vertex->gap_m);
+  const Vec3 inward = geometry::Bounds::inward(vertex->side);
+  witness.point_W = vertex_W - probe.obstacles().bounds.depth_m(vertex->side, vertex_W) * inward;
   // The corners of (c0, c1, c2) and (c0, c2, c3).
   constexpr std::array<std::uint32_t, 6> kCorners = {0, 1, 2, 0, 2, 3};
-  witness.feature = probe.body().is_camera() ? 5 + kCorners[edge->vertex]
-                                             : static_cast<std::uint32_t>(edge->vertex / 3);
+  witness.feature = probe.body().is_camera() ? 5 + kCorners[vertex->vertex]
+                                             : static_cast<std::uint32_t>(vertex->vertex / 3);
   return witness;
 }
 
 // The deepest contact with a triangle, without its point; its feature is the part of the body.
 std::optional<Witness> deepest_pair(Probe& probe, double beyond_m) {
-  const double keep_m = probe.keep_m();
+  const double keep_m = probe.required_distance_m();
   std::optional<Witness> deepest;
   int left = kMaxPairs;
   probe.for_each_pair(keep_m + beyond_m, [&](std::uint32_t part, const Triangle& placed,

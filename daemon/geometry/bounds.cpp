@@ -11,8 +11,8 @@ constexpr std::array<const char*, Bounds::kSides> kFields = {"min[0]", "min[1]",
 
 }  // namespace
 
-Limits limits_of(const Bounds& bounds) {
-  Limits limits;
+OptionalBounds optional_bounds_of(const Bounds& bounds) {
+  OptionalBounds limits;
   for (std::size_t side = 0; side < Bounds::kSides; ++side) {
     if (std::isinf(bounds.limit_m(side))) continue;
     (side < 3 ? limits.min_m : limits.max_m)[side % 3] = bounds.limit_m(side);
@@ -20,7 +20,7 @@ Limits limits_of(const Bounds& bounds) {
   return limits;
 }
 
-Bounds bounds_of(const Limits& limits) {
+Bounds bounds_of(const OptionalBounds& limits) {
   Bounds bounds;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (limits.min_m[axis]) bounds.min_W[static_cast<Eigen::Index>(axis)] = *limits.min_m[axis];

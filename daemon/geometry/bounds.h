@@ -63,14 +63,14 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
-/// The limits of bounds, with nothing for a side that is none: the form of files, of messages and
-/// of the client.
-struct Limits {
+/// Bounds with nothing for a side without a limit: the form of files, of messages and of the
+/// client.
+struct OptionalBounds {
   std::array<std::optional<double>, 3> min_m;
   std::array<std::optional<double>, 3> max_m;
 };
-Limits limits_of(const Bounds& bounds);
-Bounds bounds_of(const Limits& limits);
+OptionalBounds optional_bounds_of(const Bounds& bounds);
+Bounds bounds_of(const OptionalBounds& limits);
 
 /// A fault of bounds.
 struct BoundsFault {

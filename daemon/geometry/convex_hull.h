@@ -30,7 +30,7 @@ struct ConvexHull {
 /// slightly off all faces may be far from the hull where the hull is sharp, and then no tolerance
 /// of the faces bounds the error. Expected O(n log n). Deterministic.
 ///
-/// Requires at least one point; all must be finite and at most kMaxBodyCoordinate_m.
+/// Requires at least one point; all must be finite and at most `kLargestHullCoordinate_m`.
 ConvexHull convex_hull(std::span<const Vec3> points);
 
 }  // namespace camway::geometry

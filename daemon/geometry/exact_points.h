@@ -11,10 +11,14 @@
 
 namespace camway::geometry {
 
+/// Largest coordinate of a point of a hull.
+inline constexpr double kLargestHullCoordinate_m = 1e9;
+
 /// Points whose relative positions are decided without rounding: in doubles where their error bound
 /// allows it (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
 /// geometric predicates", section 4.3), otherwise in integers of any length. Refers to `points`,
-/// which must outlive it. Requires coordinates to be finite and at most kMaxBodyCoordinate_m.
+/// which must outlive it. Requires coordinates to be finite and at most
+/// `kLargestHullCoordinate_m`.
 class ExactPoints {
  public:
   explicit ExactPoints(std::span<const Vec3> points);

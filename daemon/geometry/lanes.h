@@ -41,7 +41,7 @@ CAMWAY_INLINE Vec3 get(const Vectors& v, std::size_t lane) {
 }
 /// Lane `lane` in every lane.
 CAMWAY_INLINE Vectors repeat(const Vectors& v, std::size_t lane) { return repeat(get(v, lane)); }
-/// The corners that follow: less the triangle, this is its edges.
+/// Lane i holds lane i + 1 of `v`, so `rotated(t) - t` are the edges of `t`.
 CAMWAY_INLINE Vectors rotated(const Vectors& v) {
   return {__builtin_shufflevector(v.x, v.x, 1, 2, 0, 1),
           __builtin_shufflevector(v.y, v.y, 1, 2, 0, 1),
@@ -66,8 +66,9 @@ CAMWAY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
 }
 CAMWAY_INLINE Vectors operator*(double s, const Vectors& v) { return {s * v.x, s * v.y, s * v.z}; }
 CAMWAY_INLINE Numbers magnitude(const Numbers& x) { return x < 0.0 ? -x : x; }
-/// The second where one is no number.
+/// The lesser in each lane; `b` where either is NaN.
 CAMWAY_INLINE Numbers smaller(const Numbers& a, const Numbers& b) { return a < b ? a : b; }
+/// The greater in each lane; `b` where either is NaN.
 CAMWAY_INLINE Numbers larger(const Numbers& a, const Numbers& b) { return a > b ? a : b; }
 
 /// The largest magnitude of a coordinate.

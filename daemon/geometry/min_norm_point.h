@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "daemon/geometry/types.h"
@@ -23,6 +24,6 @@ namespace camway::geometry {
 Vec4 min_norm_point(std::span<const Vec4> points);
 
 /// The gap of the squared length at which the iteration ends: sixteen units of rounding of 1.
-inline constexpr double kMinNormGap = 8.0 * 2.220446049250313e-16;
+inline constexpr double kMinNormGap = 8.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace camway::geometry

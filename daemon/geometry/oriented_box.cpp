@@ -67,6 +67,22 @@ struct Axes {
   out = axes.x * v.x() + axes.y * v.y() + axes.z * v.z();
 }
 
+/// A box, loaded.
+struct LoadedBox {
+  Axes axes;
+  lanes::Numbers low, high;
+};
+
+[[gnu::always_inline]] inline void load_box(const Eigen::Array4d& x, const Eigen::Array4d& y,
+                                            const Eigen::Array4d& z, const Eigen::Array4d& low,
+                                            const Eigen::Array4d& high, LoadedBox& out) {
+  load(x, out.axes.x);
+  load(y, out.axes.y);
+  load(z, out.axes.z);
+  load(low, out.low);
+  load(high, out.high);
+}
+
 /// The extent of a triangle along axes, from an origin.
 struct Extent {
   lanes::Numbers least, greatest;
@@ -176,21 +192,15 @@ void OrientedBox::fit(std::span<const Triangle> body) {
 //    <= sqrt(3)·scale: 7u·scale. A gap has twice that and its own rounding, 15u·scale, and three
 //    gaps together 26u·scale.
 // 2. The matrix of the axes lengthens vectors by at most the factor 1 + 12u, so the gaps are too
-// long by at most that
-//    share of sqrt(3)·scale: 21u·scale.
+//    long by at most that share of sqrt(3)·scale: 21u·scale.
 // Together 47u·scale, far inside the 192u of `triangle_distance_error_m`.
 CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
-  Axes axes;
-  lanes::Numbers low, high;
-  load(x_, axes.x);
-  load(y_, axes.y);
-  load(z_, axes.z);
-  load(low_, low);
-  load(high_, high);
+  LoadedBox box;
+  load_box(x_, y_, z_, low_, high_, box);
   Extent extent;
-  find_extent(axes, origin_, triangle, extent);
-  return squared_gap(extent, low, high);
+  find_extent(box.axes, origin_, triangle, extent);
+  return squared_gap(extent, box.low, box.high);
 }
 
 // Errors in units of u·scale, once the length of the normal n is divided out (|n|_1 <=
@@ -203,48 +213,38 @@ double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
 // Together 117, inside 192 again. The rounding of n does not matter: any direction is a proof.
 CAMWAY_FOR_EVERY_PROCESSOR
 double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
-  Axes axes;
-  lanes::Numbers low, high;
-  load(x_, axes.x);
-  load(y_, axes.y);
-  load(z_, axes.z);
-  load(low_, low);
-  load(high_, high);
+  LoadedBox box;
+  load_box(x_, y_, z_, low_, high_, box);
   Plane plane;
-  find_plane(axes, triangle, plane);
+  find_plane(box.axes, triangle, plane);
   if (!plane.is_usable()) return 0.0;
-  return squared_gap(plane, plane.normal.dot(origin_ - triangle[0]), low, high);
+  return squared_gap(plane, plane.normal.dot(origin_ - triangle[0]), box.low, box.high);
 }
 
 // The boxes have the axes in common and, where the parts begin at the same corner, the origin.
 CAMWAY_FOR_EVERY_PROCESSOR
 bool OrientedBox::bound_two(std::span<const OrientedBox, 2> parts, const Triangle& triangle,
                             double most_m2, TwoBounds& out) const {
-  Axes axes;
-  lanes::Numbers low, high;
-  load(x_, axes.x);
-  load(y_, axes.y);
-  load(z_, axes.z);
-  load(low_, low);
-  load(high_, high);
+  LoadedBox box;
+  load_box(x_, y_, z_, low_, high_, box);
   Plane plane;
-  find_plane(axes, triangle, plane);
+  find_plane(box.axes, triangle, plane);
   double origin = plane.normal.dot(origin_ - triangle[0]);
-  if (plane.is_usable() && squared_gap(plane, origin, low, high) > most_m2) return false;
+  if (plane.is_usable() && squared_gap(plane, origin, box.low, box.high) > most_m2) return false;
   const Vec3* from = &origin_;
   Extent extent;
-  find_extent(axes, *from, triangle, extent);
+  find_extent(box.axes, *from, triangle, extent);
   for (std::size_t i = 0; i < 2; ++i) {
     const OrientedBox& part = parts[i];
-    load(part.low_, low);
-    load(part.high_, high);
+    load(part.low_, box.low);
+    load(part.high_, box.high);
     if (part.origin_ != *from) {
       from = &part.origin_;
       origin = plane.normal.dot(*from - triangle[0]);
-      find_extent(axes, *from, triangle, extent);
+      find_extent(box.axes, *from, triangle, extent);
     }
-    out.axes_m2[i] = squared_gap(extent, low, high);
-    out.plane_m2[i] = plane.is_usable() ? squared_gap(plane, origin, low, high) : 0.0;
+    out.axes_m2[i] = squared_gap(extent, box.low, box.high);
+    out.plane_m2[i] = plane.is_usable() ? squared_gap(plane, origin, box.low, box.high) : 0.0;
   }
   return true;
 }

@@ -37,7 +37,7 @@ bool axis_separates(const LocalBox& local, const Vec3& axis) {
 }  // namespace
 
 // The projection of a vertex has an error of 4u·|axis|_1·scale (translation, product, two sums),
-// that of the box as much, their difference 2u: 10u to first order, as in `projection_gap_error` of
+// that of the box as much, their difference 2u: 10u to first order, as in `any_separates` of
 // triangle_intersection.cpp.
 double triangle_box_gap_error(const Vec3& axis, double scale_m) {
   return 16.0 * kUnitRoundoff * axis.lpNorm<1>() * scale_m + kSmallestNormal;

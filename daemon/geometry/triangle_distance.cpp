@@ -63,7 +63,7 @@ class Search {
     beyond2_ = surely * surely;
   }
 
-  /// Each points from a point of `a` to a point of `b`.
+  /// Takes vectors from a point of `a` to a point of `b`. Returns whether the search is over.
   [[gnu::always_inline]] bool is_final(const lanes::Vectors& offsets) {
     const lanes::Numbers squared = squared_norm(offsets);
     const double least = std::min({squared[0], squared[1], squared[2]});

@@ -10,7 +10,7 @@ namespace camway::geometry {
 namespace {
 
 /// False only if the ray from `point` along +x misses the box of the node, which holds its
-/// triangles. A difference that is 0 or more in exact arithmetic is not negative when rounded.
+/// triangles. Rounding is monotone: if |d| <= half exactly, the rounded |d| is <= half, too.
 bool may_meet(const Vec3& point, const TriangleTree::Node& node) {
   const Vec3 offset = point - node.center;
   return std::abs(offset.y()) <= node.half.y() && std::abs(offset.z()) <= node.half.z() &&

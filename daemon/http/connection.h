@@ -81,7 +81,7 @@ class Connection final : public Place, public std::enable_shared_from_this<Conne
 
   beast::tcp_stream stream_;
   const std::weak_ptr<Core> core_;  ///< weak, since the core keeps connections
-  Core& shared_;                    ///< the same; connections end before it
+  Core& shared_;                    ///< `*core_`; connections end before it
   beast::flat_buffer buffer_;
   std::optional<beast::http::request_parser<beast::http::string_body>> parser_;
   unsigned version_ = 11;

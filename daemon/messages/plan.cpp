@@ -39,12 +39,12 @@ void blank_durations(Message& message) {
 
 bounds_t to_wire(const geometry::Bounds& bounds) {
   bounds_t wire{};
-  ToWire{}(geometry::limits_of(bounds), wire);
+  ToWire{}(geometry::optional_bounds_of(bounds), wire);
   return wire;
 }
 
 geometry::Bounds from_wire(const bounds_t& wire) {
-  geometry::Limits limits;
+  geometry::OptionalBounds limits;
   FromWire{}(limits, wire);
   return geometry::bounds_of(limits);
 }

@@ -276,8 +276,7 @@ StreamResult<StreamState> Stream::state(Wait wait) {
   if (state == answer->value.end() || !state->is_object()) {
     return {StreamFault::kRefused, "NATS answered without a state"};
   }
-  return StreamState{number_in(*state, "first_seq"), number_in(*state, "last_seq"),
-                     number_in(*state, "bytes")};
+  return StreamState{number_in(*state, "last_seq"), number_in(*state, "bytes")};
 }
 
 StreamResult<std::map<std::string, std::uint64_t>> Stream::subjects(const std::string& filter,

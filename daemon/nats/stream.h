@@ -27,7 +27,7 @@ enum class StreamFault : std::uint8_t {
   kRefused,      ///< the server says no
 };
 
-/// What a stream answers: a value, or a fault with its reason.
+/// Answer of a stream: a value, or a fault with its reason.
 template <class T>
 struct [[nodiscard]] StreamResult {
   std::optional<T> value;
@@ -52,7 +52,6 @@ struct StoredMessage {
 };
 
 struct StreamState {
-  std::uint64_t first_sequence = 0;
   std::uint64_t last_sequence = 0;  ///< also of a message that is not there any more; 0: none yet
   std::uint64_t bytes = 0;
 };

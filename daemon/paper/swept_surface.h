@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "daemon/motion/body/camera.h"
@@ -54,7 +55,7 @@ std::vector<SweptTriangle> tessellate_swept_surface(const motion::Path& path,
 /// Rounding of a vertex and of an error bound, relative to the largest coordinate: the evaluation
 /// of a pose (3 and 6 convex combinations of 3 roundings), a rotation and a sum, at both ends of a
 /// strip.
-inline constexpr double kSweptRounding = 64.0 * 2.220446049250313e-16;
+inline constexpr double kSweptRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Largest number of strips, of 8 triangles each: about 14 MB and a few tenths of a second.
 inline constexpr std::size_t kMaxSweptStrips = 16384;

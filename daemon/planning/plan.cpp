@@ -104,7 +104,7 @@ class Planner {
 
   // Searches the whole path or, if there is no time for that, only what was changed.
   std::vector<CollisionInterval> final_search(const Deadline& budget) {
-    collision::Search whole{false, {}, result_.path.begin_s()};
+    collision::FoundCollisions whole{false, {}, result_.path.begin_s()};
     if (!corrected_.timed_out) {
       whole = collision::search_collisions(query_, result_.path, result_.path.begin_s(),
                                            result_.path.end_s(),
@@ -117,7 +117,7 @@ class Planner {
     corrected_.timed_out = true;
     // Keyframe insertion changes the path everywhere.
     const motion::Path before = corrected_.path ? prepared_.interpolated.path() : motion::Path();
-    collision::Search changes =
+    collision::FoundCollisions changes =
         search_changes(query_, result_.path, {before, result_.collisions}, whole, budget);
     if (!changes.complete) give_up_corrections(changes.until_s);
     return std::move(changes.collisions);

@@ -276,8 +276,7 @@ bool ConfiguredScenes::holds_from_log(const Held& wanted, const std::stop_token&
   if (!other.empty()) {
     log_->warn(
         "another front reads the scene with another scale, up, unknown or voxel_m: the one that "
-        "was "
-        "started last counts",
+        "was started last counts",
         {{"scene", scene.name}, {"front", other}});
   }
   if (other.empty() && origin && origin->stamp == wanted.stamp &&

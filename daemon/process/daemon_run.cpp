@@ -98,13 +98,12 @@ base::Result<std::unique_ptr<http::Server>> open_metrics(const DaemonOptions& op
   return open_http_page(options.metrics, std::move(content), options.metrics_limits);
 }
 
-/// Returns the exit code for the outcome of a run. Ends the process itself after kAbandoned.
+/// Returns the exit code for the outcome of a run.
 int exit_code_of(service::RunOutcome outcome, const std::string& url, service::Log& log) {
   switch (outcome) {
     case service::RunOutcome::kDrained:
-      return EXIT_SUCCESS;
     case service::RunOutcome::kAbandoned:
-      std::_Exit(EXIT_SUCCESS);
+      return EXIT_SUCCESS;
     case service::RunOutcome::kPrefixTaken:
       return kExitPrefix;
     case service::RunOutcome::kNotSubscribed:
@@ -185,7 +184,10 @@ class ServingDaemon {
         [&] { reloader.request(); });
     const service::RunOutcome outcome = service.run();
     if (recorder_ != nullptr) recorder_->finish();
-    return exit_code_of(outcome, options_.lcm_url, *log_);
+    const int code = exit_code_of(outcome, options_.lcm_url, *log_);
+    // The threads that still plan cannot be joined.
+    if (outcome == service::RunOutcome::kAbandoned) std::_Exit(code);
+    return code;
   }
 
   std::optional<int> open_network() {

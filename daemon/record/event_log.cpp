@@ -189,8 +189,4 @@ void append_event(std::int64_t number, std::int64_t utime, std::string_view chan
   log.insert(log.end(), data.begin(), data.end());
 }
 
-std::size_t event_bytes(std::string_view channel, std::size_t data_bytes) {
-  return kHeaderBytes + channel.size() + data_bytes;
-}
-
 }  // namespace camway::record

@@ -53,7 +53,4 @@ LogSummary read_event_log(const std::filesystem::path& file, const VisitEvent& v
 void append_event(std::int64_t number, std::int64_t utime, std::string_view channel,
                   std::span<const std::uint8_t> data, std::vector<std::uint8_t>& log);
 
-/// The number of bytes that `append_event` appends.
-std::size_t event_bytes(std::string_view channel, std::size_t data_bytes);
-
 }  // namespace camway::record

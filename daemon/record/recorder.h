@@ -34,7 +34,7 @@ struct RecordOptions {
   RecordLimits limits;
   /// Most that waits for the disk. Messages beyond it are left out and counted.
   std::uint64_t waiting_bytes = std::uint64_t{64} << 20;
-  std::size_t waiting_changes = 4096;  ///< the same for changes of scenes
+  std::size_t waiting_changes = 4096;  ///< changes of scenes that may wait
   /// Time between two writes, since many small ones would cost as much as the messages.
   std::chrono::milliseconds pause{100};
   TroubleLog::Times trouble;

@@ -38,7 +38,7 @@ struct SceneUpdate {
 /// Events that are missing in the recording.
 struct Omission {
   std::int64_t from_utime = 0;  ///< time of the first message that is missing
-  std::int64_t to_utime = 0;    ///< and of the last one
+  std::int64_t to_utime = 0;    ///< time of the last message that is missing
   std::uint64_t messages = 0;
   std::uint64_t changes = 0;  ///< of scenes; all scenes follow, as they are afterwards
   std::string reason;

@@ -53,8 +53,8 @@ class TroubleLog {
   Times times_;
   bool is_trouble_ = false;
   std::uint64_t failures_ = 0;  ///< since the trouble began
-  std::uint64_t messages_ = 0;  ///< not recorded since then
-  std::uint64_t changes_ = 0;   ///< likewise
+  std::uint64_t messages_ = 0;  ///< messages not recorded since the trouble began
+  std::uint64_t changes_ = 0;   ///< changes not recorded since the trouble began
   mutable std::mutex mutex_;    ///< guards `reason_`
   std::string reason_;          ///< of the last failure of this trouble
   Clock::time_point failed_at_{};

@@ -45,8 +45,8 @@ class UpdateLog final : public BlobLog {
   LogFiles& files_;
   scene::AppendResult fault_;
   const Take take_;
-  Needs needs_;  ///< of the blobs that need others
-  Needs older_;  ///< the same, of the file before
+  Needs needs_;  ///< blobs that each blob of this file needs
+  Needs older_;  ///< blobs that each blob of the file before needs
 };
 
 }  // namespace camway::record

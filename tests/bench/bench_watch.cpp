@@ -98,7 +98,7 @@ std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot
 /// Waits for verdicts on paths.
 class Told {
  public:
-  WatchChecker::Tell take() {
+  WatchChecker::Report take() {
     return [this](const WatchChecker::News& news) {
       const std::lock_guard lock(mutex_);
       verdicts_ += news.verdicts.size();

@@ -300,8 +300,8 @@ TEST(SearchCollisions, KnowsAllUpToWhereTheDeadlineStruck) {
   double until_s = 0.0;
   std::size_t most = 0;
   for (int looks = 0;; ++looks) {
-    const Search found = search_collisions({Obstacles(index), body}, path, 0.0, 1.0,
-                                           base::Deadline::after_looks(looks));
+    const FoundCollisions found = search_collisions({Obstacles(index), body}, path, 0.0, 1.0,
+                                                    base::Deadline::after_looks(looks));
     EXPECT_GE(found.until_s, until_s);
     until_s = found.until_s;
     ASSERT_LE(found.collisions.size(), all->size());

@@ -170,7 +170,7 @@ TEST(TreeBodies, DepthsInsideBoundsAreThoseOfAllVertices) {
     EXPECT_EQ(seen.middle_m, least.middle_m);
     EXPECT_EQ(seen.first_m, least.first_m);
     EXPECT_EQ(seen.last_m, least.last_m);
-    EXPECT_EQ(queries.nearest_edge().gap_m, least.middle_m);
+    EXPECT_EQ(queries.least_deep_vertex().gap_m, least.middle_m);
     geometry::Box box;
     for (std::uint32_t i = 0; i < placed.size(); ++i)
       box.extend(geometry::bounds(placed.middle(i)));
@@ -260,8 +260,9 @@ TEST(TreeBodies, LargeBodiesKeepTheDeadline) {
   const Path path = random_path(random, 0.5);
   constexpr double kDeadline_s = 0.05;
   const auto begin = std::chrono::steady_clock::now();
-  const Search search = search_collisions({Obstacles(index), body, {}}, path, path.begin_s(),
-                                          path.end_s(), base::Deadline::after_s(kDeadline_s));
+  const FoundCollisions search =
+      search_collisions({Obstacles(index), body, {}}, path, path.begin_s(), path.end_s(),
+                        base::Deadline::after_s(kDeadline_s));
   const std::chrono::duration<double> took_s = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(took_s.count(), kDeadline_s + (testing::kIsSanitized ? 2.0 : 0.1));
   EXPECT_LE(search.until_s, path.end_s());

@@ -31,9 +31,9 @@ struct PlanAnswer {
 std::vector<std::string> request_warnings(const RequestFile& request);
 
 /// Plans in `snapshot`, and sets everything but `answer.scene` and `answer.scene_reading`, which
-/// the caller sets before. The answer depends on snapshot and
-/// request alone, timing apart, unless `deadline` strikes: whoever plans, its bytes are equal.
-/// Requires a request that `planning::validate` accepts. Thread-safe.
+/// the caller sets before. The answer depends on snapshot and request alone, timing apart, unless
+/// `deadline` strikes: whoever plans, its bytes are equal. Requires a request that
+/// `planning::validate` accepts. Thread-safe.
 void plan_in_scene(const scene::Snapshot& snapshot, const RequestFile& request,
                    const base::Deadline& deadline, PlanAnswer& answer);
 

@@ -40,8 +40,8 @@ struct FileFacts {
   int width_px = 0;                   ///< of the picture; 0: not known
   int height_px = 0;
   std::vector<std::string> images;  ///< names of the pictures, one for each key
-  double time_units = 1.0;          ///< of a table: how many are a second
-  double length_units = 1.0;        ///< likewise: how many are a metre
+  double time_units = 1.0;          ///< number of time units of a table in a second
+  double length_units = 1.0;        ///< number of length units of a table in a metre
   bool is_euroc = false;            ///< a table with the names of EuRoC
 };
 

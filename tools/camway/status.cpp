@@ -92,9 +92,8 @@ void print_traffic(const DaemonStatus& status) {
       status.request_pages_asked_again, status.answer_pages_asked_again, status.dropped_answers);
   fmt::print("malformed    {} messages\n", status.malformed_messages);
   fmt::print(
-      "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} of a wrong key or "
-      "altered, {} stale, {} "
-      "replayed, {} of too many senders\n",
+      "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} of a wrong key or altered, {} "
+      "stale, {} replayed, {} of too many senders\n",
       status.unsigned_messages, status.signed_only ? " (all are dropped)" : "",
       status.broken_envelopes, status.unknown_key_messages, status.altered_messages,
       status.stale_messages, status.replayed_messages, status.crowded_messages);

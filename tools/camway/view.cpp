@@ -129,8 +129,7 @@ ExitCode run_view(const ViewFlags& flags) {
 constexpr char kViewFooter[] =
     "Prints one line with the address and its token, which is what lets programs and pages ask; it "
     "listens on\n127.0.0.1 alone. Ctrl-C ends it. docs/http.md says what it answers. A daemon is "
-    "not "
-    "needed to begin: requests\nare answered with 503 until one is heard.\n";
+    "not needed to begin: requests\nare answered with 503 until one is heard.\n";
 
 }  // namespace
 

@@ -133,7 +133,7 @@ void read_value(const Field& field, Value& value) {
     read_value(field, wxyz);
     value = geometry::from_wxyz(wxyz);  // of any length
   } else if constexpr (std::same_as<Value, geometry::Bounds>) {
-    geometry::Limits limits;
+    geometry::OptionalBounds limits;
     read_table(field, limits);
     value = geometry::bounds_of(limits);
   } else if constexpr (requires { Value::SizeAtCompileTime; }) {

@@ -119,7 +119,7 @@ class JsonWriter {
   }
   void value(std::string_view text) { out_ += json_text(nlohmann::json(text)); }
   void value(const geometry::Bounds& bounds) {
-    const geometry::Limits limits = geometry::limits_of(bounds);
+    const geometry::OptionalBounds limits = geometry::optional_bounds_of(bounds);
     const auto write = [&](FileName name, const auto& corner) { (*this)(name, corner); };
     object(-1, [&] { planning::visit_table(write, limits); });
   }

@@ -97,7 +97,7 @@ void add_value(const FieldSpec&, const std::array<std::optional<double>, 3>&, Js
 }
 void add_value(const FieldSpec&, const geometry::Bounds& bounds, Json& entry) {
   entry["type"] = "object";
-  entry["fields"] = fields_of(geometry::limits_of(bounds));
+  entry["fields"] = fields_of(geometry::optional_bounds_of(bounds));
 }
 template <class Struct>
 requires std::is_class_v<Struct>

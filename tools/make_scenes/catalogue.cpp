@@ -66,10 +66,8 @@ std::string readme(const std::vector<Entry>& entries) {
   std::string text =
       "# Scenes and requests\n\n"
       "Made by `tools/make_scenes/main.cpp`; do not edit. `make_scenes --out scenes` writes the "
-      "same "
-      "bytes "
-      "everywhere, and a test\ncompares them. Metres, y up, right-handed; every object has a name. "
-      "All keyframes keep a clearance of 2 cm or more.\n\n"
+      "same bytes everywhere, and a test\ncompares them. Metres, y up, right-handed; every object "
+      "has a name. All keyframes keep a clearance of 2 cm or more.\n\n"
       "- **free**: the interpolated path does not collide.\n"
       "- **graze**: it clips furniture, door frames, columns or something thin.\n"
       "- **wall**: consecutive keyframes lie on different sides of a wall, with a way round.\n"

@@ -40,7 +40,6 @@ struct Room {
   }
 };
 
-constexpr Um kRoomDepth = mm(8100);
 constexpr Um kDoorWidth = mm(950);
 
 constexpr std::array<Room, 8> kRooms{{

@@ -22,7 +22,7 @@ inline void translate(const correction::OrientationPolicy& mine, Orientation& se
 namespace tools {
 
 Bounds to_client_bounds(const geometry::Bounds& bounds) {
-  const geometry::Limits limits = geometry::limits_of(bounds);
+  const geometry::OptionalBounds limits = geometry::optional_bounds_of(bounds);
   return {limits.min_m, limits.max_m};
 }
 

@@ -11,7 +11,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 /// Returns bounds as requests have them, where null is no limit.
-OrderedJson bounds_json(const geometry::Limits& bounds) {
+OrderedJson bounds_json(const geometry::OptionalBounds& bounds) {
   const auto corner = [](const auto& limits) {
     OrderedJson json = OrderedJson::array();
     for (const auto& limit : limits) json.push_back(limit ? OrderedJson(*limit) : OrderedJson());

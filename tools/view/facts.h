@@ -20,9 +20,9 @@ struct SceneFacts {
   std::int64_t revision = 0;  ///< increases with every change
   std::string digest;         ///< equal scenes have equal digests
   std::int64_t triangles = 0;
-  Numbers3 min_m{};              ///< lower corner of its bounding box
-  Numbers3 max_m{};              ///< upper corner of its bounding box
-  geometry::Limits body_bounds;  ///< box that no body may leave
+  Numbers3 min_m{};                      ///< lower corner of its bounding box
+  Numbers3 max_m{};                      ///< upper corner of its bounding box
+  geometry::OptionalBounds body_bounds;  ///< box that no body may leave
 };
 
 /// An object of a scene, as the door shows it.

@@ -51,11 +51,11 @@ std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, doubl
   if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
   probe_.place(standing);
   std::optional<scene::Nearest> found =
-      probe_.nearest_in_scene(up_to_m + probe_.keep_m(), kNearestShare);
-  if (found) found->distance_m -= probe_.keep_m();
-  const std::optional<collision::Edge> edge = probe_.nearest_edge();
-  if (edge && edge->gap_m < (found ? found->distance_m : up_to_m))
-    return scene::Nearest{edge->gap_m, collision::Obstacles::number_of_side(edge->side)};
+      probe_.nearest_in_scene(up_to_m + probe_.required_distance_m(), kNearestShare);
+  if (found) found->distance_m -= probe_.required_distance_m();
+  const std::optional<collision::VertexAtSide> vertex = probe_.least_deep_vertex();
+  if (vertex && vertex->gap_m < (found ? found->distance_m : up_to_m))
+    return scene::Nearest{vertex->gap_m, collision::Obstacles::number_of_side(vertex->side)};
   return found;
 }
 
@@ -87,7 +87,7 @@ bool FreeSpace::passes(const SignedPose& from, const SignedPose& to, double marg
 }
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
-  const double keep_m = radius_m + query_.kept_m();
+  const double keep_m = radius_m + query_.required_clearance_m();
   const double inside_m = query_.obstacles.bounds.depth_m(point_W) - radius_m;
   if (inside_m <= 0.0) return inside_m;
   up_to_m = std::min(up_to_m, inside_m);
@@ -116,7 +116,7 @@ bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_
   if (!(inside_m > radius_m)) return false;
   const scene::SceneIndex& index = query_.obstacles.index;
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
-  const double keep_m = radius_m + query_.kept_m();
+  const double keep_m = radius_m + query_.required_clearance_m();
   if (met) {
     // Nearer by more than the error of distances: the search cannot miss it.
     const double near_m = keep_m - 2.0 * index.nearest_error_m(way);
@@ -132,8 +132,9 @@ double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m
       std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
   const std::optional<scene::Nearest> nearest =
-      query_.obstacles.index.nearest(way, up_to_m + query_.kept_m());
-  return std::min(inside_m, nearest ? nearest->distance_m - query_.kept_m() : up_to_m);
+      query_.obstacles.index.nearest(way, up_to_m + query_.required_clearance_m());
+  return std::min(inside_m,
+                  nearest ? nearest->distance_m - query_.required_clearance_m() : up_to_m);
 }
 
 motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {

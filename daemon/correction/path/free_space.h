@@ -44,7 +44,7 @@ class FreeSpace {
     return probe_;
   }
   /// Distance between the body's triangles and the scene at which the body collides.
-  [[nodiscard]] double keep_m() const { return probe_.keep_m(); }
+  [[nodiscard]] double keep_m() const { return probe_.required_distance_m(); }
   /// Moves `pose` by the least translation that brings the body `margin_m` inside the bounds, as
   /// computed; returns `pose` bit for bit if it is inside already. A body larger than the bounds
   /// ends up beyond them on both sides.

@@ -65,7 +65,8 @@ class CellSearch {
     geometry::Box box = space.obstacles().index.bounds();
     box.extend(from_W).extend(to_W);
     const double radius_m = std::max(options.ball_radius_m, options.body_radius_m);
-    const double margin_m = kMarginAround * (options.comfort_m + radius_m + space.query().kept_m());
+    const double margin_m = kMarginAround *
+                            (options.comfort_m + radius_m + space.query().required_clearance_m());
     // The ball cannot be beyond the bounds.
     const geometry::Bounds& bounds = space.obstacles().bounds;
     return {(box.min().array() - margin_m).max(bounds.min_W.array()),

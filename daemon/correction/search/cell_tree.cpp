@@ -39,7 +39,7 @@ bool CellTree::may_divide(const OctreeCell& cell) const {
 std::optional<ClosedCorner> CellTree::corner_at(const OctreeCell& cell,
                                                 const OctreeCell& beside) const {
   if (options_.body_gap_m) return std::nullopt;
-  const double keep_m = options_.ball_radius_m + space_.query().kept_m();
+  const double keep_m = options_.ball_radius_m + space_.query().required_clearance_m();
   const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
   const Vec3 center_W = this->center_W(cell);
   const geometry::Box box(center_W.array() - reach_m, center_W.array() + reach_m);
@@ -101,7 +101,7 @@ void CellTree::classify(OctreeCell& cell) const {
     if (gap_m >= reach_m) cell.state = CellState::kFree;
     return;
   }
-  const double keep_m = options_.ball_radius_m + space_.query().kept_m();
+  const double keep_m = options_.ball_radius_m + space_.query().required_clearance_m();
   // As far as it takes to prove the cell free, and to tell how much room there is.
   const double horizon_m = (keep_m + std::max(reach_m, options_.comfort_m)) / FreeSpace::kBallShare;
   const double distance_m =

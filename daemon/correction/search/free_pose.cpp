@@ -87,7 +87,8 @@ class Search {
   /// nearest.
   std::vector<Move> on_shells(std::vector<Vec3> directions_W) {
     std::vector<Move> found;
-    const double reach_m = kFreePoseReach * (space_.ball_radius_m() + space_.query().kept_m());
+    const double reach_m =
+        kFreePoseReach * (space_.ball_radius_m() + space_.query().required_clearance_m());
     double last_m = reach_m;
     double below_m = 0.0;
     const double first_m = std::max(kFirstShell * space_.ball_radius_m(), kLeastShell * reach_m);

@@ -76,7 +76,7 @@ double Lattice::gap_m(const Vec3& point_W) const {
 
 double Lattice::sure_gap_m(double gap_m) const {
   if (gap_m >= horizon_m_) return horizon_m_;  // nothing was met
-  const double keep_m = options_.ball_radius_m + space_.query().kept_m();
+  const double keep_m = options_.ball_radius_m + space_.query().required_clearance_m();
   return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/geometry/convex_hull.h"
+#include "daemon/geometry/exact_points.h"
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/winding.h"
@@ -19,6 +20,8 @@ namespace {
 using geometry::kUnitRoundoff;
 using geometry::Triangle;
 using geometry::Vec3;
+
+static_assert(kMaxBodyCoordinate_m <= geometry::kLargestHullCoordinate_m);
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -54,6 +57,12 @@ Body::Body(const Camera& camera) : Body(near_corners_C(camera)) {
   slack_m_ = kCameraCornerRounding * radius_m_;
 }
 
+bool Solid::holds(const Vec3& point_C) const {
+  return std::ranges::all_of(faces_C, [&](const geometry::HalfSpace& face) {
+    return face.normal.dot(point_C) <= face.offset_m;
+  });
+}
+
 base::Result<Body> Body::make(const BodyShape& shape) {
   if (const std::optional<ShapeFault> fault = fault_in(shape)) {
     return base::Failure{fault->field.empty() ? fault->reason
@@ -73,11 +82,8 @@ base::Result<Body> Body::make(const BodyShape& shape) {
 }
 
 bool Body::is_near(const Vec3& point_C, double distance_m) const {
-  const bool is_inside = std::ranges::any_of(solids_C_, [&](const Solid& solid) {
-    return std::ranges::all_of(solid.faces_C, [&](const geometry::HalfSpace& face) {
-      return face.normal.dot(point_C) <= face.offset_m;
-    });
-  });
+  const bool is_inside =
+      std::ranges::any_of(solids_C_, [&](const Solid& solid) { return solid.holds(point_C); });
   const Triangle point = {point_C, point_C, point_C};
   // A point on the surface has no winding number, and is at no distance.
   if (is_solid_mesh_ && geometry::winding_number(point_C, triangles_C_, *tree_).value_or(0) != 0) {

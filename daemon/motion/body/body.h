@@ -47,6 +47,9 @@ using BodyShape = std::variant<Camera, BoxShape, SphereShape, ConvexShape, MeshS
 /// none of the body's triangles and collides all the same.
 struct Solid {
   std::vector<geometry::HalfSpace> faces_C;
+
+  /// Whether a point is inside, as computed.
+  [[nodiscard]] bool holds(const geometry::Vec3& point_C) const;
 };
 
 /// Limits of shapes.

@@ -10,10 +10,11 @@ namespace {
 
 using geometry::Vec3;
 
-// Number of samples, about, in the whole path, and least number in each segment: many short
-// segments need fewer each.
+// About the number of samples of a path. Many short segments need fewer each.
 constexpr double kSamplesAPath = 256.0;
+// Least number of samples of a segment.
 constexpr double kFewestSamples = 8.0;
+// Largest number of samples of a segment.
 constexpr double kMostSamples = 32.0;
 
 // Even, for Simpson's rule.

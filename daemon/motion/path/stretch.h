@@ -90,28 +90,4 @@ class SegmentMotion {
   double orientation_rounding_ = 0.0;
 };
 
-// Rounding of a series of degree n whose control points differ by at most E per coordinate, in
-// units of rounding u = 2^-53 (half of an epsilon) times E:
-// 1. Differences to the first control point: 1. De Casteljau at 1/2: one sum a level: n.
-// 2. The coefficient of v^k about the middle is C(n,k)·2^k times the k-th difference of the control
-//    points of the right half. Their errors grow by 2^k, k levels of differences add k·2^k, the
-//    product 2^k: in all C(n,k)·4^k·(n + 2 + k).
-// 3. Shifting to m = 1/2 + v: the coefficients C(j,k)·v^(j-k) meet (|v| + h)^j <= 2^-j in Σ
-//    h^k|Pₖ|, so the errors of 2. add up to Σ_j C(n,j)·2^j·(n + 2 + j) = (n+2)·3^n + 2n·3^(n-1);
-//    the shift itself has at most 2n operations on each term of a sum below 2^n: 2n·2^n.
-// n = 3: 189 + 48 = 237, and √3 from coordinates to length: 411 u = 206 epsilons.
-inline constexpr double kPositionSeriesRounding = 210.0 * 2.220446049250313e-16;
-// n = 6: 8748 + 768 = 9516, times 2 from coordinates to length; the parts along and across the
-// middle have 8 more operations on terms that sum up to 2^6, and the first order 24: 2048. 23128 u
-// = 11564 epsilons.
-inline constexpr double kOrientationSeriesRounding = 11776.0 * 2.220446049250313e-16;
-/// Rounding of adding the first control point, and of the direction of the middle, relative to the
-/// value.
-inline constexpr double kValueRounding = 4.0 * 2.220446049250313e-16;
-/// Rounding of the rotation matrix of a quaternion of any length: its entries are within 16 units,
-/// its product with a point at radius ρ within 60 units of ρ.
-inline constexpr double kMatrixRounding = 60.0 * 2.220446049250313e-16;
-/// Rounding of a step: its products and sums have fewer than 32 roundings of the numbers added.
-inline constexpr double kStepRounding = 16.0 * 2.220446049250313e-16;
-
 }  // namespace camway::motion

@@ -7,10 +7,24 @@
 
 #include "daemon/motion/path/bezier.h"
 #include "daemon/motion/path/quaternion.h"
+#include "daemon/motion/spline/cubic_spline.h"
 
 namespace camway::motion {
 
+using geometry::Vec3;
 using geometry::Vec4;
+
+CubicPath cubic_path(const Vec4& reference, std::span<const double> times_s,
+                     std::span<const Vec3> positions, std::span<const Vec3> velocities_m_per_s,
+                     std::span<const Vec4> images, std::span<const Vec4> image_rates_per_s) {
+  CubicPath path{reference, {}};
+  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
+    path.pieces.push_back({times_s[i], times_s[i + 1],
+                           spline_piece<Vec3>(times_s, positions, velocities_m_per_s, i),
+                           spline_piece<Vec4>(times_s, images, image_rates_per_s, i)});
+  }
+  return path;
+}
 
 Pose pose_of(const Vec4& reference, const CubicPoint& point) {
   const Vec4 q = quaternion::multiply(reference, quaternion::multiply(point.image, point.image));

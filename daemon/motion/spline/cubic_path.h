@@ -56,6 +56,25 @@ struct CubicPath {
   [[nodiscard]] const CubicPiece& piece_at(double time_s) const;
 };
 
+/// Returns the path through `positions` and `images` with slopes `velocities_m_per_s` and
+/// `image_rates_per_s` at `times_s`, at least two. All have the same size.
+CubicPath cubic_path(const geometry::Vec4& reference, std::span<const double> times_s,
+                     std::span<const geometry::Vec3> positions,
+                     std::span<const geometry::Vec3> velocities_m_per_s,
+                     std::span<const geometry::Vec4> images,
+                     std::span<const geometry::Vec4> image_rates_per_s);
+
+/// Derivative of a cubic Bézier curve over `duration_s` at its beginning, times `rate`.
+template <class Point>
+Point first_slope(const std::array<Point, 4>& curve, double duration_s, double rate = 1.0) {
+  return Point((3.0 * rate / duration_s) * (curve[1] - curve[0]));
+}
+/// Derivative of a cubic Bézier curve over `duration_s` at its end, times `rate`.
+template <class Point>
+Point last_slope(const std::array<Point, 4>& curve, double duration_s, double rate = 1.0) {
+  return Point((3.0 * rate / duration_s) * (curve[3] - curve[2]));
+}
+
 /// The pose that `point` represents.
 Pose pose_of(const geometry::Vec4& reference, const CubicPoint& point);
 

@@ -38,16 +38,6 @@ Vec4 image_at(const Keyframe& keyframe, const Vec4& reference, const Vec4& befor
   return length * nearest_image(reference, q, x);
 }
 
-/// Derivative of a Bézier curve over `duration_s` at its beginning.
-template <class Point>
-Point first_slope(const std::array<Point, 4>& curve, double duration_s) {
-  return Point((3.0 / duration_s) * (curve[1] - curve[0]));
-}
-template <class Point>
-Point last_slope(const std::array<Point, 4>& curve, double duration_s) {
-  return Point((3.0 / duration_s) * (curve[3] - curve[2]));
-}
-
 /// A keyframe at the beginning, or at the end, of a piece.
 Keyframe inserted_at_knot(const CubicPath& path, double time_s, const Vec3& position,
                           const Vec4& image) {
@@ -64,7 +54,7 @@ void enlarge(double& largest, double value) {
 
 CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const PathFrame& frame) {
   assert(keyframes.size() >= 2);
-  CubicPath result{frame.reference.normalized(), {}};
+  const Vec4 reference = frame.reference.normalized();
   std::vector<double> times_s;
   std::vector<Vec3> positions;
   std::vector<Vec4> images;
@@ -72,18 +62,13 @@ CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const PathFrame
     times_s.push_back(keyframe.time_s);
     positions.push_back(keyframe.pose.position);
     const Vec4 before = images.empty() ? Vec4::UnitX() : images.back();
-    images.push_back(image_at(keyframe, result.reference, before));
+    images.push_back(image_at(keyframe, reference, before));
   }
   const std::vector<Vec3> velocities = spline_slopes<Vec3>(
       times_s, positions, frame.begin.velocity_m_per_s, frame.end.velocity_m_per_s);
   const std::vector<Vec4> rates = spline_slopes<Vec4>(times_s, images, frame.begin.image_rate_per_s,
                                                       frame.end.image_rate_per_s);
-  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
-    result.pieces.push_back({times_s[i], times_s[i + 1],
-                             spline_piece<Vec3>(times_s, positions, velocities, i),
-                             spline_piece<Vec4>(times_s, images, rates, i)});
-  }
-  return result;
+  return cubic_path(reference, times_s, positions, velocities, images, rates);
 }
 
 PathFrame frame_of(const CubicPath& path) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -73,11 +74,11 @@ ImageSpline quaternion_spline(std::span<const double> times_s,
 std::vector<geometry::Vec4> aligned_orientations(std::span<const geometry::Vec4> orientations);
 
 /// Rounding of the dot product of two unit quaternions that were rotated and normalised.
-inline constexpr double kHalfTurnRounding = 32.0 * 2.220446049250313e-16;
+inline constexpr double kHalfTurnRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
 /// Orientations this close to one great circle of S³ (the sine of the angle) count as on it: the
 /// rounding of unit quaternions that were multiplied once or twice.
-inline constexpr double kOneAxisRounding = 32.0 * 2.220446049250313e-16;
+inline constexpr double kOneAxisRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
 /// Neighbours further apart than this, on S³ or in the space of x, get knots between them: 60°, the
 /// limit of Johnstone's programs (2004).

@@ -21,10 +21,8 @@ std::vector<Point> slopes_of(const std::vector<Point>& points, const CubicPath& 
                              std::array<Point, 4> CubicPiece::*curve, const TimeLaw& law) {
   const CubicPiece& first = path.pieces.front();
   const CubicPiece& last = path.pieces.back();
-  const Point begin = (3.0 * law.rate(path.begin_s()) / (first.t1_s - first.t0_s)) *
-                      ((first.*curve)[1] - (first.*curve)[0]);
-  const Point end = (3.0 * law.rate(path.end_s()) / (last.t1_s - last.t0_s)) *
-                    ((last.*curve)[3] - (last.*curve)[2]);
+  const Point begin = first_slope(first.*curve, first.t1_s - first.t0_s, law.rate(path.begin_s()));
+  const Point end = last_slope(last.*curve, last.t1_s - last.t0_s, law.rate(path.end_s()));
   return spline_slopes<Point>(law.new_knots_s(), points, begin, end);
 }
 
@@ -40,14 +38,7 @@ CubicPath retimed(const CubicPath& path, const TimeLaw& law) {
   }
   const std::vector<Vec3> velocities = slopes_of(positions, path, &CubicPiece::position, law);
   const std::vector<Vec4> rates = slopes_of(images, path, &CubicPiece::image, law);
-  CubicPath result{path.reference, {}};
-  const std::span<const double> times_s = law.new_knots_s();
-  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
-    result.pieces.push_back({times_s[i], times_s[i + 1],
-                             spline_piece<Vec3>(times_s, positions, velocities, i),
-                             spline_piece<Vec4>(times_s, images, rates, i)});
-  }
-  return result;
+  return cubic_path(path.reference, law.new_knots_s(), positions, velocities, images, rates);
 }
 
 CubicPath with_new_times(const CubicPath& path, const TimeLaw& law) {

@@ -178,7 +178,7 @@ void visit_table(const Visit& visit, Is<correction::MotionLimits> auto& limits, 
 
 /// Visits the limits of bounds.
 template <class Visit>
-void visit_table(const Visit& visit, Is<geometry::Limits> auto& limits) {
+void visit_table(const Visit& visit, Is<geometry::OptionalBounds> auto& limits) {
   visit(FieldSpec{.name = "min", .wire = "min_m"}, limits.min_m);
   visit(FieldSpec{.name = "max", .wire = "max_m"}, limits.max_m);
 }

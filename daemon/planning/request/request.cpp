@@ -70,7 +70,7 @@ std::string spell(std::string_view path, Spelling spelling) {
   if (group == "options") visit_specs<PlanOptions>(visit);
   if (group == "options.orientation") visit_specs<correction::OrientationPolicy>(visit);
   if (group == "options.limits") visit_specs<correction::MotionLimits>(visit);
-  if (group == "options.bounds") visit_specs<geometry::Limits>(visit);
+  if (group == "options.bounds") visit_specs<geometry::OptionalBounds>(visit);
   if (group == "camera") visit_specs<motion::Camera>(visit);
   if (group == "body") visit_body(visit);
   if (group == "frame") visit_frame(visit);

@@ -69,9 +69,10 @@ class Intervals {
 
 }  // namespace
 
-collision::Search search_changes(const collision::Query& query, const motion::Path& path,
-                                 const SearchedPath& known, const collision::Search& begun,
-                                 const base::Deadline& deadline) {
+collision::FoundCollisions search_changes(const collision::Query& query, const motion::Path& path,
+                                          const SearchedPath& known,
+                                          const collision::FoundCollisions& begun,
+                                          const base::Deadline& deadline) {
   const std::span<const Segment> segments = path.segments();
   const std::vector<bool> is_known = known_segments(segments, known.path.segments());
   std::size_t first = path.segment_index(begun.until_s);
@@ -89,7 +90,7 @@ collision::Search search_changes(const collision::Query& query, const motion::Pa
     const std::span<const Segment> run = segments.subspan(first, last - first);
     const motion::Path changed(std::vector<Segment>(run.begin(), run.end()));
     const double from_s = std::max(begun.until_s, begin_s);
-    const collision::Search part =
+    const collision::FoundCollisions part =
         collision::search_collisions(query, changed, from_s, end_s, deadline);
     if (!part.complete) {
       found.add_between(known.collisions, begin_s, path.end_s());

@@ -24,9 +24,10 @@ struct SearchedPath {
 /// and by the joining distance. If the deadline strikes, the search is incomplete, and `until_s` is
 /// the beginning of a run of changed segments; the collisions are then those of the path that
 /// equals `known` from there on. Requires the same query for all searches.
-collision::Search search_changes(const collision::Query& query, const motion::Path& path,
-                                 const SearchedPath& known, const collision::Search& begun,
-                                 const base::Deadline& deadline);
+collision::FoundCollisions search_changes(const collision::Query& query, const motion::Path& path,
+                                          const SearchedPath& known,
+                                          const collision::FoundCollisions& begun,
+                                          const base::Deadline& deadline);
 
 /// Returns `path` up to `from_s` and `rest` from there on. Requires that pieces of both begin
 /// there, and meet C².

@@ -104,7 +104,7 @@ void declare_files(CLI::App& app, Raw& raw) {
       ->take_all();
 }
 
-void declare_settings(CLI::App& app, DaemonOptions& options) {
+void declare_folders(CLI::App& app, DaemonOptions& options) {
   declare_setting(app, "--scene-roots", "scenes.roots",
                   "Folders, with ':' between them, below which clients may have scene files read; "
                   "without them they can upload only; relative to the folder that this is started "
@@ -119,6 +119,9 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                   "Folder into which messages and changes of scenes are recorded, for `camway "
                   "replay`; relative to the folder that this is started in",
                   options, "none");
+}
+
+void declare_fleet(CLI::App& app, DaemonOptions& options) {
   declare_setting(
       app, "--role", "fleet.role",
       "What this process does: all of it alone; front: serve clients of a fleet and let "
@@ -134,6 +137,9 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                  "A front removes this scene from the fleet before it reads the scenes there, for "
                  "one whose contents are lost; may be given several times")
       ->type_name("SCENE");
+}
+
+void declare_channels(CLI::App& app, DaemonOptions& options) {
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",
                  "Serve though another daemon serves with this prefix; else this one says so and "
@@ -143,6 +149,9 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                   options,
                   "lcm.url of the configuration file, else LCM_DEFAULT_URL, else " +
                       std::string(kDefaultLcmUrl));
+}
+
+void declare_planning(CLI::App& app, DaemonOptions& options) {
   declare_setting(app, "--workers", "planning.workers",
                   "Requests planned at the same time; 0: one for each core", options);
   declare_setting(app, "--queue", "queue.requests", "Requests that may wait for a worker", options);
@@ -152,6 +161,9 @@ void declare_settings(CLI::App& app, DaemonOptions& options) {
                   "Deadline of requests that name none, seconds from their receipt", options);
   declare_setting(app, "--max-deadline-s", "planning.max_deadline_s",
                   "Longest deadline that a request may ask for, seconds", options);
+}
+
+void declare_log(CLI::App& app, DaemonOptions& options) {
   declare_setting(app, "--log-level", "log.level", "What is logged on standard error", options);
   declare_setting(app, "--log-format", "log.format",
                   "How: text for people, or an object of JSON on each line", options);
@@ -161,7 +173,11 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.set_version_flag("--version", "camwayd " + service::version_text());
   app.footer(kFooter);
   declare_files(app, raw);
-  declare_settings(app, options);
+  declare_folders(app, options);
+  declare_fleet(app, options);
+  declare_channels(app, options);
+  declare_planning(app, options);
+  declare_log(app, options);
 }
 
 ParsedOptions failed(std::vector<std::string> faults) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <regex>
 #include <span>
 #include <type_traits>
@@ -98,6 +99,176 @@ std::string fault_of_servers(const std::string& text) {
 
 std::string fault_of_address(const std::string& text) {
   return http::is_ip_address(text) ? "" : "must be an IPv4 or IPv6 address";
+}
+
+/// Largest number of requests that may wait.
+constexpr double kQueue = service::kMaxQueueCapacity;
+
+std::vector<Setting> lcm_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"lcm.url", &options.lcm_url, 0, 0, false, &fault_of_url},
+      {"lcm.prefix", &service.prefix, 0, 0, false, &fault_of_prefix},
+      {"lcm.share_prefix", &options.share_prefix},
+      {"lcm.waiting_messages", &service.subscription_capacity, 1, 1e6},
+  };
+}
+
+std::vector<Setting> planning_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"planning.workers", &service.workers, 0, service::kMaxWorkers},
+      {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
+      {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
+      {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
+      {"planning.drain_s", &service.drain_limit, 0, kDayS},
+  };
+}
+
+std::vector<Setting> occupancy_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, 1e-3, kDayS},
+      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, 1e-3, kDayS},
+  };
+}
+
+std::vector<Setting> queue_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"queue.requests", &service.queue.jobs, 1, kQueue},
+      {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
+      {"queue.remembered_clients", &service.queue.remembered_clients, 2, 1e6},
+      {"queue.newcomers_count_as", &service.queue.newcomers_count_as, 1, 1e6},
+      {"queue.request_bytes", &service.request_bytes, 1, kManyBytes},
+      {"queue.answers", &service.answers.answers, 1, 1e6},
+      {"queue.answers_of_a_client", &service.answers.answers_of_a_channel, 1, 1e6},
+      {"queue.answer_bytes", &service.answers.bytes, 1, kManyBytes},
+      {"queue.refusals", &service.answers.refusals, 1, 1e6},
+      {"queue.answer_pages", &service.answer_pages, 1, wire::kMaxResponsePages},
+      {"queue.malformed_answers_per_s", &service.malformed_answers_per_s, 1, 1e6},
+  };
+}
+
+std::vector<Setting> memory_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"memory.remembered_answers", &service.cache.max_answers, 0, 1e6},
+      {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
+      {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},
+      {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
+  };
+}
+
+std::vector<Setting> scenes_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"scenes.roots", &options.scene_roots, 0, 0, false, nullptr, Setting::Path::kFolders},
+      {"scenes.write_maps", &service.scene_rules.write_maps},
+      {"scenes.cache_folder", &options.cache_folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"scenes.cache_bytes", &options.cache_bytes, 0, kManyBytes},
+      {"scenes.workers", &service.scene_workers, 1, service::kMaxWorkers},
+      {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
+      {"scenes.max_deadline_s", &service.change_deadline.max_s, 1e-3, kDayS},
+      {"scenes.scenes", &options.store.scenes, 1, 1e6},
+      {"scenes.objects", &options.store.objects, 1, 1e6},
+      {"scenes.triangles", &options.store.triangles, 1, 4e9},
+      {"scenes.occupancy_bytes", &options.store.occupancy_bytes, 1, kManyBytes},
+      {"scenes.mirror_voxels", &service.scene_rules.mirror_voxels, 1, 1e12},
+      {"scenes.map_voxels", &service.scene_rules.maps.voxels, 1, 1e12},
+      {"scenes.map_triangles", &service.scene_rules.maps.triangles, 12, 4e9},
+      {"scenes.scan_voxels", &service.scene_rules.scan_voxels, 1, 1e12},
+      {"scenes.remembered_changes", &options.store.history.changes, 0, 1e6},
+      {"scenes.remembered_change_bytes", &options.store.history.bytes, 0, kManyBytes},
+      {"scenes.waiting_changes", &service.changes.jobs, 1, kQueue},
+      {"scenes.waiting_changes_of_a_client", &service.changes.jobs_of_a_client, 1, kQueue},
+      {"scenes.uploads", &service.uploads.uploads, 1, 1e4},
+      {"scenes.upload_bytes", &service.uploads.bytes, 1, 1e11},
+      {"scenes.all_uploads_bytes", &service.uploads.total_bytes, 1, 1e12},
+      {"scenes.exports", &service.exports.exports, 1, 1e4},
+      {"scenes.all_exports_bytes", &service.exports.bytes, 1, 1e12},
+      {"scenes.upload_idle_s", &service.uploads.idle, 1, kDayS},
+      {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
+  };
+}
+
+std::vector<Setting> state_settings(DaemonOptions& options) {
+  return {
+      {"state.folder", &options.state.folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"state.most_bytes", &options.state.most_bytes, 1 << 20, kManyBytes},
+  };
+}
+
+std::vector<Setting> record_settings(DaemonOptions& options) {
+  return {
+      {"record.folder", &options.record.folder, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"record.file_bytes", &options.record.limits.file_bytes, 1 << 16, kManyBytes},
+      {"record.file_s", &options.record.limits.file_time, 1, kDayS},
+      {"record.most_bytes", &options.record.limits.most_bytes, 1 << 20, kManyBytes},
+  };
+}
+
+std::vector<Setting> fleet_settings(DaemonOptions& options) {
+  return {
+      {"fleet.role", &options.fleet.role},
+      {"fleet.servers", &options.fleet.servers, 0, 0, false, &fault_of_servers},
+      {"fleet.name", &options.fleet.name, 0, 0, false, &fault_of_member},
+      {"fleet.id", &options.fleet.id, 0, 0, false, &fault_of_member},
+      {"fleet.credentials_file", &options.fleet.credentials_file, 0, 0, false, nullptr,
+       Setting::Path::kFile},
+      {"fleet.ca_file", &options.fleet.ca_file, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"fleet.certificate_file", &options.fleet.certificate_file, 0, 0, false, nullptr,
+       Setting::Path::kFile},
+      {"fleet.key_file", &options.fleet.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"fleet.replicas", &options.fleet.replicas, 1, 5},
+      {"fleet.jobs", &options.fleet.jobs, 1, service::kMaxWorkers},
+      {"fleet.patience_s", &options.fleet.patience, 0.1, 3600},
+  };
+}
+
+std::vector<Setting> watch_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"watch.paths", &service.watches.paths, 0, 1e6},
+      {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
+      {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
+      {"watch.longest_lease_s", &service.watches.longest_lease, 1, kDayS},
+  };
+}
+
+std::vector<Setting> status_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"status.period_s", &service.heartbeat_period, 0.01, 3600},
+  };
+}
+
+std::vector<Setting> auth_settings(DaemonOptions& options) {
+  return {
+      {"auth.key_file", &options.auth.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
+      {"auth.required", &options.auth.required},
+      {"auth.window_s", &options.auth.window, 0.001, kDayS},
+      {"auth.senders", &options.auth.senders, 1, 1e7},
+  };
+}
+
+std::vector<Setting> metrics_settings(DaemonOptions& options) {
+  return {
+      {"metrics.address", &options.metrics.ip, 0, 0, false, &fault_of_address},
+      {"metrics.port", &options.metrics.port, 0, 65'535},
+      {"metrics.connections", &options.metrics_limits.connections, 1, 1000},
+      {"metrics.idle_s", &options.metrics_limits.idle_s, 1, kDayS},
+  };
+}
+
+std::vector<Setting> log_settings(DaemonOptions& options) {
+  service::ServiceConfig& service = options.service;
+  return {
+      {"log.level", &options.log_level, 0, 0, true},
+      {"log.format", &options.log_format},
+      {"log.lines_per_s", &service.log_limits.lines_per_s, 0.001, 1e6},
+      {"log.burst_lines", &service.log_limits.burst_lines, 1, 1e6},
+  };
 }
 
 }  // namespace
@@ -200,98 +371,14 @@ bool Setting::is_whole_number() const {
 }
 
 std::vector<Setting> settings_of(DaemonOptions& options) {
-  service::ServiceConfig& service = options.service;
-  constexpr double kQueue = service::kMaxQueueCapacity;
-  return {
-      {"lcm.url", &options.lcm_url, 0, 0, false, &fault_of_url},
-      {"lcm.prefix", &service.prefix, 0, 0, false, &fault_of_prefix},
-      {"lcm.share_prefix", &options.share_prefix},
-      {"lcm.waiting_messages", &service.subscription_capacity, 1, 1e6},
-      {"planning.workers", &service.workers, 0, service::kMaxWorkers},
-      {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
-      {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
-      {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
-      {"planning.drain_s", &service.drain_limit, 0, kDayS},
-      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, 1e-3, kDayS},
-      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, 1e-3, kDayS},
-      {"queue.requests", &service.queue.jobs, 1, kQueue},
-      {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
-      {"queue.remembered_clients", &service.queue.remembered_clients, 2, 1e6},
-      {"queue.newcomers_count_as", &service.queue.newcomers_count_as, 1, 1e6},
-      {"queue.request_bytes", &service.request_bytes, 1, kManyBytes},
-      {"queue.answers", &service.answers.answers, 1, 1e6},
-      {"queue.answers_of_a_client", &service.answers.answers_of_a_channel, 1, 1e6},
-      {"queue.answer_bytes", &service.answers.bytes, 1, kManyBytes},
-      {"queue.refusals", &service.answers.refusals, 1, 1e6},
-      {"queue.answer_pages", &service.answer_pages, 1, wire::kMaxResponsePages},
-      {"queue.malformed_answers_per_s", &service.malformed_answers_per_s, 1, 1e6},
-      {"memory.remembered_answers", &service.cache.max_answers, 0, 1e6},
-      {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
-      {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},
-      {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
-      {"scenes.roots", &options.scene_roots, 0, 0, false, nullptr, Setting::Path::kFolders},
-      {"scenes.write_maps", &service.scene_rules.write_maps},
-      {"scenes.cache_folder", &options.cache_folder, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"scenes.cache_bytes", &options.cache_bytes, 0, kManyBytes},
-      {"scenes.workers", &service.scene_workers, 1, service::kMaxWorkers},
-      {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
-      {"scenes.max_deadline_s", &service.change_deadline.max_s, 1e-3, kDayS},
-      {"scenes.scenes", &options.store.scenes, 1, 1e6},
-      {"scenes.objects", &options.store.objects, 1, 1e6},
-      {"scenes.triangles", &options.store.triangles, 1, 4e9},
-      {"scenes.occupancy_bytes", &options.store.occupancy_bytes, 1, kManyBytes},
-      {"scenes.mirror_voxels", &service.scene_rules.mirror_voxels, 1, 1e12},
-      {"scenes.map_voxels", &service.scene_rules.maps.voxels, 1, 1e12},
-      {"scenes.map_triangles", &service.scene_rules.maps.triangles, 12, 4e9},
-      {"scenes.scan_voxels", &service.scene_rules.scan_voxels, 1, 1e12},
-      {"scenes.remembered_changes", &options.store.history.changes, 0, 1e6},
-      {"scenes.remembered_change_bytes", &options.store.history.bytes, 0, kManyBytes},
-      {"scenes.waiting_changes", &service.changes.jobs, 1, kQueue},
-      {"scenes.waiting_changes_of_a_client", &service.changes.jobs_of_a_client, 1, kQueue},
-      {"scenes.uploads", &service.uploads.uploads, 1, 1e4},
-      {"scenes.upload_bytes", &service.uploads.bytes, 1, 1e11},
-      {"scenes.all_uploads_bytes", &service.uploads.total_bytes, 1, 1e12},
-      {"scenes.exports", &service.exports.exports, 1, 1e4},
-      {"scenes.all_exports_bytes", &service.exports.bytes, 1, 1e12},
-      {"scenes.upload_idle_s", &service.uploads.idle, 1, kDayS},
-      {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
-      {"state.folder", &options.state.folder, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"state.most_bytes", &options.state.most_bytes, 1 << 20, kManyBytes},
-      {"record.folder", &options.record.folder, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"record.file_bytes", &options.record.limits.file_bytes, 1 << 16, kManyBytes},
-      {"record.file_s", &options.record.limits.file_time, 1, kDayS},
-      {"record.most_bytes", &options.record.limits.most_bytes, 1 << 20, kManyBytes},
-      {"fleet.role", &options.fleet.role},
-      {"fleet.servers", &options.fleet.servers, 0, 0, false, &fault_of_servers},
-      {"fleet.name", &options.fleet.name, 0, 0, false, &fault_of_member},
-      {"fleet.id", &options.fleet.id, 0, 0, false, &fault_of_member},
-      {"fleet.credentials_file", &options.fleet.credentials_file, 0, 0, false, nullptr,
-       Setting::Path::kFile},
-      {"fleet.ca_file", &options.fleet.ca_file, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"fleet.certificate_file", &options.fleet.certificate_file, 0, 0, false, nullptr,
-       Setting::Path::kFile},
-      {"fleet.key_file", &options.fleet.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"fleet.replicas", &options.fleet.replicas, 1, 5},
-      {"fleet.jobs", &options.fleet.jobs, 1, service::kMaxWorkers},
-      {"fleet.patience_s", &options.fleet.patience, 0.1, 3600},
-      {"watch.paths", &service.watches.paths, 0, 1e6},
-      {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
-      {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
-      {"watch.longest_lease_s", &service.watches.longest_lease, 1, kDayS},
-      {"status.period_s", &service.heartbeat_period, 0.01, 3600},
-      {"auth.key_file", &options.auth.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
-      {"auth.required", &options.auth.required},
-      {"auth.window_s", &options.auth.window, 0.001, kDayS},
-      {"auth.senders", &options.auth.senders, 1, 1e7},
-      {"metrics.address", &options.metrics.ip, 0, 0, false, &fault_of_address},
-      {"metrics.port", &options.metrics.port, 0, 65'535},
-      {"metrics.connections", &options.metrics_limits.connections, 1, 1000},
-      {"metrics.idle_s", &options.metrics_limits.idle_s, 1, kDayS},
-      {"log.level", &options.log_level, 0, 0, true},
-      {"log.format", &options.log_format},
-      {"log.lines_per_s", &service.log_limits.lines_per_s, 0.001, 1e6},
-      {"log.burst_lines", &service.log_limits.burst_lines, 1, 1e6},
-  };
+  std::vector<Setting> settings;
+  for (const auto settings_of_section :
+       {&lcm_settings, &planning_settings, &occupancy_settings, &queue_settings, &memory_settings,
+        &scenes_settings, &state_settings, &record_settings, &fleet_settings, &watch_settings,
+        &status_settings, &auth_settings, &metrics_settings, &log_settings}) {
+    std::ranges::move(settings_of_section(options), std::back_inserter(settings));
+  }
+  return settings;
 }
 
 std::vector<SettingChange> changes_between(DaemonOptions before, DaemonOptions after) {

@@ -25,10 +25,9 @@ struct SceneKey {
 std::string_view scene_build();
 
 /// Returns the key of the scene that `file` holds now. It covers the bytes of the file, the format
-/// that its extension names, `scene_build`, and the options. It does not cover
-/// options that do not change the result, such as numbers of threads. Returns nothing for a file
-/// that cannot be read, or whose format has no reader of our own: other readers may open further
-/// files. Thread-safe.
+/// that its extension names, `scene_build`, and the options. It does not cover options that do not
+/// change the result, such as numbers of threads. Returns nothing for a file that cannot be read,
+/// or whose format has no reader of our own: other readers may open further files. Thread-safe.
 std::optional<SceneKey> scene_key(const std::filesystem::path& file,
                                   const PreparationOptions& options);
 

@@ -30,10 +30,9 @@ struct SurfaceExtent {
 SurfaceExtent surface_extent(const Mesh& mesh, unsigned threads);
 
 /// Sets to 1 the mark of every cell that is within `reliable_margin_cells` of a point of a triangle
-/// along each axis; x runs fastest. Leaves alone cells that are twice
-/// `mark_margin_cells` away from all triangles. The marked cells depend on mesh and grid alone.
-/// Requires a mesh that lies in the grid as with `CellGrid::around`, and `marks` with a byte for
-/// each cell.
+/// along each axis; x runs fastest. Leaves alone cells that are twice `mark_margin_cells` away from
+/// all triangles. The marked cells depend on mesh and grid alone. Requires a mesh that lies in the
+/// grid as with `CellGrid::around`, and `marks` with a byte for each cell.
 ///
 /// A triangle is cut into slabs of the height of one cell, and these into rows of the width of one
 /// cell. The piece in a row is convex, so it touches the cells between its ends. Thus a long run of

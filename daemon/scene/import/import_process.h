@@ -34,10 +34,9 @@ void set_import_program_folder(std::filesystem::path folder);
 /// Runs `camway-import`, for Open Inventor and VRML `camway-import-inventor`, or for STEP and IGES
 /// `camway-import-cad`, on `file` and waits for it. Looks for the program in the folder of
 /// `set_import_program_folder`, beside the running executable, then in the absolute directories of
-/// PATH. The process inherits nothing: no standard
-/// streams, no descriptors but that of its output, no environment, default signals. It is killed
-/// when this process ends, and confines itself before it opens the file (`import_confinement.h`). A
-/// stop ends it within milliseconds.
+/// PATH. The process inherits nothing: no standard streams, no descriptors but that of its output,
+/// no environment, default signals. It is killed when this process ends, and confines itself before
+/// it opens the file (`import_confinement.h`). A stop ends it within milliseconds.
 ///
 /// `time_limit_s` applies to the wall clock, and, rounded up to seconds plus one, to the processor
 /// time; it is clamped to [0, 1e6]. `memory_limit_bytes`: limit of the address space and of the

@@ -11,8 +11,7 @@
 namespace camway::scene {
 
 /// Returns the faces of the file that the mesh is without: "3 of zero area, 1 with a coordinate
-/// that
-/// ..."; empty if there are none.
+/// that ..."; empty if there are none.
 std::string faces_left_out(const ImportReport& report);
 
 /// Returns the finest length that matters to a request: the smaller of its interval tolerance and

@@ -106,7 +106,7 @@ struct LeafTriangles {
 ///
 /// The answers do not depend on the trees: they are, bit for bit, the answers of a loop over all
 /// triangles with the kernels of daemon/geometry. Exceptions are `near` and `any_within`, which
-/// choose among triangles, and `passage`, which tests a limited number. Requires finite coordinates
+/// choose among triangles, and `swept`, which tests a limited number. Requires finite coordinates
 /// below geometry::kLargestCoordinate_m; otherwise queries return triangle 0 at distance 0, so that
 /// invalid input never counts as free space.
 ///

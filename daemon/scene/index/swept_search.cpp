@@ -24,9 +24,9 @@ SweptSearch::SweptSearch(const SweptBody& body, const geometry::Box& ends_box, d
 }
 
 SweptResult SweptSearch::result() const {
-  SweptResult passage{is_clear_, std::nullopt, ahead_};
-  if (nearest_.triangle != kNone) passage.nearest = nearest_;
-  return passage;
+  SweptResult result{is_clear_, std::nullopt, ahead_};
+  if (nearest_.triangle != kNone) result.nearest = nearest_;
+  return result;
 }
 
 void SweptSearch::ask_pair(std::size_t part, const Triangle& triangle, std::uint32_t index) {

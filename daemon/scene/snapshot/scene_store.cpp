@@ -41,7 +41,7 @@ constexpr std::size_t kMostRemovals = 1024;
 
 SceneStore::ChangeLock::ChangeLock(SceneStore& store, std::string_view scene) : store_(store) {
   std::unique_lock lock(store_.mutex_);
-  store_.turn_ended_.wait(lock, [&] { return !store_.changing_.contains(scene); });
+  store_.change_ended_.wait(lock, [&] { return !store_.changing_.contains(scene); });
   scene_ = store_.changing_.emplace(scene).first;
 }
 
@@ -50,7 +50,7 @@ SceneStore::ChangeLock::~ChangeLock() {
     const std::lock_guard lock(store_.mutex_);
     store_.changing_.erase(scene_);
   }
-  store_.turn_ended_.notify_all();
+  store_.change_ended_.notify_all();
 }
 
 SceneStore::Usage SceneStore::usage_of(const Snapshot& snapshot) {
@@ -150,7 +150,7 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
 StoreResult SceneStore::put_once(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
                                  const ChangeTicket& ticket) {
   note.when = std::chrono::system_clock::now();
-  const ChangeLock turn(*this, snapshot->name);
+  const ChangeLock lock(*this, snapshot->name);
   if (auto made = changed_by(snapshot->name, note.request)) return {made, StoreFault::kNone, ""};
   const std::shared_ptr<const Snapshot> before = find(snapshot->name);
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
@@ -170,7 +170,7 @@ StoreResult SceneStore::put_once(std::shared_ptr<const Snapshot> snapshot, Chang
 
 StoreResult SceneStore::adopt(SceneHistory history) {
   const std::string name = history.name();
-  const ChangeLock turn(*this, name);
+  const ChangeLock lock(*this, name);
   return take(name, std::move(history));
 }
 
@@ -208,7 +208,7 @@ StoreResult SceneStore::change(std::string_view scene, const ChangeMaker& make, 
 
 StoreResult SceneStore::change_once(std::string_view scene, const ChangeMaker& make,
                                     const ChangeNote& note, const ChangeTicket& ticket) {
-  const ChangeLock turn(*this, scene);
+  const ChangeLock lock(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
   if (changed_by(scene, note.request)) return {before, StoreFault::kNone, ""};
@@ -229,7 +229,7 @@ StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, 
 
 StoreResult SceneStore::restore_once(std::string_view scene, std::uint64_t revision,
                                      ChangeNote note, const ChangeTicket& ticket) {
-  const ChangeLock turn(*this, scene);
+  const ChangeLock lock(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
@@ -291,7 +291,7 @@ StoreResult SceneStore::publish_changes(std::shared_ptr<const Snapshot> next, co
 StoreResult SceneStore::follow(
     const std::string& scene,
     const std::function<base::Result<OthersWork>(const Snapshot* newest)>& read) {
-  const ChangeLock turn(*this, scene);
+  const ChangeLock lock(*this, scene);
   base::Result<OthersWork> work = read(find(scene).get());
   if (!work) return {nullptr, StoreFault::kInvalid, std::move(work.error)};
   return std::visit([&](auto&& kind) { return take(scene, std::move(kind)); }, *std::move(work));
@@ -352,7 +352,7 @@ StoreResult SceneStore::remove(std::string_view scene, const ChangeTicket& ticke
 
 StoreResult SceneStore::remove_once(std::string_view scene, const ChangeTicket& ticket,
                                     const std::string& request) {
-  const ChangeLock turn(*this, scene);
+  const ChangeLock lock(*this, scene);
   // There may be a new scene of that name.
   if (removed_by(request)) return {};
   const std::shared_ptr<const Snapshot> last = find(scene);

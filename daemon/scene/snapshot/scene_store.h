@@ -268,7 +268,7 @@ class SceneStore {
   std::mutex notify_mutex_;         ///< held while the listener is called; locked before mutex_
   std::function<void()> listener_;  ///< guarded by notify_mutex_
   mutable std::mutex mutex_;        ///< guards all below; held for short times only
-  std::condition_variable turn_ended_;
+  std::condition_variable change_ended_;
   std::set<std::string, std::less<>> changing_;  ///< scenes whose `ChangeLock` is held
   Scenes scenes_;
   Usage total_;                        ///< sum over `scenes_`, and what is reserved

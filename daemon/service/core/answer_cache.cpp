@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/core/answer_cache.h"
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <iterator>
@@ -20,14 +19,17 @@ std::size_t size_of(const Pages& pages) {
 
 }  // namespace
 
+RequestDigest digest_of_bytes(const Bytes& bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return {hash.high64, hash.low64};
+}
+
 RequestDigest digest_of(const plan_request_t& whole) {
   plan_request_t content = whole;
   content.utime = 0;
   content.page = 0;
   content.num_pages = 1;
-  const Bytes bytes = wire::encode(content);
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return {hash.high64, hash.low64};
+  return digest_of_bytes(wire::encode(content));
 }
 
 AnswerCache::Found AnswerCache::find_or_begin(const RequestKey& key, const RequestDigest& digest) {

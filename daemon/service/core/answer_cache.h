@@ -16,6 +16,7 @@ namespace camway::service {
 /// Digest of the content of a request, without `utime` and its division into pages. XXH3-128:
 /// protects clients from their own mistakes, not the daemon from forgery.
 using RequestDigest = std::array<std::uint64_t, 2>;
+RequestDigest digest_of_bytes(const Bytes& bytes);
 RequestDigest digest_of(const plan_request_t& whole);
 
 /// Remembers which requests are being planned and, within its limits, the answers to earlier ones,

@@ -90,8 +90,7 @@ void Core::report_unanswerable(std::string_view channel, std::span<const std::ui
   error.channel = channel;
   error.size_bytes = static_cast<std::int64_t>(message.size());
   error.message = messages::clipped(reason, wire::kMaxTextBytes);
-  outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)),
-             {}, Outbox::Kind::kRefusal);
+  outbox.add(channels.error(), one_page(wire::encode(error)), {}, Outbox::Kind::kRefusal);
 }
 
 }  // namespace camway::service

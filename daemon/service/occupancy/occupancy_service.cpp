@@ -159,7 +159,7 @@ void OccupancyService::send(occupancy_response_t answer) {
                                      {"message", answer.message}});
   const bool was_asked_of_a_map = answer.status == occupancy_response_t::STATUS_OK;
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
-                       std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)), {},
+                       one_page(wire::encode(answer)), {},
                        was_asked_of_a_map ? Outbox::Kind::kAnswer : Outbox::Kind::kRefusal)) {
     ++core_.counters.answered;
   }

@@ -68,10 +68,6 @@ Priority priority_of(const plan_request_t& request) {
 /// Watched paths, for each worker that may plan, that are planned again or wait for that.
 constexpr std::size_t kReplansPerWorker = 2;
 
-Pages one_page(Bytes bytes) {
-  return std::make_shared<const std::vector<Bytes>>(1, std::move(bytes));
-}
-
 }  // namespace
 
 /// A request that waits for a worker or is being planned.
@@ -200,7 +196,7 @@ void PlanService::take(plan_request_t request) {
     answer_uncached(request, plan_response_t::STATUS_INVALID, fault);
     return;
   }
-  if (is_of_old_scene(request)) return;
+  if (refuse_old_scene(request)) return;
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
   switch (found.known) {
     case AnswerCache::Known::kRunning:
@@ -226,7 +222,7 @@ void PlanService::take(plan_request_t request) {
   }
 }
 
-bool PlanService::is_of_old_scene(const plan_request_t& request) {
+bool PlanService::refuse_old_scene(const plan_request_t& request) {
   const auto snapshot = core_.scenes.find(request.scene);
   if (!snapshot || static_cast<std::int64_t>(snapshot->revision) >= request.least_revision) {
     return false;

@@ -66,9 +66,9 @@ class PlanService {
     };
   }
   void take(plan_request_t request);
+  /// Refuses a request whose scene is older than its `least_revision`. Returns whether it did.
+  bool refuse_old_scene(const plan_request_t& request);
   /// Sends an answer from the cache.
-  /// Answers a request whose scene is older than its `least_revision`; returns whether it is.
-  bool is_of_old_scene(const plan_request_t& request);
   void repeat_answer(const RequestKey& key, const Pages& pages);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);

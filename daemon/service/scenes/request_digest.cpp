@@ -2,7 +2,6 @@
 #include "daemon/service/scenes/request_digest.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include "lcmtypes/wire/check.h"
 
@@ -10,9 +9,7 @@ namespace camway::service {
 
 RequestDigest digest_of(scene_request_t request) {
   request.utime = 0;
-  const std::vector<std::uint8_t> bytes = wire::encode(request);
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return {hash.high64, hash.low64};
+  return digest_of_bytes(wire::encode(request));
 }
 
 std::string request_name(const scene_request_t& request) {

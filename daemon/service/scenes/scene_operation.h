@@ -29,10 +29,10 @@ struct SceneReply {
 };
 
 /// Carries out a request and returns its answer, with `utime` 0; the import process reads a file or
-/// upload. `upload` is the one that the request names, null if it is not there. If
-/// the request is cancelled meanwhile, the caller must discard the reply. May take as long as the
-/// import of a file. Where another process may have changed the scene, waits for its changes before
-/// a change is refused because of what the scene is or has (`SceneStore::catch_up`).
+/// upload. `upload` is the one that the request names, null if it is not there. If the request is
+/// cancelled meanwhile, the caller must discard the reply. May take as long as the import of a
+/// file. Where another process may have changed the scene, waits for its changes before a change is
+/// refused because of what the scene is or has (`SceneStore::catch_up`).
 ///
 /// Thread-safe, but the caller must run the changes of one scene one after the other: a scan reads
 /// the map before it changes it, so a concurrent change may be lost.

@@ -9,12 +9,15 @@
 #include <system_error>
 #include <utility>
 
+#include "daemon/base/file_descriptor.h"
 #include "lcmtypes/wire/channels.h"
 
 namespace camway::service {
 namespace {
 
 namespace fs = std::filesystem;
+
+using base::FileDescriptor;
 
 /// Compares component by component, so that /scenes2 is not below /scenes. Requires canonical
 /// paths.
@@ -23,22 +26,6 @@ bool is_below(const fs::path& file, const fs::path& folder) {
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return in_folder == folder.end() && in_file != file.end();
 }
-
-/// A file descriptor that is closed by the destructor.
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] bool is_open() const { return fd_ >= 0; }
-
- private:
-  int fd_;
-};
 
 /// Returns the real path of the open folder, whatever its name led to when it was opened.
 fs::path place_of(const FileDescriptor& folder) {
@@ -109,7 +96,8 @@ base::Result<fs::path> SceneRoots::resolve(std::string_view asked) const {
     }
     if (fs::is_regular_file(file, failed)) return file;
   }
-  return refuse(leads_out ? "leads out of the scene roots" : "is no file below a scene root, to which its path is relative");
+  return refuse(leads_out ? "leads out of the scene roots"
+                          : "is no file below a scene root, to which its path is relative");
 }
 
 std::string SceneRoots::write(std::string_view asked, std::string_view extension,

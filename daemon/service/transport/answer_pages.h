@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lcmtypes/wire/pages.h"
@@ -24,5 +25,10 @@ struct RequestKey {
 
 /// The encoded messages of an answer, shared by cache and outbox.
 using Pages = std::shared_ptr<const std::vector<Bytes>>;
+
+/// Returns an answer of one message.
+inline Pages one_page(Bytes bytes) {
+  return std::make_shared<const std::vector<Bytes>>(1, std::move(bytes));
+}
 
 }  // namespace camway::service

@@ -13,6 +13,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "daemon/base/file_descriptor.h"
 #include "lcmtypes/wire/local_traffic.h"
 
 namespace camway::service {
@@ -21,27 +22,11 @@ namespace {
 /// Limits a round, so that a flood of messages cannot keep the loop from publishing.
 constexpr int kMaxMessagesPerPoll = 64;
 
-/// An eventfd that is closed by the destructor.
-class EventFd {
- public:
-  EventFd() : fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
-  ~EventFd() {
-    if (fd_ >= 0) close(fd_);
-  }
-  EventFd(const EventFd&) = delete;
-  EventFd& operator=(const EventFd&) = delete;
-
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 class LcmTransport final : public Transport {
  public:
   explicit LcmTransport(std::unique_ptr<lcm::LCM> lcm) : lcm_(std::move(lcm)) {}
 
-  [[nodiscard]] bool good() const { return wake_.get() >= 0; }
+  [[nodiscard]] bool good() const { return wake_.is_open(); }
 
   bool subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
     handlers_.push_back(std::make_unique<Handler>(std::move(handler)));
@@ -97,7 +82,7 @@ class LcmTransport final : public Transport {
   }
 
   std::unique_ptr<lcm::LCM> lcm_;
-  EventFd wake_;
+  base::FileDescriptor wake_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
   std::vector<std::unique_ptr<Handler>> handlers_;  ///< LCM holds their addresses
 };
 

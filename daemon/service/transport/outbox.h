@@ -79,7 +79,7 @@ class Outbox {
   Transport& transport_;
   const Limits limits_;
   Channels channels_;                         ///< channels with waiting answers
-  std::deque<Channels::iterator> turns_;      ///< the same channels, the next one first
+  std::deque<Channels::iterator> turns_;      ///< all of `channels_`, the next one to serve first
   std::set<const std::vector<Bytes>*> here_;  ///< the pages of all waiting answers
   std::size_t bytes_ = 0;                     ///< size of all waiting answers
   std::size_t refusals_ = 0;                  ///< number of waiting refusals

@@ -18,10 +18,10 @@ constexpr std::chrono::milliseconds kLongestWait{20};
 }  // namespace
 
 /// Reports verdicts in groups.
-class WatchChecker::Teller {
+class WatchChecker::Reporter {
  public:
-  Teller(const Tell& tell, std::string scene, std::uint64_t revision)
-      : tell_(tell), scene_(std::move(scene)), revision_(revision) {}
+  Reporter(const Report& report, std::string scene, std::uint64_t revision)
+      : report_(report), scene_(std::move(scene)), revision_(revision) {}
 
   void add(Id id, const Collisions& collisions) {
     verdicts_.push_back({id, collisions});
@@ -33,20 +33,20 @@ class WatchChecker::Teller {
   using Clock = std::chrono::steady_clock;
 
   void send(bool is_last) {
-    tell_({scene_, revision_, std::exchange(verdicts_, {}), is_last});
+    report_({scene_, revision_, std::exchange(verdicts_, {}), is_last});
     since_ = Clock::now();
   }
 
-  const Tell& tell_;
+  const Report& report_;
   std::string scene_;
   std::uint64_t revision_;
   std::vector<Verdict> verdicts_;
   Clock::time_point since_ = Clock::now();
 };
 
-WatchChecker::WatchChecker(scene::SceneStore& scenes, Tell tell)
+WatchChecker::WatchChecker(scene::SceneStore& scenes, Report report)
     : scenes_(scenes),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       thread_([this](const std::stop_token& stop) { serve(stop); }) {
   scenes_.on_change([this] {
     {
@@ -59,10 +59,10 @@ WatchChecker::WatchChecker(scene::SceneStore& scenes, Tell tell)
 
 WatchChecker::~WatchChecker() { scenes_.on_change({}); }
 
-void WatchChecker::order(std::function<void()> order) {
+void WatchChecker::post(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    orders_.push_back(std::move(order));
+    tasks_.push_back(std::move(task));
   }
   changed_.notify_one();
 }
@@ -70,12 +70,12 @@ void WatchChecker::order(std::function<void()> order) {
 void WatchChecker::watch(Id id, std::string scene,
                          std::shared_ptr<const planning::WatchedPath> path,
                          std::shared_ptr<const scene::Snapshot> proved_in) {
-  order([this, id, name = std::move(scene), path = std::move(path),
-         proved_in = std::move(proved_in)] { begin(id, name, path, proved_in); });
+  post([this, id, name = std::move(scene), path = std::move(path),
+        proved_in = std::move(proved_in)] { begin(id, name, path, proved_in); });
 }
 
 void WatchChecker::forget(Id id, const std::string& scene) {
-  order([this, id, scene] {
+  post([this, id, scene] {
     const auto position = watched_.find(scene);
     if (position == watched_.end()) return;
     position->second.paths.erase(id);
@@ -86,15 +86,15 @@ void WatchChecker::forget(Id id, const std::string& scene) {
 void WatchChecker::serve(const std::stop_token& stop) {
   stop_ = stop;
   while (true) {
-    std::vector<std::function<void()>> orders;
+    std::vector<Task> tasks;
     {
       std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return has_changed_ || !orders_.empty(); })) return;
-      orders.swap(orders_);
+      if (!changed_.wait(lock, stop, [this] { return has_changed_ || !tasks_.empty(); })) return;
+      tasks.swap(tasks_);
       has_changed_ = false;
     }
     for (auto& [name, scene] : watched_) update(name, scene);
-    for (const std::function<void()>& order : orders) order();
+    for (const Task& task : tasks) task();
   }
 }
 
@@ -111,7 +111,7 @@ void WatchChecker::update(const std::string& name, Scene& scene) {
   const bool is_comparable = now && scene.seen;
   const scene::SceneDifference change =
       is_comparable ? scene::difference(*scene.seen, *now) : scene::SceneDifference{};
-  Teller teller(tell_, name, now ? now->revision : 0);
+  Reporter reporter(report_, name, now ? now->revision : 0);
   for (auto& [id, watched] : scene.paths) {
     if (stop_.stop_requested()) return;
     if (is_comparable && !watched.path->may_meet(change)) continue;
@@ -119,10 +119,10 @@ void WatchChecker::update(const std::string& name, Scene& scene) {
     const bool was_free = watched.collisions.empty();
     if (is_comparable && was_free && watched.path->stays_free(change, budget)) continue;
     watched.collisions = check(*watched.path, now);
-    if (!was_free || !watched.collisions.empty()) teller.add(id, watched.collisions);
+    if (!was_free || !watched.collisions.empty()) reporter.add(id, watched.collisions);
   }
   scene.seen = now;
-  teller.finish();
+  reporter.finish();
 }
 
 void WatchChecker::begin(Id id, const std::string& name,
@@ -138,9 +138,9 @@ void WatchChecker::begin(Id id, const std::string& name,
                                         Deadline::after_s(kCheckBudget_s).watched(stop_, nullptr));
     if (!holds) watched.collisions = check(*path, scene.seen);
   }
-  Teller teller(tell_, name, scene.seen ? scene.seen->revision : 0);
-  teller.add(id, watched.collisions);
-  teller.finish();
+  Reporter reporter(report_, name, scene.seen ? scene.seen->revision : 0);
+  reporter.add(id, watched.collisions);
+  reporter.finish();
   scene.paths.insert_or_assign(id, std::move(watched));
 }
 

@@ -42,10 +42,10 @@ class WatchChecker {
     bool is_last = false;
   };
   /// Called on the checker's thread.
-  using Tell = std::function<void(News)>;
+  using Report = std::function<void(News)>;
 
   /// `scenes` must outlive this, and must have no other listener for changes.
-  WatchChecker(scene::SceneStore& scenes, Tell tell);
+  WatchChecker(scene::SceneStore& scenes, Report report);
   /// Waits for the check that is running.
   ~WatchChecker();
   WatchChecker(const WatchChecker&) = delete;
@@ -70,10 +70,12 @@ class WatchChecker {
     SnapshotPointer seen;  ///< null: the scene did not exist
     std::map<Id, Watched> paths;
   };
-  class Teller;
+  using Task = std::function<void()>;
+  class Reporter;
 
   void serve(const std::stop_token& stop);
-  void order(std::function<void()> order);
+  /// Has the thread run a task.
+  void post(Task task);
   /// Checks all paths of a scene for its newest revision.
   void update(const std::string& name, Scene& scene);
   void begin(Id id, const std::string& name,
@@ -83,11 +85,11 @@ class WatchChecker {
                                  const SnapshotPointer& now) const;
 
   scene::SceneStore& scenes_;
-  const Tell tell_;
+  const Report report_;
 
   std::mutex mutex_;  ///< guards the next three members
   std::condition_variable_any changed_;
-  std::vector<std::function<void()>> orders_;
+  std::vector<Task> tasks_;
   bool has_changed_ = false;  ///< a scene has changed
 
   std::map<std::string, Scene> watched_;  ///< used by the thread only

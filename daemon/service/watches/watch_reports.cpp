@@ -56,8 +56,7 @@ void WatchReports::finish() {
 void WatchReports::send() {
   report_.utime = utime_now();
   report_.daemon_start = core_.start;
-  core_.outbox.add(core_.channels.watch_report(report_.client_id),
-                   std::make_shared<const std::vector<Bytes>>(1, wire::encode(report_)));
+  core_.outbox.add(core_.channels.watch_report(report_.client_id), one_page(wire::encode(report_)));
   report_.message.clear();
   report_.paths.clear();
   report_.num_paths = 0;

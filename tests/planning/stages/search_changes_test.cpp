@@ -13,7 +13,7 @@ namespace {
 
 using base::Deadline;
 using collision::CollisionInterval;
-using collision::Search;
+using collision::FoundCollisions;
 using geometry::Quat;
 
 constexpr int kPosts = 5;
@@ -50,12 +50,12 @@ class SearchChanges : public ::testing::Test {
     return motion::interpolate_cubic(keyframes);
   }
 
-  Search search(const Search& begun, const Deadline& deadline) const {
+  FoundCollisions search(const FoundCollisions& begun, const Deadline& deadline) const {
     const motion::Path before = before_.path();
     return search_changes({collision::Obstacles(index_), body_}, changed_.path(),
                           {before, collisions_}, begun, deadline);
   }
-  Search search() const { return search({false, {}, 0.0}, Deadline::never()); }
+  FoundCollisions search() const { return search({false, {}, 0.0}, Deadline::never()); }
 
   scene::SceneIndex index_;
   motion::Body body_ = motion::Body(testing::small_camera());
@@ -66,7 +66,7 @@ class SearchChanges : public ::testing::Test {
 
 TEST_F(SearchChanges, WhatIsUnchangedIsAsItWasKnownToBe) {
   ASSERT_EQ(collisions_.size(), static_cast<std::size_t>(kPosts));
-  const Search found = search({false, {}, 0.0}, Deadline::after_s(0.0));
+  const FoundCollisions found = search({false, {}, 0.0}, Deadline::after_s(0.0));
   EXPECT_TRUE(found.complete);
   EXPECT_EQ(found.until_s, 10.0);
   EXPECT_EQ(found.collisions, collisions_);
@@ -80,7 +80,7 @@ TEST_F(SearchChanges, WhatIsChangedIsSearched) {
   before_ = changed_;
   collisions_ = left;
   changed_ = flight();
-  const Search back = search();
+  const FoundCollisions back = search();
   ASSERT_EQ(back.collisions.size(), static_cast<std::size_t>(kPosts));
   EXPECT_NEAR(back.collisions[1].t_begin_s, 2.4, 0.1);
 }
@@ -104,7 +104,7 @@ TEST_F(SearchChanges, GoesOnWhereASearchWasGivenUp) {
   move_aside(2);
   move_aside(6);
   for (const double until_s : {1.5, 2.0, 2.5, 3.0, 5.5, 6.5, 9.5}) {
-    Search begun{false, {}, until_s};
+    FoundCollisions begun{false, {}, until_s};
     for (const CollisionInterval& collision : search().collisions)
       if (collision.t_begin_s < until_s) begun.collisions.push_back(collision);
     EXPECT_EQ(search(begun, Deadline::never()).collisions, search().collisions) << until_s;
@@ -118,7 +118,7 @@ TEST_F(SearchChanges, WhereTheDeadlineStrikesThePathIsToBePutBack) {
   move_aside(6);
   std::set<double> cuts_s;
   for (int looks = 0;; ++looks) {
-    const Search found = search({false, {}, 0.0}, Deadline::after_looks(looks));
+    const FoundCollisions found = search({false, {}, 0.0}, Deadline::after_looks(looks));
     if (found.complete) break;
     cuts_s.insert(found.until_s);
     const motion::CubicPath mixed = with_rest_of(changed_, before_, found.until_s);

@@ -15,9 +15,7 @@ using Known = AnswerCache::Known;
 const RequestDigest kDigest{1, 2};
 const RequestDigest kOtherDigest{1, 3};
 
-Pages answer_of(std::size_t bytes) {
-  return std::make_shared<const std::vector<Bytes>>(1, Bytes(bytes));
-}
+Pages answer_of(std::size_t bytes) { return one_page(Bytes(bytes)); }
 
 void plan(AnswerCache& cache, const RequestKey& key, std::size_t bytes) {
   ASSERT_EQ(cache.find_or_begin(key, kDigest).known, Known::kNew);

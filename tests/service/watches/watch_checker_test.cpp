@@ -32,7 +32,7 @@ class Told {
  public:
   using Collisions = std::vector<collision::CollisionInterval>;
 
-  WatchChecker::Tell take() {
+  WatchChecker::Report take() {
     return [this](WatchChecker::News news) {
       const std::lock_guard lock(mutex_);
       for (WatchChecker::Verdict& verdict : news.verdicts) {

@@ -41,8 +41,8 @@ class McapFile {
   void add_statistics(McapBytes& summary) const;
 
   McapBytes file_;
-  McapBytes schemas_;   ///< records, as they stand in the first chunk and in the summary
-  McapBytes channels_;  ///< likewise
+  McapBytes schemas_;   ///< records of schemas, as in the first chunk and the summary
+  McapBytes channels_;  ///< records of channels, as in the first chunk and the summary
   std::size_t channel_count_ = 0;
   McapBytes chunk_;
   std::map<std::uint16_t, std::vector<Entry>> chunk_entries_;

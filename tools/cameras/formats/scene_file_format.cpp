@@ -77,8 +77,7 @@ base::Result<CameraTrack> read_scene_file(const CameraFile& file,
   if (animates_a_lens(file.bytes)) {
     track.notes.emplace_back(
         "the file animates a lens, which is not read: if it changes, the angle may be the "
-        "narrowest, so give "
-        "the widest with --fov-x-deg or --fov-y-deg");
+        "narrowest, so give the widest with --fov-x-deg or --fov-y-deg");
   }
   const CameraAxes axes = options.axes.value_or(CameraAxes::kGl);
   for (const scene::CameraFileKey& key : camera->keys) {

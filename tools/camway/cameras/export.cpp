@@ -390,17 +390,13 @@ void add_export_command(CLI::App& app, ExitCode& exit_code) {
   add_request_scene_flags(*command, flags->scene);
   command->footer(
       "The file is in the world of the file that the request was imported from: its rate, unit, "
-      "axes, "
-      "first frame,\nand pictures, unless flags say otherwise. It has a pose for each frame up to "
-      "the "
-      "last that is not after the end; with --keys sparse, glTF has as few keys as stay within "
-      "--within-m and\n--within-deg of the path, with its derivatives as tangents, and more where "
-      "the "
-      "path would not be free.\nThe file is read back, and the path that a program plays of "
-      "it,\non straight lines and by slerp between frames, on splines between sparse keys, is "
-      "proved "
-      "again. Where that is not "
-      "free, the\nfile is written all the same, and the exit code is 3.\n" +
+      "axes, first frame,\nand pictures, unless flags say otherwise. It has a pose for each frame "
+      "up to the last that is not after the end; with --keys sparse, glTF has as few keys as stay "
+      "within --within-m and\n--within-deg of the path, with its derivatives as tangents, and more "
+      "where the path would not be free.\nThe file is read back, and the path that a program plays "
+      "of it,\non straight lines and by slerp between frames, on splines between sparse keys, is "
+      "proved again. Where that is not free, the\nfile is written all the same, and the exit code "
+      "is 3.\n" +
       exit_code_help("what is played between the frames is not free") +
       "\nExample: camway export out.json --request scenes/requests/office-graze-door.json --format "
       "gltf --out shot.glb");

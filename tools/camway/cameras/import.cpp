@@ -316,8 +316,8 @@ void add_log_flags(CLI::App& command, LogTrackOptions& log) {
   command
       .add_option("--position", log.position,
                   "Member of a log's message with the position, an array or a struct of three "
-                  "numbers: pos, "
-                  "pose.pos, poses[0].pos; or x,y,z; each element of a list is a pose")
+                  "numbers: pos, pose.pos, poses[0].pos; or x,y,z; each element of a list is a "
+                  "pose")
       ->type_name("MEMBER");
   command
       .add_option("--orientation", log.orientation, "Member of a log's message with the quaternion")
@@ -328,8 +328,8 @@ void add_log_flags(CLI::App& command, LogTrackOptions& log) {
   command
       .add_option("--time", log.time,
                   "Member of a log's message with the time [utime or timestamp if there is one for "
-                  "each pose, "
-                  "else the time when the message was received; none for lists of poses]")
+                  "each pose, else the time when the message was received; none for lists of "
+                  "poses]")
       ->type_name("MEMBER");
   const auto set_unit = [&log](const std::string& name) {
     log.unit = base::value_of<TimeUnit>(name);

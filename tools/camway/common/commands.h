@@ -48,8 +48,8 @@ void add_view_command(CLI::App& app, ExitCode& exit_code);
 void print_error(std::string_view message);
 
 /// Returns the paragraph on exit codes at the end of a subcommand's help. `negative` defines code
-/// 3; if it is empty, code 3 is left out. `asks_daemon`: whether
-/// the command asks a daemon, so that code 4 is included.
+/// 3; if it is empty, code 3 is left out. `asks_daemon`: whether the command asks a daemon, so that
+/// code 4 is included.
 std::string exit_code_help(std::string_view negative, bool asks_daemon = false);
 
 }  // namespace camway::tools

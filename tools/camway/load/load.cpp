@@ -294,8 +294,8 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--json", flags->json_file, "Write the measurements to this file");
   command->footer(
       "Answers to plan requests count as wrong unless every number of path, keyframes and "
-      "collisions has the bits "
-      "that planning here gives.\nA request that is answered `invalid` is invalid input.\n" +
+      "collisions has the bits that planning here gives.\nA request that is answered `invalid` is "
+      "invalid input.\n" +
       exit_code_help("an answer was wrong or lost, or memory grew by more than allowed",
                      /*asks_daemon=*/true) +
       "\nExample: camway load --scene office=scenes/office.obj --request "

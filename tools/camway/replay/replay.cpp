@@ -258,8 +258,8 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
                      "answered, or a change not made)") +
       " With --publish also 4: no daemon was heard."
       "\nA damaged log is replayed up to the damage and ends with 2, unless an answer has a "
-      "verdict of "
-      "--fail-on."
+      "verdict "
+      "of --fail-on."
       "\nExample: camway replay session.lcmlog --scene office=scenes/office.obj --threads 4");
   command->callback([flags, &exit_code] { exit_code = run_replay(*flags); });
 }

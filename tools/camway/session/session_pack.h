@@ -8,9 +8,6 @@
 
 namespace camway::tools {
 
-/// The ending of packed sessions.
-inline constexpr char kPackEnding[] = ".camway-session";
-
 /// The member that says, in a sentence a line, what of the session is not in the pack.
 inline constexpr char kLeftOutName[] = "left-out.txt";
 /// Most bytes that a pack may hold unpacked, unless the user allows more: as many as a recording

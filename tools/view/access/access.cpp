@@ -79,8 +79,7 @@ std::string why_refused(const http::Request& request, const Lock& lock) {
   }
   if (lock.token.empty() || !has_token(request, lock)) {
     return "the token is missing or wrong; it is in the URL that camway view printed, and goes "
-           "into "
-           "the header Authorization: Bearer TOKEN";
+           "into the header Authorization: Bearer TOKEN";
   }
   return {};
 }

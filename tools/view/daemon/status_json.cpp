@@ -15,7 +15,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson scene_info_json(const SceneInfo& scene) {
-  const geometry::Limits bounds{scene.body_bounds.min_m, scene.body_bounds.max_m};
+  const geometry::OptionalBounds bounds{scene.body_bounds.min_m, scene.body_bounds.max_m};
   return {{"name", scene.name},
           {"revision", scene.revision},
           {"digest", scene.digest},

@@ -40,7 +40,7 @@ SceneFacts facts_of(const scene::Snapshot& snapshot) {
     std::copy_n(bounds.min().data(), 3, facts.min_m.begin());
     std::copy_n(bounds.max().data(), 3, facts.max_m.begin());
   }
-  facts.body_bounds = geometry::limits_of(snapshot.options.bounds);
+  facts.body_bounds = geometry::optional_bounds_of(snapshot.options.bounds);
   return facts;
 }
 

@@ -65,7 +65,7 @@ camway_status camway_answer_corrections(const camway_answer* answer, camway_corr
 typedef struct camway_slowed_stretch {
   double t_begin_s;  ///< time range on the answer's path
   double t_end_s;
-  double given_t_begin_s;  ///< the same by the times of the request
+  double given_t_begin_s;  ///< that time range, by the times of the request
   double given_t_end_s;
 } camway_slowed_stretch;
 

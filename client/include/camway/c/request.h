@@ -81,7 +81,7 @@ typedef struct camway_plan_request {
   double max_acceleration_m_per_s2;
   double max_turn_rate_rad_per_s;
   double bounds_min_m[3];  ///< box that the body must not leave; -infinity: no limit, the default
-  double bounds_max_m[3];  ///< the same; infinity: no limit, the default
+  double bounds_max_m[3];  ///< upper sides of that box; infinity: no limit, the default
 
   double up[3];
   double target_m[3];

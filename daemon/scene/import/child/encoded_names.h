@@ -6,8 +6,7 @@
 namespace camway::scene {
 
 /// Opens files for assimp. A name that is not there is tried as a part of a URI, in which a blank
-/// is
-/// "%20": glTF asks for that, and assimp does not decode it.
+/// is "%20": glTF asks for that, and assimp does not decode it.
 class EncodedNames : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override;

@@ -47,7 +47,7 @@ Bytes bytes_of(const LogMessage& message);
 /// Reads a message, whatever the bytes are. Fails if they are none.
 base::Result<LogMessage> log_message_from(std::span<const std::byte> bytes);
 
-/// What the last message of a blob, its part 0, says.
+/// Content of the last message of a blob, its part 0.
 struct BlobHead {
   std::uint64_t bytes = 0;  ///< size of the blob
   std::uint32_t parts = 0;  ///< messages that hold them; 0 if `content` does

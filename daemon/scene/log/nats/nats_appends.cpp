@@ -16,7 +16,7 @@ using nats::StreamFault;
 
 /// Larger records are blobs.
 constexpr std::size_t kMostRecordInMessage = std::size_t{128} << 10U;
-/// What else a message holds, beside its record: ids of blobs, and of messages that it replaces.
+/// Ids that a message holds beside its record: of blobs, and of messages that it replaces.
 constexpr std::size_t kRoomBesideRecord = std::size_t{64} << 10U;
 /// Subjects have to fit into a line of the protocol.
 constexpr std::size_t kMostSceneNameBytes = 1000;

@@ -49,7 +49,7 @@ class NatsBlobs {
   /// Returns whether blobs are in the log because something needs them.
   using IsNeeded = std::function<bool(const BlobId&)>;
 
-  /// What became of a blob that is to be held.
+  /// Result of holding a blob.
   enum class Held : std::uint8_t { kHeld, kMissing, kUnreachable };
   struct HoldResult {
     Held held = Held::kUnreachable;

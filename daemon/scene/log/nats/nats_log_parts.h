@@ -111,7 +111,7 @@ class NatsLog::Parts {
                                    PatienceEnd end);
   [[nodiscard]] bool is_needed(const BlobId& id) const;
 
-  /// What an append knows of its scene.
+  /// Facts about a scene that an append needs.
   struct Head {
     std::uint64_t revision = 0;
     std::uint64_t sequence = 0;
@@ -226,7 +226,7 @@ class NatsLog::Parts {
   std::mutex check_mutex_;  ///< guards is_checking_
   std::condition_variable check_done_;
   bool is_checking_ = false;  ///< one thread checks the tail: appends and the follower wait for it
-  /// Of the connection for which the tail was checked.
+  /// Number of the connection for which the tail was checked.
   std::atomic<std::uint64_t> checked_generation_;
   std::atomic<bool> must_check_ = false;
 

@@ -77,7 +77,7 @@ class SceneChain {
 /// begins the chain has them; empty if none does.
 std::string removals_text(const SceneChain& chain);
 
-/// What to do where the log of a server has something else than this process knows to be kept.
+/// Action if the log of a server differs from what this process has kept.
 struct ChainRepair {
   enum class Kind : std::uint8_t {
     kNone,     ///< all that is known is there

@@ -237,10 +237,6 @@ std::optional<Bytes> SqliteDatabase::read_bytes(const char* table, const char* c
   return bytes;
 }
 
-std::uint64_t SqliteDatabase::last_row() const {
-  return static_cast<std::uint64_t>(sqlite3_last_insert_rowid(connection_));
-}
-
 void SqliteDatabase::note(int code) {
   const bool is_system_error = (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_CANTOPEN;
   const int system_error = is_system_error ? sqlite3_system_errno(connection_) : 0;

@@ -104,8 +104,6 @@ class SqliteDatabase {
 
   /// Reads a column of a row that has a number, without a copy in between. Nothing on failure.
   std::optional<Bytes> read_bytes(const char* table, const char* column, std::uint64_t row);
-  /// Returns the number of the row that was inserted last.
-  [[nodiscard]] std::uint64_t last_row() const;
 
   /// The last failure since `forget_failure`; nothing if there was none.
   [[nodiscard]] const std::optional<SqliteFailure>& failure() const { return failure_; }

@@ -26,8 +26,8 @@ namespace camway::scene {
 struct SqliteLogLimits {
   /// Size of `scenes.sqlite` (setting `state.most_bytes`). Removals, summaries, and changes without
   /// new blobs may go beyond it by `SqliteLog::kReserveBytes`, so that they are possible when it is
-  /// reached. SQLite's file of recent changes beside
-  /// it is not counted: it is seldom larger than 64 MiB and the largest blob together.
+  /// reached. SQLite's file of recent changes beside it is not counted: it is seldom larger than 64
+  /// MiB and the largest blob together.
   std::uint64_t most_bytes = std::uint64_t{16} << 30;
   /// Size of one blob, record or summary. SQLite's own limit is 10^9 bytes for a whole row.
   std::size_t most_blob_bytes = 999'000'000;

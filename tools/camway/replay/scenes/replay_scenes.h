@@ -51,8 +51,8 @@ class NamedScenes final : public ReplayScenes {
 };
 
 /// Asks the sources that know a scene of the name one after the other, until one has it; else the
-/// reason of the first counts. A scene that none knows, and
-/// that the daemon knew, counts as damaged.
+/// reason of the first counts. A scene that none knows, and that the daemon knew, counts as
+/// damaged.
 class SceneChain final : public ReplayScenes {
  public:
   void add(std::unique_ptr<ReplayScenes> scenes) { all_.push_back(std::move(scenes)); }
