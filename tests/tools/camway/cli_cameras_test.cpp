@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -201,6 +202,47 @@ TEST_F(CliCameras, GiveBackTheSameKindOfFile) {
       EXPECT_LT(pose.orientation.angularDistance(track.keys[i].pose_W.orientation), 0.004);
     }
   }
+}
+
+/// The fields of view of a request file, in degrees.
+std::array<double, 2> fields_of_view(const std::string& file) {
+  const json camera = json_of(file)["camera"];
+  return {camera["fov_x_deg"].get<double>(), camera["fov_y_deg"].get<double>()};
+}
+
+TEST_F(CliCameras, WriteThePictureThatWasProved) {
+  write_flight(0.0);
+  // The height of 1920 square pixels is no whole number.
+  ASSERT_EQ(import_flight({"--near-m", "0.25"}).exit_code, 0);
+  const auto import_back = [&](const std::string& format) {
+    const CliRun run = run_camway({"import", folder_.file("out." + format), "--format", format,
+                                   "--request", folder_.file("back.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return fields_of_view(folder_.file("back.json"));
+  };
+  plan();
+  EXPECT_THAT(export_path("gltf").err, ::testing::Not(HasSubstr("note: ")));
+  EXPECT_NEAR(import_back("gltf")[0], 60.0, 1e-9);
+  const std::vector<std::string> size = {"--width", "1920", "--height", "1080"};
+  for (const std::string format : {"blender", "mcap", "transforms"}) {
+    const CliRun run = export_path(format, size);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto [fov_x, fov_y] = import_back(format);
+    EXPECT_NEAR(fov_x, 60.0, 1e-9) << format;
+    EXPECT_NEAR(fov_y, 40.0, 1e-9) << format;
+  }
+  const CliRun square = export_path("nerfstudio", size);
+  EXPECT_THAT(square.err,
+              HasSubstr("note: nerfstudio has square pixels, of which 1920 x 1080 show 60 x"));
+  EXPECT_LT(import_back("nerfstudio")[1], 40.0);
+  EXPECT_THAT(export_path("chan").err, HasSubstr("note: chan has no shape of the picture"));
+  EXPECT_THAT(export_path("tum").err, HasSubstr("note: tum has no field of view"));
+  const CliRun refused = export_path("gltf", size);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--width: gltf has no size of a picture, but the fields of"));
+  const CliRun too_long = export_path("blender", {"--width", "4", "--height", "2000"});
+  EXPECT_EQ(too_long.exit_code, 2);
+  EXPECT_THAT(too_long.err, HasSubstr("Blender has no pixels more than 200 times as long"));
 }
 
 TEST_F(CliCameras, SampleThePath) {

@@ -17,6 +17,7 @@
 #include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/cameras/export/path_export.h"
+#include "tools/cameras/export/written_lens.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/sparse_keys.h"
@@ -193,19 +194,25 @@ ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraT
   return ExitCode::kNegative;
 }
 
-std::string write_files(const ExportFlags& flags, const ExportInput& input,
-                        const std::string& bytes) {
-  std::string error = write_file(flags.out, bytes);
-  if (!error.empty() || input.format->companion == nullptr) return error;
-  const CompanionFile companion = input.format->companion(input.options);
-  return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
-}
-
 /// A track as a file, and as a program plays that file.
 struct WrittenTrack {
   std::string bytes;
   CameraTrack played;
 };
+
+/// Writes the files, and says what they do not show of the request's fields of view. Returns why
+/// they are not written; empty if they are.
+std::string write_files(const ExportFlags& flags, const ExportInput& input,
+                        const WrittenTrack& written) {
+  // The proof is about the request's fields of view, so no program may see more.
+  const WrittenLens lens = written_lens(written.played, *input.format, input.options);
+  if (!lens.fault.empty()) return flags.out + ": " + lens.fault;
+  if (!lens.remark.empty()) print_error("note: " + lens.remark);
+  std::string error = write_file(flags.out, written.bytes);
+  if (!error.empty() || input.format->companion == nullptr) return error;
+  const CompanionFile companion = input.format->companion(input.options);
+  return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
+}
 
 /// Writes a track and reads it back. Without one, the exit code says what went wrong, which was
 /// printed.
@@ -226,7 +233,7 @@ ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
   const auto result = written_track(flags, input, dense_track(input));
   if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
   const auto& written = std::get<WrittenTrack>(result);
-  const std::string error = write_files(flags, input, written.bytes);
+  const std::string error = write_files(flags, input, written);
   if (!error.empty()) return fail(error);
   if (flags.no_proof) return ExitCode::kSuccess;
   return prove(flags, input, written.played);
@@ -281,7 +288,7 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
     const bool is_settled =
         !proof || proof->search.certificate.certified || !proof->search.complete;
     if (!is_settled && round < kMostRounds && add_keys(keys, *proof, offset_s)) continue;
-    const std::string error = write_files(flags, input, written.bytes);
+    const std::string error = write_files(flags, input, written);
     if (!error.empty()) return fail(error);
     print_sparse(flags, input, keys, written.played, offset_s);
     if (!proof) return ExitCode::kSuccess;
@@ -327,7 +334,8 @@ void add_mapping_flags(CLI::App& command, ExportFlags& flags) {
       ->check(cli_support::whole_number(1, 100'000));
   command
       .add_option("--height", flags.choices.height_px,
-                  "Its height [of the imported file, else such that pixels are square]")
+                  "Its height [of the imported file, else such that pixels are square]; its pixels "
+                  "have the shape that the fields of view need")
       ->check(cli_support::whole_number(1, 100'000));
   command
       .add_option("--first-frame", flags.choices.first_frame,
