@@ -137,6 +137,8 @@ class CliRoundTrip : public ::testing::Test {
 
   /// Writes the path to `out/`, and returns the name of the file.
   std::string export_as(const CameraFormat& format, const std::vector<std::string>& more = {}) {
+    // The lens that is beside a file of COLMAP is not replaced by another one.
+    std::filesystem::remove_all(folder_.file("out"));
     std::filesystem::create_directories(folder_.file("out"));
     const std::string name = folder_.file("out/shot" + std::string(format.extension));
     std::vector<std::string> arguments = {

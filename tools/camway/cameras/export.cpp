@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -85,6 +86,14 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   return ExportInput{*std::move(path), *std::move(request)};
 }
 
+/// The file that belongs beside the written one, with its place; nothing if the format has none.
+std::optional<CompanionFile> companion_of(const ExportFlags& flags, const ExportInput& input) {
+  if (input.format->companion == nullptr) return std::nullopt;
+  CompanionFile companion = input.format->companion(input.options);
+  companion.name = fs::path(flags.out).replace_filename(companion.name).string();
+  return companion;
+}
+
 /// Says what the file has that the path has not.
 void print_mapping(const ExportFlags& flags, const ExportInput& input) {
   const FormatTraits traits = traits_of(*input.format);
@@ -103,6 +112,9 @@ void print_mapping(const ExportFlags& flags, const ExportInput& input) {
   if (input.mapping.scale != 1.0) words += fmt::format(", {:g} m a unit", input.mapping.scale);
   if (input.mapping.up != scene::UpAxis::kAsInFile) {
     words += fmt::format(", up {} undone", base::name_of(input.mapping.up));
+  }
+  if (const auto companion = companion_of(flags, input)) {
+    words += ", the lens in " + companion->name;
   }
   print_error(flags.out + ": " + words);
 }
@@ -209,9 +221,9 @@ std::string write_files(const ExportFlags& flags, const ExportInput& input,
   if (!lens.fault.empty()) return flags.out + ": " + lens.fault;
   if (!lens.remark.empty()) print_error("note: " + lens.remark);
   std::string error = write_file(flags.out, written.bytes);
-  if (!error.empty() || input.format->companion == nullptr) return error;
-  const CompanionFile companion = input.format->companion(input.options);
-  return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
+  if (!error.empty()) return error;
+  const auto companion = companion_of(flags, input);
+  return companion ? write_file(companion->name, companion->text) : "";
 }
 
 /// Writes a track and reads it back. Without one, the exit code says what went wrong, which was
@@ -297,14 +309,35 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
   }
 }
 
+/// Returns why a file cannot be written beside that of the path; empty if it can. Nobody named it,
+/// so it replaces nothing: a model of the user, or the lens of another path in the folder.
+std::string why_no_companion(const ExportFlags& flags, const CompanionFile& companion,
+                             const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  const std::string name = fs::path(companion.name).filename().string();
+  if (fs::path(flags.out).filename() == name ||
+      fs::equivalent(flags.out, companion.name, ignored)) {
+    return fmt::format("--out: {} is where {} has the lens; the poses need another name", flags.out,
+                       flags.format);
+  }
+  if (!fs::exists(fs::symlink_status(companion.name, ignored))) {
+    return why_unwritable(companion.name, inputs);
+  }
+  const base::Result<std::string> text = read_text(companion.name);
+  if (text && *text == companion.text) return "";
+  return fmt::format(
+      "{}: is there already, and is not the lens of this path; {} needs this name "
+      "beside {}, so write to another folder, or remove it",
+      companion.name, flags.format, flags.out);
+}
+
 /// Returns why the files of the path cannot be written; empty if they can.
 std::string why_no_files(const ExportFlags& flags, const ExportInput& input) {
   const std::vector<std::string> inputs = {flags.response, flags.request,
                                            flags.scene.file_for(flags.request, input.request)};
   std::string fault = why_unwritable(flags.out, inputs);
-  if (!fault.empty() || input.format->companion == nullptr) return fault;
-  const CompanionFile companion = input.format->companion(input.options);
-  return why_unwritable(fs::path(flags.out).replace_filename(companion.name), inputs);
+  const auto companion = companion_of(flags, input);
+  return fault.empty() && companion ? why_no_companion(flags, *companion, inputs) : fault;
 }
 
 ExitCode run_export(const ExportFlags& flags) {
