@@ -282,6 +282,48 @@ TEST_F(CliCameras, TurnAndScaleAsTheScene) {
   EXPECT_EQ(request["keyframes"][1]["position"], json::parse("[2.5, 0.0, -1.0]"));
 }
 
+/// A triangle 100 units across, of 0.01 m each.
+constexpr const char* kColladaInCentimetres = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+ <asset><unit name="centimeter" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
+ <library_geometries><geometry id="g" name="g"><mesh>
+  <source id="p"><float_array id="a" count="9">0 0 0 1000 0 0 0 1000 1000</float_array>
+   <technique_common><accessor source="#a" count="3" stride="3">
+    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+   </accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+ </mesh></geometry></library_geometries>
+ <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
+ </visual_scene></library_visual_scenes>
+ <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>)";
+
+TEST_F(CliCameras, ScaleTheCameraFileAloneWhereTheSceneStatesItsUnit) {
+  folder_.write("room.dae", kColladaInCentimetres);
+  folder_.write("cm.csv", "t,x,y,z,qw,qx,qy,qz\n0,100,200,200,1,0,0,0\n1,300,200,200,1,0,0,0\n");
+  const auto import = [&](const std::string& scene, const std::string& flag) {
+    return run_camway({"import", folder_.file("cm.csv"), "--request", folder_.file("r.json"),
+                       "--fov-x-deg", "60", "--fov-y-deg", "40", "--scene", folder_.file(scene),
+                       flag, "0.01"});
+  };
+  const CliRun both = import("room.dae", "--scale");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(both.err, HasSubstr("room.dae states its unit, 1 m, so --scale makes it 0.01 m; a "
+                                  "unit of "));
+  EXPECT_THAT(both.err, HasSubstr("warning: no keyframe lies within the bounds of the scene, which "
+                                  "is 0.1 x 0.1 x 0.1 m large"));
+  const CliRun alone = import("room.dae", "--camera-scale");
+  EXPECT_THAT(alone.err, ::testing::Not(HasSubstr("warning")));
+  const json request = json_of(folder_.file("r.json"));
+  EXPECT_FALSE(request.contains("scale"));
+  EXPECT_EQ(request["_camera"]["scale"], 0.01);
+  EXPECT_EQ(request["keyframes"][0]["position"], json::parse("[1.0, 2.0, 2.0]"));
+  // Where neither file states a unit, one scale is that of both.
+  folder_.write("room.obj", "v 0 0 0\nv 1000 0 0\nv 0 1000 1000\nf 1 2 3\n");
+  EXPECT_THAT(import("room.obj", "--scale").err, ::testing::Not(HasSubstr("warning")));
+}
+
 TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
   write_flight(2.0);
   folder_.write("flight.csv", "t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n");
