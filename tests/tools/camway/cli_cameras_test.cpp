@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -334,6 +335,42 @@ TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
   EXPECT_THAT(run.err, HasSubstr("line 1 names no column for time, x, y"));
   EXPECT_THAT(run_camway({"import", "nowhere.csv", "--request", "-"}).err,
               HasSubstr("nowhere.csv"));
+}
+
+TEST_F(CliCameras, NameWhatIsWrongWithoutObeyingIt) {
+  write_flight(2.0);
+  // A word that would colour the terminal, and the same in one character of C1.
+  folder_.write("e.chan", "1 0 \x1b[31mX\xc2\x9b 0 0 0 0 40\n");
+  const CliRun coloured =
+      run_camway({"import", folder_.file("e.chan"), "--request", folder_.file("r.json")});
+  EXPECT_THAT(coloured.err, HasSubstr("'\\x1b[31mX\\x9b' is no number"));
+  EXPECT_THAT(coloured.err, ::testing::Not(HasSubstr("\x1b")));
+  folder_.write("r.json", "{\"a\\u001b\": 1}");
+  EXPECT_THAT(run_camway({"plan", "--request", folder_.file("r.json")}).err,
+              ::testing::AllOf(HasSubstr("a\\x1b"), ::testing::Not(HasSubstr("\x1b"))));
+  folder_.write("frames.csv", "frame,x,y,z,qw,qx,qy,qz\n1,0,0,0,1,0,0,0\n");
+  EXPECT_THAT(
+      run_camway({"import", folder_.file("frames.csv"), "--request", folder_.file("r.json")}).err,
+      HasSubstr("line 1 names no column for time; a table has time, x, y, z, qw, qx, qy and qz: "
+                "frames are not read as times"));
+}
+
+TEST_F(CliCameras, TakeNoFolderForAScene) {
+  write_flight(2.0);
+  const CliRun run =
+      run_camway({"import", folder_.file("flight.csv"), "--request", folder_.file("r.json"),
+                  "--fov-x-deg", "60", "--fov-y-deg", "40", "--scene", folder_.file("")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is a folder, not a scene file"));
+}
+
+TEST_F(CliCameras, WriteNothingThatCannotBeProved) {
+  plan_level_flight();
+  std::filesystem::remove(folder_.file("wall.obj"));
+  EXPECT_EQ(export_path("csv").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("out.csv")));
+  EXPECT_EQ(export_path("csv", {"--no-proof"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("out.csv")));
 }
 
 TEST_F(CliCameras, AskForTheFieldOfView) {

@@ -194,13 +194,12 @@ std::optional<ExitCode> report_proof(const ExportFlags& flags, const PlayedProof
 
 /// Says whether what is played is free, and otherwise where it is not and at which rate it would
 /// be.
-ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraTrack& played) {
-  const base::Result<ProofScene> scene = load_scene(flags, input);
-  if (!scene) return fail(scene.error);
-  const auto said = report_proof(flags, prove_played(played, *scene),
+ExitCode prove(const ExportFlags& flags, const ExportInput& input, const ProofScene& scene,
+               const CameraTrack& played) {
+  const auto said = report_proof(flags, prove_played(played, scene),
                                  fmt::format("{} frames", played.keys.size()));
   if (said) return *said;
-  const std::optional<double> rate = free_rate(input.response.path, input.fps, *scene);
+  const std::optional<double> rate = free_rate(input.response.path, input.fps, scene);
   print_error(rate ? fmt::format("--fps {:g} would be free", *rate)
                    : "no rate up to 32 times as high would be free");
   return ExitCode::kNegative;
@@ -245,10 +244,16 @@ ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
   const auto result = written_track(flags, input, dense_track(input));
   if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
   const auto& written = std::get<WrittenTrack>(result);
+  std::optional<ProofScene> scene;
+  if (!flags.no_proof) {
+    // Before the file: one that is there looks proved.
+    base::Result<ProofScene> loaded = load_scene(flags, input);
+    if (!loaded) return fail(loaded.error);
+    scene = *std::move(loaded);
+  }
   const std::string error = write_files(flags, input, written);
   if (!error.empty()) return fail(error);
-  if (flags.no_proof) return ExitCode::kSuccess;
-  return prove(flags, input, written.played);
+  return scene ? prove(flags, input, *scene, written.played) : ExitCode::kSuccess;
 }
 
 SparseKeys few_keys(const ExportFlags& flags, const ExportInput& input) {

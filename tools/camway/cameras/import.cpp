@@ -261,6 +261,9 @@ ExitCode run_import(const ImportFlags& flags) {
   if (!flags.scene.empty() && !fs::exists(flags.scene, error_code)) {
     return refuse_file("--scene: " + flags.scene + " does not exist");
   }
+  if (fs::is_directory(flags.scene, error_code)) {
+    return refuse_file("--scene: " + flags.scene + " is a folder, not a scene file");
+  }
   if (flags.request != "-") {
     std::vector<std::string> inputs = {flags.file, flags.scene, flags.body, flags.times};
     inputs.insert(inputs.end(), flags.log.types.begin(), flags.log.types.end());
