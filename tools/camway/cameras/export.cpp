@@ -261,7 +261,8 @@ SparseKeys few_keys(const ExportFlags& flags, const ExportInput& input) {
   ThinningTolerance tolerance;
   if (flags.within_m) tolerance.position_m = *flags.within_m;
   if (flags.within_deg) tolerance.turn_rad = radians(*flags.within_deg);
-  keys.keep_within(tolerance);
+  // A rate that someone said is lost where keys are between frames.
+  if (!input.is_fps_known || !keys.keep_frames_within(tolerance)) keys.keep_within(tolerance);
   return keys;
 }
 
@@ -282,6 +283,12 @@ void print_sparse(const ExportFlags& flags, const ExportInput& input, const Spar
                   "the path",
                   flags.out, played.keys.size(), frame_count(input.response.path, input.fps),
                   off.position_m, degrees(off.turn_rad)));
+  if (input.is_fps_known && !keys.are_on_frames()) {
+    print_error(
+        fmt::format("note: not all keys are on frames, so the file has no rate of {:g} a "
+                    "second: those do not suffice",
+                    input.fps));
+  }
 }
 
 /// Writes few keys on curves, and adds some where what is played of them is not free.
