@@ -14,6 +14,7 @@ namespace camway::tools {
 
 std::vector<std::string> request_warnings(const RequestFile& request) {
   using planning::QuaternionOrder;
+  if (request.has_imported_order) return {};
   const auto order = planning::quaternion_order_warning(
       request, request.says_xyzw ? QuaternionOrder::kXyzw : QuaternionOrder::kWxyz);
   if (!order) return {};

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+
+#include "tools/cameras/frame_rate.h"
 
 namespace camway::tools {
 namespace {
@@ -37,21 +40,31 @@ double tolerances_off(const motion::Pose& pose, const motion::Pose& played,
                   pose.orientation.angularDistance(played.orientation) / tolerance.turn_rad);
 }
 
+/// Whether a time is that of a join but for rounding, which is then the candidate.
+bool is_at_join(const std::vector<double>& joins_s, double time_s, double fps) {
+  const double near_s = kOnFrame / fps;
+  const auto after = std::ranges::lower_bound(joins_s, time_s - near_s);
+  return after != joins_s.end() && *after <= time_s + near_s;
+}
+
 }  // namespace
 
 SparseKeys::SparseKeys(const motion::Path& path, double fps) {
   std::vector<double> times;
   for (const motion::Segment& segment : path.segments()) times.push_back(segment.t0_s);
   times.push_back(path.end_s());
+  const std::vector<double> joins_s = times;
   const double step_s = 1.0 / (fps * kCandidatesPerFrame);
   const auto steps = static_cast<std::size_t>((path.end_s() - path.begin_s()) / step_s);
   for (std::size_t i = 1; i <= steps; ++i) {
-    times.push_back(std::min(path.begin_s() + static_cast<double>(i) * step_s, path.end_s()));
+    const double time_s = std::min(path.begin_s() + static_cast<double>(i) * step_s, path.end_s());
+    if (!is_at_join(joins_s, time_s, fps)) times.push_back(time_s);
   }
   std::ranges::sort(times);
   // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
   times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double time_s : times) add_candidate(path, time_s);
+  mark_frames(fps);
   for (const motion::Segment& segment : path.segments()) {
     const auto found = std::ranges::lower_bound(times, segment.t0_s);
     kept_.push_back(static_cast<std::size_t>(found - times.begin()));
@@ -115,6 +128,59 @@ void SparseKeys::keep_within(const ThinningTolerance& tolerance) {
   drop_needless(tolerance);
 }
 
+void SparseKeys::mark_frames(double fps) {
+  const double begin_s = candidates_.front().key.time_s;
+  double frame_before = -1.0;
+  for (Candidate& each : candidates_) {
+    const double frames = (each.key.time_s - begin_s) * fps;
+    const double frame = std::round(frames);
+    // Two keys on one frame would be no frames.
+    each.is_on_frame = std::abs(frames - frame) <= kOnFrame && frame > frame_before;
+    if (each.is_on_frame) frame_before = frame;
+  }
+}
+
+std::optional<std::size_t> SparseKeys::frame_near(std::size_t wanted, std::size_t begin,
+                                                  std::size_t end) const {
+  for (std::size_t off = 0; wanted - begin > off || end - wanted > off; ++off) {
+    if (wanted + off < end && candidates_[wanted + off].is_on_frame) return wanted + off;
+    if (wanted > begin + off && candidates_[wanted - off].is_on_frame) return wanted - off;
+  }
+  return std::nullopt;
+}
+
+bool SparseKeys::keep_frames_within(const ThinningTolerance& tolerance) {
+  std::vector<std::size_t> before = kept_;
+  std::size_t last = candidates_.size() - 1;
+  while (!candidates_[last].is_on_frame) --last;  // the first one is
+  if (last == 0) return false;
+  std::erase_if(kept_, [&](std::size_t i) { return !candidates_[i].is_on_frame; });
+  if (kept_.back() != last) kept_.push_back(last);
+  for (bool is_within = false; !is_within;) {
+    std::vector<std::size_t> next = {0};
+    for (std::size_t i = 0; i + 1 < kept_.size(); ++i) {
+      if (const auto worst = worst_in(kept_[i], kept_[i + 1], tolerance)) {
+        const auto frame = frame_near(*worst, kept_[i], kept_[i + 1]);
+        if (!frame) {
+          kept_ = std::move(before);
+          return false;
+        }
+        next.push_back(*frame);
+      }
+      next.push_back(kept_[i + 1]);
+    }
+    is_within = next.size() == kept_.size();
+    kept_ = std::move(next);
+  }
+  drop_needless(tolerance);
+  prefers_frames_ = true;
+  return true;
+}
+
+bool SparseKeys::are_on_frames() const {
+  return std::ranges::all_of(kept_, [&](std::size_t i) { return candidates_[i].is_on_frame; });
+}
+
 void SparseKeys::drop_needless(const ThinningTolerance& tolerance) {
   std::vector<std::size_t> needed = {0};
   for (std::size_t i = 1; i + 1 < kept_.size(); ++i) {
@@ -130,7 +196,11 @@ bool SparseKeys::add_near(double begin_s, double end_s) {
     const bool meets = candidates_[kept_[i]].key.time_s <= end_s &&
                        candidates_[kept_[i + 1]].key.time_s >= begin_s;
     const std::size_t middle = kept_[i] + (kept_[i + 1] - kept_[i]) / 2;
-    if (meets && middle > kept_[i]) next.push_back(middle);
+    if (meets && middle > kept_[i]) {
+      const auto frame =
+          prefers_frames_ ? frame_near(middle, kept_[i], kept_[i + 1]) : std::nullopt;
+      next.push_back(frame.value_or(middle));
+    }
     next.push_back(kept_[i + 1]);
   }
   const bool has_added = next.size() > kept_.size();
@@ -150,7 +220,7 @@ CameraTrack SparseKeys::track() const {
 
 SparseKeys::Difference SparseKeys::difference(const CameraTrack& track, double offset_s) const {
   Difference largest;
-  for (const Candidate& each : candidates_) {
+  for (const Candidate& each : std::span(candidates_).first(kept_.back() + 1)) {
     const motion::Pose played = pose_at(track, each.key.time_s - offset_s);
     const motion::Pose& pose = each.key.pose_W;
     largest.position_m = std::max(largest.position_m, (pose.position - played.position).norm());

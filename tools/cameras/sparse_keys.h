@@ -27,6 +27,15 @@ class SparseKeys {
   /// find the fewest keys.
   void keep_within(const ThinningTolerance& tolerance);
 
+  /// As `keep_within`, with keys on frames alone, up to the last one that is not after the end of
+  /// the path; those that `add_near` adds later are on frames, too, as long as there are some
+  /// between. Returns whether frames suffice; else the keys are as before.
+  bool keep_frames_within(const ThinningTolerance& tolerance);
+
+  /// Returns whether all keys are on frames, which count from the begin of the path, so that a file
+  /// of them has a rate.
+  [[nodiscard]] bool are_on_frames() const;
+
   /// Adds a key in the middle of each interval between keys that meets the stretch. Returns whether
   /// there was a time to add.
   bool add_near(double begin_s, double end_s);
@@ -34,8 +43,8 @@ class SparseKeys {
   /// Returns the keys with their tangents.
   [[nodiscard]] CameraTrack track() const;
 
-  /// The largest differences of a track from the path, at the candidates. The times of the track
-  /// are those of the path less `offset_s`.
+  /// The largest differences of a track from the path, at the candidates up to the last key. The
+  /// times of the track are those of the path less `offset_s`.
   struct Difference {
     double position_m = 0.0;
     double turn_rad = 0.0;
@@ -48,17 +57,24 @@ class SparseKeys {
   struct Candidate {
     TrackKey key;
     KeyTangents tangents;
+    bool is_on_frame = false;
   };
   /// A key interval, as indices of candidates, and what is played of it.
   [[nodiscard]] CameraTrack interval(std::size_t begin, std::size_t end) const;
   /// The worst candidate within a key interval; nothing if none is off by more than the tolerance.
   [[nodiscard]] std::optional<std::size_t> worst_in(std::size_t begin, std::size_t end,
                                                     const ThinningTolerance& tolerance) const;
+  /// The candidate on a frame that is nearest to `wanted` within a key interval; nothing if none
+  /// is.
+  [[nodiscard]] std::optional<std::size_t> frame_near(std::size_t wanted, std::size_t begin,
+                                                      std::size_t end) const;
+  void mark_frames(double fps);
   void drop_needless(const ThinningTolerance& tolerance);
   void add_candidate(const motion::Path& path, double time_s);
 
   std::vector<Candidate> candidates_;  ///< in order of time
   std::vector<std::size_t> kept_;      ///< indices of candidates, increasing
+  bool prefers_frames_ = false;
 };
 
 }  // namespace camway::tools

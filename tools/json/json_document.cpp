@@ -302,6 +302,12 @@ std::string Field::text() const {
   return {};
 }
 
+std::string Field::remark(std::string_view key) const {
+  if (failed() || !value_->is_object()) return {};
+  const auto found = value_->find(key);
+  return found != value_->end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 void Field::numbers(double* out, std::size_t count) const {
   std::fill_n(out, count, 0.0);
   if (failed()) return;

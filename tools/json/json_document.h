@@ -69,6 +69,9 @@ class Field {
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] bool is_null() const { return value_ != nullptr && value_->is_null(); }
   [[nodiscard]] std::string text() const;
+  /// Returns a text of a remark: an empty one, and no error, if this is no object or has no such
+  /// text.
+  [[nodiscard]] std::string remark(std::string_view key) const;
   /// Reads exactly `count` numbers into `out`.
   void numbers(double* out, std::size_t count) const;
 

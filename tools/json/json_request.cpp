@@ -193,6 +193,10 @@ void read_value(const Field& root, RequestFile& request) {
     read_value(root.member("camera"), request.camera);
   }
   read_keyframes(root.member("keyframes"), request);
+  const auto remark = root.optional_member("_camera");
+  const std::string format = remark ? remark->remark("format") : "";
+  // The order of a log's numbers is what the user, or a guess, says.
+  request.has_imported_order = !format.empty() && format != "lcm";
   if (const auto frame = root.optional_member("frame")) request.frame = read_frame(*frame);
   io(may_lack("options"), request.options);
   request.spelling = json_spelling(root.notes());

@@ -34,6 +34,8 @@ struct RequestFile : planning::PlanRequest {
   std::optional<BodyFile> body_file;
   /// Whether a keyframe has an `orientation_xyzw`, which shows that its order is intended.
   bool says_xyzw = false;
+  /// Whether `import` wrote the keyframes, of a format that says the order of its quaternions.
+  bool has_imported_order = false;
 };
 
 /// Reads a request (`parse_as`, `read_as`). Checks the form (types, lengths, missing fields), that

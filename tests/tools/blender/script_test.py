@@ -78,12 +78,19 @@ class ScriptTest(CamwayTest):
         self.assertAlmostEqual(math.degrees(camera.data.angle_x), self.request["camera"]["fov_x_deg"], delta=1e-4)
         frame = camera.data.view_frame(scene=self.scene)
         height = max(c.y for c in frame) / -frame[0].z
-        # The picture has whole pixels.
         expected = math.tan(math.radians(self.request["camera"]["fov_y_deg"]) / 2)
-        self.assertAlmostEqual(height, expected, delta=1.0 / 1000)
+        self.assertAlmostEqual(height, expected, delta=1e-6)
         self.assertAlmostEqual(camera.data.clip_start, self.request["camera"]["near"], delta=1e-7)
         self.assertAlmostEqual(self.scene.render.fps / self.scene.render.fps_base, 23.976, delta=1e-5)
         self.assertEqual(self.scene.render.resolution_x, 1000)
+
+    def test_both_fields_of_view_are_those_of_the_request_in_a_picture_of_any_size(self):
+        for width, height in ((1000, 1000), (1920, 1080), (640, 1200)):
+            camera = self.run_script("office-graze-column", "--width", width, "--height", height)
+            frame = camera.data.view_frame(scene=self.scene)
+            for axis, angle in ((0, "fov_x_deg"), (1, "fov_y_deg")):
+                shown = 2 * math.atan(max(corner[axis] for corner in frame) / -frame[0].z)
+                self.assertAlmostEqual(math.degrees(shown), self.request["camera"][angle], delta=1e-4)
 
     def test_markers_are_at_the_corrected_stretch(self):
         self.run_script("office-graze-column")

@@ -56,6 +56,40 @@ TEST(SparseKeys, StayWithinTheToleranceWithFewKeys) {
   }
 }
 
+TEST(SparseKeys, LieOnFramesWhereTheseSuffice) {
+  Random random(kSparseSeed);
+  for (int trial = 0; trial < 5; ++trial) {
+    motion::Path path = random_path(random, 1.0);
+    // The keyframes of this path are at 36 frames of the usual rate, which are none of this one.
+    constexpr double kOtherFps = 25.0;
+    SparseKeys between(path, kOtherFps);
+    between.keep_within({});
+    EXPECT_FALSE(between.are_on_frames());
+    SparseKeys keys(path, kOtherFps);
+    const ThinningTolerance tolerance;
+    if (!keys.keep_frames_within(tolerance)) {
+      ADD_FAILURE() << "frames do not suffice in trial " << trial;
+      continue;
+    }
+    const CameraTrack track = keys.track();
+    for (const TrackKey& key : track.keys) {
+      EXPECT_NEAR(key.time_s * kOtherFps, std::round(key.time_s * kOtherFps), 0.02);
+    }
+    EXPECT_TRUE(keys.are_on_frames());
+    // The path ends between two frames.
+    EXPECT_NEAR(track.keys.back().time_s, 187.0 / kOtherFps, 1e-9);
+    const SparseKeys::Difference off = keys.difference(track, 0.0);
+    EXPECT_LE(off.position_m, tolerance.position_m);
+    EXPECT_LE(off.turn_rad, tolerance.turn_rad);
+    keys.add_near(2.0, 2.5);
+    EXPECT_GT(keys.track().keys.size(), track.keys.size());
+    // Nothing is near enough for this, so the keys stay what they were.
+    const std::size_t before = between.track().keys.size();
+    EXPECT_FALSE(between.keep_frames_within({1e-12, 1e-12}));
+    EXPECT_EQ(between.track().keys.size(), before);
+  }
+}
+
 TEST(SparseKeys, AreThePathItselfWhereItIsCubic) {
   Random random(kSparseSeed);
   const motion::Path path = random_path(random, 0.0);  // does not turn

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -203,6 +205,47 @@ TEST_F(CliCameras, GiveBackTheSameKindOfFile) {
   }
 }
 
+/// The fields of view of a request file, in degrees.
+std::array<double, 2> fields_of_view(const std::string& file) {
+  const json camera = json_of(file)["camera"];
+  return {camera["fov_x_deg"].get<double>(), camera["fov_y_deg"].get<double>()};
+}
+
+TEST_F(CliCameras, WriteThePictureThatWasProved) {
+  write_flight(0.0);
+  // The height of 1920 square pixels is no whole number.
+  ASSERT_EQ(import_flight({"--near-m", "0.25"}).exit_code, 0);
+  const auto import_back = [&](const std::string& format) {
+    const CliRun run = run_camway({"import", folder_.file("out." + format), "--format", format,
+                                   "--request", folder_.file("back.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return fields_of_view(folder_.file("back.json"));
+  };
+  plan();
+  EXPECT_THAT(export_path("gltf").err, ::testing::Not(HasSubstr("note: ")));
+  EXPECT_NEAR(import_back("gltf")[0], 60.0, 1e-9);
+  const std::vector<std::string> size = {"--width", "1920", "--height", "1080"};
+  for (const std::string format : {"blender", "mcap", "transforms"}) {
+    const CliRun run = export_path(format, size);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto [fov_x, fov_y] = import_back(format);
+    EXPECT_NEAR(fov_x, 60.0, 1e-9) << format;
+    EXPECT_NEAR(fov_y, 40.0, 1e-9) << format;
+  }
+  const CliRun square = export_path("nerfstudio", size);
+  EXPECT_THAT(square.err,
+              HasSubstr("note: nerfstudio has square pixels, of which 1920 x 1080 show 60 x"));
+  EXPECT_LT(import_back("nerfstudio")[1], 40.0);
+  EXPECT_THAT(export_path("chan").err, HasSubstr("note: chan has no shape of the picture"));
+  EXPECT_THAT(export_path("tum").err, HasSubstr("note: tum has no field of view"));
+  const CliRun refused = export_path("gltf", size);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--width: gltf has no size of a picture, but the fields of"));
+  const CliRun too_long = export_path("blender", {"--width", "4", "--height", "2000"});
+  EXPECT_EQ(too_long.exit_code, 2);
+  EXPECT_THAT(too_long.err, HasSubstr("Blender has no pixels more than 200 times as long"));
+}
+
 TEST_F(CliCameras, SampleThePath) {
   write_flight(2.0);
   ASSERT_EQ(import_flight().exit_code, 0);
@@ -240,6 +283,48 @@ TEST_F(CliCameras, TurnAndScaleAsTheScene) {
   EXPECT_EQ(request["keyframes"][1]["position"], json::parse("[2.5, 0.0, -1.0]"));
 }
 
+/// A triangle 100 units across, of 0.01 m each.
+constexpr const char* kColladaInCentimetres = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+ <asset><unit name="centimeter" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
+ <library_geometries><geometry id="g" name="g"><mesh>
+  <source id="p"><float_array id="a" count="9">0 0 0 1000 0 0 0 1000 1000</float_array>
+   <technique_common><accessor source="#a" count="3" stride="3">
+    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+   </accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+ </mesh></geometry></library_geometries>
+ <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
+ </visual_scene></library_visual_scenes>
+ <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>)";
+
+TEST_F(CliCameras, ScaleTheCameraFileAloneWhereTheSceneStatesItsUnit) {
+  folder_.write("room.dae", kColladaInCentimetres);
+  folder_.write("cm.csv", "t,x,y,z,qw,qx,qy,qz\n0,100,200,200,1,0,0,0\n1,300,200,200,1,0,0,0\n");
+  const auto import = [&](const std::string& scene, const std::string& flag) {
+    return run_camway({"import", folder_.file("cm.csv"), "--request", folder_.file("r.json"),
+                       "--fov-x-deg", "60", "--fov-y-deg", "40", "--scene", folder_.file(scene),
+                       flag, "0.01"});
+  };
+  const CliRun both = import("room.dae", "--scale");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(both.err, HasSubstr("room.dae states its unit, 1 m, so --scale makes it 0.01 m; a "
+                                  "unit of "));
+  EXPECT_THAT(both.err, HasSubstr("warning: no keyframe lies within the bounds of the scene, which "
+                                  "is 0.1 x 0.1 x 0.1 m large"));
+  const CliRun alone = import("room.dae", "--camera-scale");
+  EXPECT_THAT(alone.err, ::testing::Not(HasSubstr("warning")));
+  const json request = json_of(folder_.file("r.json"));
+  EXPECT_FALSE(request.contains("scale"));
+  EXPECT_EQ(request["_camera"]["scale"], 0.01);
+  EXPECT_EQ(request["keyframes"][0]["position"], json::parse("[1.0, 2.0, 2.0]"));
+  // Where neither file states a unit, one scale is that of both.
+  folder_.write("room.obj", "v 0 0 0\nv 1000 0 0\nv 0 1000 1000\nf 1 2 3\n");
+  EXPECT_THAT(import("room.obj", "--scale").err, ::testing::Not(HasSubstr("warning")));
+}
+
 TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
   write_flight(2.0);
   folder_.write("flight.csv", "t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n");
@@ -250,6 +335,42 @@ TEST_F(CliCameras, RefuseWhatTheyCannotRead) {
   EXPECT_THAT(run.err, HasSubstr("line 1 names no column for time, x, y"));
   EXPECT_THAT(run_camway({"import", "nowhere.csv", "--request", "-"}).err,
               HasSubstr("nowhere.csv"));
+}
+
+TEST_F(CliCameras, NameWhatIsWrongWithoutObeyingIt) {
+  write_flight(2.0);
+  // A word that would colour the terminal, and the same in one character of C1.
+  folder_.write("e.chan", "1 0 \x1b[31mX\xc2\x9b 0 0 0 0 40\n");
+  const CliRun coloured =
+      run_camway({"import", folder_.file("e.chan"), "--request", folder_.file("r.json")});
+  EXPECT_THAT(coloured.err, HasSubstr("'\\x1b[31mX\\x9b' is no number"));
+  EXPECT_THAT(coloured.err, ::testing::Not(HasSubstr("\x1b")));
+  folder_.write("r.json", "{\"a\\u001b\": 1}");
+  EXPECT_THAT(run_camway({"plan", "--request", folder_.file("r.json")}).err,
+              ::testing::AllOf(HasSubstr("a\\x1b"), ::testing::Not(HasSubstr("\x1b"))));
+  folder_.write("frames.csv", "frame,x,y,z,qw,qx,qy,qz\n1,0,0,0,1,0,0,0\n");
+  EXPECT_THAT(
+      run_camway({"import", folder_.file("frames.csv"), "--request", folder_.file("r.json")}).err,
+      HasSubstr("line 1 names no column for time; a table has time, x, y, z, qw, qx, qy and qz: "
+                "frames are not read as times"));
+}
+
+TEST_F(CliCameras, TakeNoFolderForAScene) {
+  write_flight(2.0);
+  const CliRun run =
+      run_camway({"import", folder_.file("flight.csv"), "--request", folder_.file("r.json"),
+                  "--fov-x-deg", "60", "--fov-y-deg", "40", "--scene", folder_.file("")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("is a folder, not a scene file"));
+}
+
+TEST_F(CliCameras, WriteNothingThatCannotBeProved) {
+  plan_level_flight();
+  std::filesystem::remove(folder_.file("wall.obj"));
+  EXPECT_EQ(export_path("csv").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("out.csv")));
+  EXPECT_EQ(export_path("csv", {"--no-proof"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("out.csv")));
 }
 
 TEST_F(CliCameras, AskForTheFieldOfView) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,33 @@ TEST_F(CliOutput, IsNoFileThatTheCommandReads) {
     EXPECT_THAT(run.err, HasSubstr(name + ": is read, so it is not written"));
     EXPECT_EQ(read_all(file(name)), before);
   }
+}
+
+TEST_F(CliOutput, OfColmapReplacesNoLens) {
+  const auto export_to = [&](const std::string& name, const std::string& width = "640") {
+    return run_camway({"export", file("o.json"), "--request", file("r.json"), "--format", "colmap",
+                       "--width", width, "--out", file(name)});
+  };
+  const std::string of_user = "1 PINHOLE 100 50 50 25 50 25\n";
+  folder_.write("cameras.txt", of_user);
+  const CliRun refused = export_to("path.txt");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("cameras.txt: is there already, and is not the lens of"));
+  EXPECT_EQ(read_all(file("cameras.txt")), of_user);
+  EXPECT_FALSE(std::filesystem::exists(file("path.txt")));
+  const CliRun same_name = export_to("cameras.txt");
+  EXPECT_EQ(same_name.exit_code, 2);
+  EXPECT_THAT(same_name.err, HasSubstr("cameras.txt is where colmap has the lens"));
+  EXPECT_EQ(read_all(file("cameras.txt")), of_user);
+  std::filesystem::remove(file("cameras.txt"));
+  EXPECT_EQ(export_to("cameras.txt").exit_code, 2);
+  const CliRun first = export_to("path.txt");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.err, HasSubstr(", the lens in " + file("cameras.txt")));
+  // The same lens again, for the same path or for another one in the folder.
+  EXPECT_EQ(export_to("path.txt").exit_code, 0);
+  EXPECT_EQ(export_to("other.txt").exit_code, 0);
+  EXPECT_EQ(export_to("other.txt", "641").exit_code, 2);
 }
 
 }  // namespace

@@ -351,6 +351,14 @@ TEST_F(CliPlan, WarnsOfQuaternionsThatLookXyzw) {
   const CliRun right = run_with(R"("orientation_xyzw": [0, 0, 0, 1])");
   EXPECT_EQ(right.exit_code, 0);
   EXPECT_THAT(right.err, Not(HasSubstr("warning")));
+  const auto imported_from = [&](const std::string& format) {
+    std::string text = request_json({keyframe(1, R"("orientation": [0, 0, 0, 1])"),
+                                     keyframe(-1, R"("orientation": [0, 0, 0, 1])")});
+    text.insert(text.find('{') + 1, R"("_camera": {"format": ")" + format + "\"}, ");
+    return run_camway({"plan", "--request", folder_.write("R.json", text)}).err;
+  };
+  EXPECT_THAT(imported_from("colmap"), Not(HasSubstr("warning")));
+  EXPECT_THAT(imported_from("lcm"), HasSubstr("all cameras look rolled"));
   const CliRun reversed = run_with(R"("orientation_xyzw": [0, 0, 1, 0])");
   EXPECT_THAT(reversed.err, HasSubstr("they are read as x, y, z, w; orientation takes the other"));
 }

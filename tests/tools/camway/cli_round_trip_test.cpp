@@ -137,6 +137,8 @@ class CliRoundTrip : public ::testing::Test {
 
   /// Writes the path to `out/`, and returns the name of the file.
   std::string export_as(const CameraFormat& format, const std::vector<std::string>& more = {}) {
+    // The lens that is beside a file of COLMAP is not replaced by another one.
+    std::filesystem::remove_all(folder_.file("out"));
     std::filesystem::create_directories(folder_.file("out"));
     const std::string name = folder_.file("out/shot" + std::string(format.extension));
     std::vector<std::string> arguments = {
@@ -334,7 +336,8 @@ TEST_F(CliRoundTrip, WarnsOfLossesAndMissesScenes) {
                        "--request", "-", "--fov-x-deg", "60", "--fov-y-deg", "40"});
   };
   EXPECT_THAT(import("far.obj", "23").err, HasSubstr("warning: the path through the keyframes"));
-  EXPECT_THAT(import("far.obj", "1").err, ::testing::Not(HasSubstr("warning")));
+  EXPECT_THAT(import("far.obj", "1").err,
+              ::testing::Not(HasSubstr("warning: the path through the keyframes")));
   const CliRun missing = import("missing.obj", "1");
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("missing.obj does not exist"));

@@ -120,8 +120,9 @@ std::string format_fault(const ExportChoices& choices, const CameraFormat& forma
                        format.name);
   }
   if ((choices.width_px || choices.height_px) && !traits.has_picture) {
-    return fmt::format("--{}: {} has no size of a picture", choices.width_px ? "width" : "height",
-                       format.name);
+    return fmt::format("--{}: {} has no size of a picture{}", choices.width_px ? "width" : "height",
+                       format.name,
+                       traits.needs_lens ? ", but the fields of view of the request" : "");
   }
   return "";
 }

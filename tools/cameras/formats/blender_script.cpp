@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -24,6 +27,13 @@ constexpr std::string_view kKeysBegin = "\nKEYS = [\n";
 constexpr std::string_view kKeysEnd = "\n]\n";
 constexpr std::size_t kNumbersOfKey = 7;
 constexpr double kMillimetresPerMetre = 1000.0;
+
+// The limits of Blender's properties.
+constexpr double kSensorWidth_mm = 36.0;  ///< as in the script
+constexpr double kShortestLens_mm = 1.0;
+constexpr int kFewestBlenderPixels = 4;
+constexpr int kMostBlenderPixels = 65536;
+constexpr double kLongestPixel = 200.0;
 
 constexpr std::string_view kScriptHead =
     R"(# A camera path of Camway. Run it in Blender: Scripting > Open > Run, or blender --python FILE
@@ -68,12 +78,19 @@ def make_camera(scene):
     scene.camera = camera
 
 
+def set_picture(scene):
+    """Gives pixels the shape with which a picture of this size has both fields of view."""
+    height = math.tan(0.5 * FOV_Y) / math.tan(0.5 * FOV_X) * WIDTH / HEIGHT  # of a pixel, by its width
+    render = scene.render
+    render.resolution_x, render.resolution_y = WIDTH, HEIGHT
+    render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1.0 / height), max(1.0, height)
+
+
 def main():
     scene = bpy.context.scene
     scene.render.fps = max(1, round(FPS))
     scene.render.fps_base = scene.render.fps / FPS
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
-    scene.render.pixel_aspect_x, scene.render.pixel_aspect_y = 1.0, 1.0
+    set_picture(scene)
     scene.frame_start, scene.frame_end = FIRST_FRAME, FIRST_FRAME + len(KEYS) // 7 - 1
     make_camera(scene)
     for words, time_s in MARKERS:
@@ -112,6 +129,31 @@ std::string keys_text(const CameraTrack& track) {
         "    " + number_row(std::array{p.x(), p.y(), p.z(), q[0], q[1], q[2], q[3]}, ", ") + ",\n";
   }
   return text + "]\n";
+}
+
+/// Returns why Blender, which clamps numbers without a word, would show another picture; empty if
+/// it would not.
+std::string picture_fault(const CameraWriteOptions& options) {
+  const double tan_x = std::tan(0.5 * options.fov_x_rad);
+  if (0.5 * kSensorWidth_mm < kShortestLens_mm * tan_x) {
+    return fmt::format(
+        "Blender has no lens shorter than {} mm, so no fov_x above {:.5g} degrees",
+        kShortestLens_mm,
+        360.0 / std::numbers::pi * std::atan(0.5 * kSensorWidth_mm / kShortestLens_mm));
+  }
+  const int height = height_px(options);
+  for (const int side : {options.width_px, height}) {
+    if (side >= kFewestBlenderPixels && side <= kMostBlenderPixels) continue;
+    return fmt::format(
+        "Blender has pictures of {} to {} pixels a side, not of {} x {} (--width, --height)",
+        kFewestBlenderPixels, kMostBlenderPixels, options.width_px, height);
+  }
+  const double shape = std::tan(0.5 * options.fov_y_rad) / tan_x * options.width_px / height;
+  if (std::max(shape, 1.0 / shape) <= kLongestPixel) return "";
+  return fmt::format(
+      "Blender has no pixels more than {} times as long as wide, which {} x {} of them would be in "
+      "these fields of view (--width, --height)",
+      kLongestPixel, options.width_px, height);
 }
 
 /// The number after "\nNAME = "; nothing if there is none.
@@ -165,6 +207,9 @@ TrackKey key_of_row(const std::vector<double>& n, double time_s) {
 base::Result<std::string> write_blender_script(const CameraTrack& track,
                                                const CameraWriteOptions& options) {
   if (!track.fps) return base::Failure{"a script for Blender needs a rate of frames"};
+  if (std::string fault = picture_fault(options); !fault.empty()) {
+    return base::Failure{std::move(fault)};
+  }
   std::string text(kScriptHead);
   text += "\nNAME = " + quoted(options.name);
   text += fmt::format("\nFIRST_FRAME = {:.0f}", options.facts.first_frame.value_or(1.0));

@@ -89,7 +89,7 @@ FormatTraits traits_of(const CameraFormat& format) {
   traits.has_times = !is({"kitti", "transforms", "colmap"});
   traits.has_free_axes = !is({"gltf", "blender"});
   traits.has_free_world = !is({"gltf"});
-  traits.has_picture = !is({"tum", "kitti", "csv", "chan"});
+  traits.has_picture = !is({"gltf", "tum", "kitti", "csv", "chan"});
   traits.counts_frames = is({"blender", "chan"});
   if (is({"tum", "kitti", "colmap", "mcap"})) traits.axes = CameraAxes::kCv;
   return traits;

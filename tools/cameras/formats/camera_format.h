@@ -87,7 +87,7 @@ struct FormatTraits {
   bool has_times = true;
   bool has_free_axes = true;   ///< files may have either camera frame; `--camera-axes` says which
   bool has_free_world = true;  ///< files may have any unit and any axis upwards
-  bool has_picture = true;     ///< files state the size of the picture, or its shape
+  bool has_picture = true;     ///< files state the size of the picture
   bool counts_frames = false;  ///< files number their frames
   CameraAxes axes = CameraAxes::kGl;  ///< those that files have unless someone says otherwise
 };

@@ -34,6 +34,8 @@ constexpr std::array<Unit, 2> kAngleUnits = {{{"deg", 180.0 / std::numbers::pi},
 using Names = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 6> kTimeNames = {"time",  "t",       "timestamp",
                                                         "stamp", "seconds", "sec"};
+/// Not read: which rate would it be?
+constexpr std::array<std::string_view, 3> kFrameNames = {"frame", "frames", "framenumber"};
 constexpr std::array<std::string_view, 7> kPositionNames = {
     "", "t", "p", "pos", "position", "poseposition", "prsr"};
 constexpr std::array<std::string_view, 6> kOrientationNames = {
@@ -125,7 +127,11 @@ class ColumnFinder {
     if (std::isfinite(readers::parse_decimal(names_.front().text))) {
       return fmt::format("has numbers, but should name the columns; {}", kNeeded);
     }
-    return fmt::format("names no column for {}; {}", missing_, kNeeded);
+    const bool has_frames = missing_.starts_with("time") && column(kFrameNames, "") != nullptr;
+    return fmt::format("names no column for {}; {}{}", missing_, kNeeded,
+                       has_frames ? ": frames are not read as times, so divide them by their rate, "
+                                    "in a column time_s"
+                                  : "");
   }
   [[nodiscard]] bool is_complete() const { return missing_.empty(); }
 

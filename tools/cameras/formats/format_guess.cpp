@@ -64,6 +64,11 @@ const CameraFormat* format_of_rows(const CameraFile& file) {
       !is_number((*row)[kColmapNumbers])) {
     return camera_format("colmap");
   }
+  // A line of names alone is that of a table, whose reader says which column is missing.
+  constexpr std::size_t kFewestColumns = 8;
+  if (row->size() >= kFewestColumns && std::ranges::none_of(*row, is_number)) {
+    return camera_format("csv");
+  }
   // Files of KITTI and TUM may be damaged in the first line, too: then their readers say how.
   if (row->size() == 12) return camera_format("kitti");
   if (row->size() == 8) return camera_format("tum");

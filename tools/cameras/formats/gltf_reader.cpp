@@ -226,9 +226,19 @@ class GltfReader {
     }
   }
 
+  /// The number of nodes that have a camera.
+  [[nodiscard]] std::size_t count_cameras() const {
+    std::size_t cameras = 0;
+    for (std::size_t i = 0; i < count("nodes"); ++i) {
+      if (gltf_index(document_.element("nodes", i), "camera")) ++cameras;
+    }
+    return cameras;
+  }
+
   base::Result<CameraNode> find_camera() {
     std::vector<CameraNode> cameras;
     std::string names;
+    const bool has_several = count_cameras() > 1;
     for (std::size_t i = 0; i < count("nodes"); ++i) {
       const json& node = document_.element("nodes", i);
       const auto lens = gltf_index(node, "camera");
@@ -236,6 +246,8 @@ class GltfReader {
       CameraNode camera{text_in(node, "name"), {}, document_.element("cameras", *lens), *lens, {}};
       if (camera.name.empty() && camera.lens.is_object())
         camera.name = text_in(camera.lens, "name");
+      // Several without a name need one, by which --camera can choose.
+      if (camera.name.empty() && has_several) camera.name = "node " + std::to_string(i);
       std::string fault = read_chain(i, camera);
       if (!fault.empty()) return base::Failure{fault};
       names += (names.empty() ? "" : ", ") + camera.name;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -106,7 +107,9 @@ Json document_of(const FloatBuffer& buffer, Playback playback, const CameraWrite
   root["scene"] = 0;
   root["scenes"] = Json::array({{{"nodes", {0}}}});
   root["nodes"] = Json::array({{{"name", options.name}, {"camera", 0}}});
-  const double aspect = static_cast<double>(options.width_px) / height_px(options);
+  // Of the fields of view, not of the pixels: whole numbers of these round it, and a user may
+  // choose others, but the angles are what was proved.
+  const double aspect = std::tan(0.5 * options.fov_x_rad) / std::tan(0.5 * options.fov_y_rad);
   root["cameras"] = Json::array(
       {{{"name", options.name},
         {"type", "perspective"},

@@ -88,6 +88,14 @@ base::Result<CameraTrack> read_json(const CameraFile& file, const Read& read) {
   return track;
 }
 
+/// Returns the vertical field of view of the largest picture with square pixels that lies within
+/// the fields of view: nerfstudio has one focal length for both directions. A wider one would show
+/// what was not proved.
+double fov_of_square_pixels_rad(const CameraWriteOptions& options) {
+  const double aspect = static_cast<double>(options.width_px) / height_px(options);
+  return std::min(options.fov_y_rad, fov_across_rad(options.fov_x_rad, 1.0 / aspect));
+}
+
 std::string text_member(const Field& object, std::string_view key) {
   const std::optional<Field> member = object.optional_member(key);
   return member && !member->is_null() ? member->text() : "";
@@ -169,7 +177,7 @@ base::Result<CameraTrack> read_nerfstudio(const CameraFile& file,
 base::Result<std::string> write_nerfstudio(const CameraTrack& track,
                                            const CameraWriteOptions& options) {
   const double fps = track.fps.value_or(24.0);
-  const double fov_deg = degrees_of_nerf(options.fov_y_rad);
+  const double fov_deg = degrees_of_nerf(fov_of_square_pixels_rad(options));
   const int height = height_px(options);
   const double aspect = static_cast<double>(options.width_px) / height;
   OrderedJson json;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "daemon/planning/stages/path_check.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/cameras/export/path_export.h"
+#include "tools/cameras/export/written_lens.h"
 #include "tools/cameras/formats/camera_format.h"
 #include "tools/cameras/path_samples.h"
 #include "tools/cameras/sparse_keys.h"
@@ -85,6 +87,14 @@ base::Result<ExportInput> read_input(const ExportFlags& flags) {
   return ExportInput{*std::move(path), *std::move(request)};
 }
 
+/// The file that belongs beside the written one, with its place; nothing if the format has none.
+std::optional<CompanionFile> companion_of(const ExportFlags& flags, const ExportInput& input) {
+  if (input.format->companion == nullptr) return std::nullopt;
+  CompanionFile companion = input.format->companion(input.options);
+  companion.name = fs::path(flags.out).replace_filename(companion.name).string();
+  return companion;
+}
+
 /// Says what the file has that the path has not.
 void print_mapping(const ExportFlags& flags, const ExportInput& input) {
   const FormatTraits traits = traits_of(*input.format);
@@ -103,6 +113,9 @@ void print_mapping(const ExportFlags& flags, const ExportInput& input) {
   if (input.mapping.scale != 1.0) words += fmt::format(", {:g} m a unit", input.mapping.scale);
   if (input.mapping.up != scene::UpAxis::kAsInFile) {
     words += fmt::format(", up {} undone", base::name_of(input.mapping.up));
+  }
+  if (const auto companion = companion_of(flags, input)) {
+    words += ", the lens in " + companion->name;
   }
   print_error(flags.out + ": " + words);
 }
@@ -182,24 +195,15 @@ std::optional<ExitCode> report_proof(const ExportFlags& flags, const PlayedProof
 
 /// Says whether what is played is free, and otherwise where it is not and at which rate it would
 /// be.
-ExitCode prove(const ExportFlags& flags, const ExportInput& input, const CameraTrack& played) {
-  const base::Result<ProofScene> scene = load_scene(flags, input);
-  if (!scene) return fail(scene.error);
-  const auto said = report_proof(flags, prove_played(played, *scene),
+ExitCode prove(const ExportFlags& flags, const ExportInput& input, const ProofScene& scene,
+               const CameraTrack& played) {
+  const auto said = report_proof(flags, prove_played(played, scene),
                                  fmt::format("{} frames", played.keys.size()));
   if (said) return *said;
-  const std::optional<double> rate = free_rate(input.response.path, input.fps, *scene);
+  const std::optional<double> rate = free_rate(input.response.path, input.fps, scene);
   print_error(rate ? fmt::format("--fps {:g} would be free", *rate)
                    : "no rate up to 32 times as high would be free");
   return ExitCode::kNegative;
-}
-
-std::string write_files(const ExportFlags& flags, const ExportInput& input,
-                        const std::string& bytes) {
-  std::string error = write_file(flags.out, bytes);
-  if (!error.empty() || input.format->companion == nullptr) return error;
-  const CompanionFile companion = input.format->companion(input.options);
-  return write_file(fs::path(flags.out).replace_filename(companion.name), companion.text);
 }
 
 /// A track as a file, and as a program plays that file.
@@ -207,6 +211,20 @@ struct WrittenTrack {
   std::string bytes;
   CameraTrack played;
 };
+
+/// Writes the files, and says what they do not show of the request's fields of view. Returns why
+/// they are not written; empty if they are.
+std::string write_files(const ExportFlags& flags, const ExportInput& input,
+                        const WrittenTrack& written) {
+  // The proof is about the request's fields of view, so no program may see more.
+  const WrittenLens lens = written_lens(written.played, *input.format, input.options);
+  if (!lens.fault.empty()) return flags.out + ": " + lens.fault;
+  if (!lens.remark.empty()) print_error("note: " + lens.remark);
+  std::string error = write_file(flags.out, written.bytes);
+  if (!error.empty()) return error;
+  const auto companion = companion_of(flags, input);
+  return companion ? write_file(companion->name, companion->text) : "";
+}
 
 /// Writes a track and reads it back. Without one, the exit code says what went wrong, which was
 /// printed.
@@ -227,10 +245,16 @@ ExitCode export_dense(const ExportFlags& flags, const ExportInput& input) {
   const auto result = written_track(flags, input, dense_track(input));
   if (const auto* const code = std::get_if<ExitCode>(&result)) return *code;
   const auto& written = std::get<WrittenTrack>(result);
-  const std::string error = write_files(flags, input, written.bytes);
+  std::optional<ProofScene> scene;
+  if (!flags.no_proof) {
+    // Before the file: one that is there looks proved.
+    base::Result<ProofScene> loaded = load_scene(flags, input);
+    if (!loaded) return fail(loaded.error);
+    scene = *std::move(loaded);
+  }
+  const std::string error = write_files(flags, input, written);
   if (!error.empty()) return fail(error);
-  if (flags.no_proof) return ExitCode::kSuccess;
-  return prove(flags, input, written.played);
+  return scene ? prove(flags, input, *scene, written.played) : ExitCode::kSuccess;
 }
 
 SparseKeys few_keys(const ExportFlags& flags, const ExportInput& input) {
@@ -238,7 +262,8 @@ SparseKeys few_keys(const ExportFlags& flags, const ExportInput& input) {
   ThinningTolerance tolerance;
   if (flags.within_m) tolerance.position_m = *flags.within_m;
   if (flags.within_deg) tolerance.turn_rad = radians(*flags.within_deg);
-  keys.keep_within(tolerance);
+  // A rate that someone said is lost where keys are between frames.
+  if (!input.is_fps_known || !keys.keep_frames_within(tolerance)) keys.keep_within(tolerance);
   return keys;
 }
 
@@ -259,6 +284,12 @@ void print_sparse(const ExportFlags& flags, const ExportInput& input, const Spar
                   "the path",
                   flags.out, played.keys.size(), frame_count(input.response.path, input.fps),
                   off.position_m, degrees(off.turn_rad)));
+  if (input.is_fps_known && !keys.are_on_frames()) {
+    print_error(
+        fmt::format("note: not all keys are on frames, so the file has no rate of {:g} a "
+                    "second: those do not suffice",
+                    input.fps));
+  }
 }
 
 /// Writes few keys on curves, and adds some where what is played of them is not free.
@@ -282,7 +313,7 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
     const bool is_settled =
         !proof || proof->search.certificate.certified || !proof->search.complete;
     if (!is_settled && round < kMostRounds && add_keys(keys, *proof, offset_s)) continue;
-    const std::string error = write_files(flags, input, written.bytes);
+    const std::string error = write_files(flags, input, written);
     if (!error.empty()) return fail(error);
     print_sparse(flags, input, keys, written.played, offset_s);
     if (!proof) return ExitCode::kSuccess;
@@ -291,14 +322,35 @@ ExitCode export_sparse(const ExportFlags& flags, const ExportInput& input) {
   }
 }
 
+/// Returns why a file cannot be written beside that of the path; empty if it can. Nobody named it,
+/// so it replaces nothing: a model of the user, or the lens of another path in the folder.
+std::string why_no_companion(const ExportFlags& flags, const CompanionFile& companion,
+                             const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  const std::string name = fs::path(companion.name).filename().string();
+  if (fs::path(flags.out).filename() == name ||
+      fs::equivalent(flags.out, companion.name, ignored)) {
+    return fmt::format("--out: {} is where {} has the lens; the poses need another name", flags.out,
+                       flags.format);
+  }
+  if (!fs::exists(fs::symlink_status(companion.name, ignored))) {
+    return why_unwritable(companion.name, inputs);
+  }
+  const base::Result<std::string> text = read_text(companion.name);
+  if (text && *text == companion.text) return "";
+  return fmt::format(
+      "{}: is there already, and is not the lens of this path; {} needs this name "
+      "beside {}, so write to another folder, or remove it",
+      companion.name, flags.format, flags.out);
+}
+
 /// Returns why the files of the path cannot be written; empty if they can.
 std::string why_no_files(const ExportFlags& flags, const ExportInput& input) {
   const std::vector<std::string> inputs = {flags.response, flags.request,
                                            flags.scene.file_for(flags.request, input.request)};
   std::string fault = why_unwritable(flags.out, inputs);
-  if (!fault.empty() || input.format->companion == nullptr) return fault;
-  const CompanionFile companion = input.format->companion(input.options);
-  return why_unwritable(fs::path(flags.out).replace_filename(companion.name), inputs);
+  const auto companion = companion_of(flags, input);
+  return fault.empty() && companion ? why_no_companion(flags, *companion, inputs) : fault;
 }
 
 ExitCode run_export(const ExportFlags& flags) {
@@ -328,7 +380,8 @@ void add_mapping_flags(CLI::App& command, ExportFlags& flags) {
       ->check(cli_support::whole_number(1, 100'000));
   command
       .add_option("--height", flags.choices.height_px,
-                  "Its height [of the imported file, else such that pixels are square]")
+                  "Its height [of the imported file, else such that pixels are square]; its pixels "
+                  "have the shape that the fields of view need")
       ->check(cli_support::whole_number(1, 100'000));
   command
       .add_option("--first-frame", flags.choices.first_frame,

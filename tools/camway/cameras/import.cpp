@@ -19,6 +19,7 @@
 #include "tools/cameras/track_thinning.h"
 #include "tools/camway/cameras/import_request.h"
 #include "tools/camway/cameras/log_track.h"
+#include "tools/camway/cameras/scene_fit.h"
 #include "tools/camway/common/commands.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
@@ -39,6 +40,7 @@ struct ImportFlags {
   LogTrackOptions log;
   std::string scene;
   double scale = 1.0;
+  std::optional<double> camera_scale;
   scene::UpAxis up = scene::UpAxis::kAsInFile;
   ImportLens lens;
   std::string body;
@@ -47,6 +49,9 @@ struct ImportFlags {
   std::optional<double> within_m;
   std::optional<double> within_deg;
   std::string request;
+
+  /// The scale of the camera file, which may have another unit than the scene.
+  [[nodiscard]] double scale_of_camera() const { return camera_scale.value_or(scale); }
 };
 
 /// Takes the rate of frames from the times where the file states none.
@@ -192,7 +197,7 @@ CameraRemark remark_of(const ImportFlags& flags, const CameraFormat& format,
   remark.has_times = track.has_times;
   remark.axes = flags.read.axes;
   if (!flags.body.empty() && !remark.axes) remark.axes = CameraAxes::kGl;
-  remark.scale = flags.scale;
+  remark.scale = flags.scale_of_camera();
   remark.up = flags.up;
   remark.facts = track.facts;
   return remark;
@@ -200,6 +205,11 @@ CameraRemark remark_of(const ImportFlags& flags, const CameraFormat& format,
 
 bool states_lens(const CameraTrack& track, const ImportLens& lens) {
   return lens.fov_x_deg || lens.fov_y_deg || widest_fov_x_rad(track) || widest_fov_y_rad(track);
+}
+
+/// Whether files of a format say what a unit is.
+bool states_unit(const CameraFormat& format) {
+  return format.name == "gltf" || format.name == "fbx" || format.name == "collada";
 }
 
 /// The moving thing. A body needs no lens, but keeps that of its file.
@@ -232,10 +242,27 @@ void warn_of_loss(const ThinnedTrack& kept) {
       kept.largest_position_m, degrees(kept.largest_turn_rad)));
 }
 
+/// Warns of what the first plan would stumble over.
+void warn_of_scene(const ImportFlags& flags, const CameraFormat& format, const CameraTrack& track,
+                   const ThinnedTrack& kept) {
+  if (flags.scene.empty()) return;
+  PlacedPath path{flags.file, states_unit(format), flags.scale_of_camera(), {}};
+  for (const std::size_t i : kept.kept) path.keyframes_W.push_back(track.keys[i].pose_W.position);
+  scene::ImportOptions options;
+  options.scale = flags.scale;
+  options.up = flags.up;
+  for (const std::string& words : scene_warnings(flags.scene, options, path)) {
+    print_error("warning: " + words);
+  }
+}
+
 ExitCode run_import(const ImportFlags& flags) {
   std::error_code error_code;
   if (!flags.scene.empty() && !fs::exists(flags.scene, error_code)) {
     return refuse_file("--scene: " + flags.scene + " does not exist");
+  }
+  if (fs::is_directory(flags.scene, error_code)) {
+    return refuse_file("--scene: " + flags.scene + " is a folder, not a scene file");
   }
   if (flags.request != "-") {
     std::vector<std::string> inputs = {flags.file, flags.scene, flags.body, flags.times};
@@ -250,7 +277,7 @@ ExitCode run_import(const ImportFlags& flags) {
   const CameraFormat* format = nullptr;
   base::Result<CameraTrack> track = read_track(flags, format);
   if (!track) return refuse_file(track.error);
-  place_as_scene(*track, flags.scale, flags.up);
+  place_as_scene(*track, flags.scale_of_camera(), flags.up);
   const base::Result<RequestBody> body = body_of(flags, *track);
   if (!body) return refuse_file(body.error);
   // The user counts poses of the file. Else the path is compared where a person sees it, at frames:
@@ -268,6 +295,7 @@ ExitCode run_import(const ImportFlags& flags) {
   }
   print_summary(flags, *format, compared, track->keys.size(), kept);
   if (flags.every) warn_of_loss(kept);
+  warn_of_scene(flags, *format, compared, kept);
   if (flags.request == "-") {
     fmt::print("{}", text);
     return ExitCode::kSuccess;
@@ -346,6 +374,10 @@ void add_scene_flags_of_import(CLI::App& command, ImportFlags& flags) {
   command.add_option("--scale", flags.scale, "Metres per unit of this file and of the scene")
       ->check(cli_support::above_0())
       ->capture_default_str();
+  command
+      .add_option("--camera-scale", flags.camera_scale,
+                  "Metres per unit of this file alone, where the scene has another unit [--scale]")
+      ->check(cli_support::above_0());
   cli_support::add_choice(command, "--up", flags.up, base::named_values<scene::UpAxis>(),
                           "Turn the axes of this file and of the scene");
 }

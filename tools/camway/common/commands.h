@@ -44,7 +44,8 @@ void add_doctor_command(CLI::App& app, ExitCode& exit_code);
 void add_watch_command(CLI::App& app, ExitCode& exit_code);
 void add_view_command(CLI::App& app, ExitCode& exit_code);
 
-/// Prints `camway: message` on standard error.
+/// Prints `camway: message` on standard error. Control characters, which names and words of files
+/// may have and which a terminal obeys, are printed as `\x1b`; line breaks and tabs are kept.
 void print_error(std::string_view message);
 
 /// Returns the paragraph on exit codes at the end of a subcommand's help. `negative` defines code

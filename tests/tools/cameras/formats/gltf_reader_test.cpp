@@ -176,6 +176,23 @@ TEST(GltfReader, ChoosesTheCameraByName) {
   EXPECT_EQ(document.read(options).error, "has no camera 'none': eye, other");
 }
 
+TEST(GltfReader, NumbersCamerasWithoutAName) {
+  Document document;
+  for (auto& node : document.root()["nodes"]) node.erase("name");
+  for (auto& camera : document.root()["cameras"]) camera.erase("name");
+  const std::size_t other = document.root()["nodes"].size();
+  document.root()["nodes"].push_back({{"camera", 0}, {"translation", {7, 8, 9}}});
+  document.animate(0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+  CameraReadOptions options;
+  options.camera = "none";
+  const std::string last = "node " + std::to_string(other);
+  EXPECT_THAT(document.read(options).error, ::testing::EndsWith(", " + last));
+  options.camera = last;
+  const auto track = document.read(options);
+  ASSERT_TRUE(track) << track.error;
+  EXPECT_EQ(track->keys[0].pose_W.position, Vec3(7, 8, 9));
+}
+
 TEST(GltfReader, TakesTheWidestAngleOfALensThatChanges) {
   Document document;
   document.animate(0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
