@@ -58,7 +58,7 @@ TEST(WayOut, IsNoneWhereOnlyTheBoundsAreNear) {
   FreeSpace space({obstacles, scene.body, {}});
   const SignedPose from = motion::signed_pose({Vec3::Zero(), Quat::Identity()});
   ASSERT_TRUE(space.is_free(motion::unsigned_pose(from), 0.0));
-  EXPECT_FALSE(way_out(space, from, HasRoom::kByGap, Deadline::never()));
+  EXPECT_FALSE(way_out(space, from, RoomTest::kGap, Deadline::never()));
 }
 
 TEST(WayOut, LiftsARingOffItsPole) {
