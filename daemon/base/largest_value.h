@@ -8,10 +8,10 @@
 
 namespace camway::base {
 
-/// Returns the largest value of `of(x)` between the first and the last of `places`, which increase.
-/// It is found by golden sections between the neighbours of the place with the largest value (Kiefer
-/// 1953, "Sequential minimax search for a maximum"), and right where the function has one peak
-/// there. Requires a place.
+/// Returns the largest value of `of(x)` between the first and the last of `places`, which increase
+/// strictly. It is found by golden sections between the neighbours of the place with the largest
+/// value (Kiefer 1953, "Sequential minimax search for a maximum"), and right where the function has
+/// one peak there. Requires a place.
 template <class Function>
 double largest_value(std::span<const double> places, const Function& of) {
   constexpr int kSections = 14;  // of two steps, to a thousandth of a step

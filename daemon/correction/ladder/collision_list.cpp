@@ -28,11 +28,12 @@ void measure(const CubicPath& path, const CubicPath& interpolated, const Closene
   constexpr int kSamples = 6;  // of a piece
   const CubicPath changed = path.around(correction.t_begin_s, correction.t_end_s);
   correction.shift = shift_of(changed, interpolated, closeness);
-  std::vector<double> times_s;
+  std::vector<double> times_s = {correction.t_begin_s};
   for (const motion::CubicPiece& piece : changed.pieces) {
     const double begin_s = std::max(piece.t0_s, correction.t_begin_s);
     const double end_s = std::min(piece.t1_s, correction.t_end_s);
-    for (int i = 0; i <= kSamples; ++i) {
+    // Each once: the search for the largest value goes on to the next time on either side.
+    for (int i = 1; i <= kSamples; ++i) {
       times_s.push_back(std::lerp(begin_s, end_s, static_cast<double>(i) / kSamples));
     }
   }

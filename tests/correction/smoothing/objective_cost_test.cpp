@@ -92,7 +92,7 @@ TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
 // The gap is what lies beyond the required clearance.
 TEST(ObjectiveCost, OfSafestHasTheGapBeyondTheClearance) {
   CostCase c;
-  const CubicPath path = straight({-2, 0.5, 0}, {2, 0.5, 0}, 4.0);
+  const CubicPath path = straight({-2, -0.8, 0}, {2, -0.8, 0}, 4.0);
   const double gap_m = c.cost(Objective::kSafest, path, path).least_gap_m;
   ASSERT_LT(gap_m, kComfort * c.space().ball_radius_m());
   c.detect.clearance_m = 0.5 * gap_m;

@@ -70,7 +70,7 @@ ExitCode run_check(const CheckFlags& flags) {
   }
   if (!found.complete) {
     print_error(fmt::format("{}: {} before the whole path was searched", input.response_file,
-                            planning::deadline_reached(input.request)));
+                            planning::deadline_text(input.request)));
   }
   fmt::print("{}",
              flags.json ? json_text(check_json(input, found), 2) + "\n" : check_text(input, found));
