@@ -19,10 +19,12 @@ using geometry::Vec4;
 using motion::CubicPath;
 using motion::CubicPiece;
 
-constexpr int kSamplesAPiece = 6;                       // of the shift; even, for Simpson's rule
-constexpr double kBestSpacing = 12.0;                   // from the derivative of the cost of a bump
-constexpr double kPercentile = 0.99;                    // of the acceleration
-constexpr int kAccelerationSamples = 8;                 // in a piece
+constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's rule
+constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
+constexpr double kPercentile = 0.99;     // of the acceleration
+constexpr int kAccelerationSamples = 8;  // in a piece
+constexpr double kTurningShare =
+    0.3;  // of the picture's speed: it counts where the eye hardly moves
 constexpr double kLeastAcceleration_m_per_s2 = 1e-150;  // the least whose square is far above 0
 
 /// Second derivative of a cubic Bézier curve at u.
@@ -216,7 +218,8 @@ double reference_acceleration_m_per_s2(const CubicPath& interpolated, double vie
     so_far_s += sample.duration_s;
     if (so_far_s >= kPercentile * whole_s) break;
   }
-  const double speed_m_per_s = (length_m + viewing_distance_m * turned_rad) / whole_s;
+  const double turned_m = kTurningShare * viewing_distance_m * turned_rad;
+  const double speed_m_per_s = std::max(length_m, turned_m) / whole_s;
   const double least =
       std::max(speed_m_per_s * speed_m_per_s / viewing_distance_m, kLeastAcceleration_m_per_s2);
   return std::max(percentile, least);

@@ -57,8 +57,9 @@ double closeness_cost(const motion::CubicPath& path, const motion::CubicPath& or
                       const Closeness& closeness);
 
 /// The reference acceleration of an interpolated path: the 99th percentile of its acceleration, and
-/// at least that of a circle of the radius `viewing_distance_m` at the mean speed of the picture,
-/// that of the eye plus `viewing_distance_m` times that of turning. Its square is above 0.
+/// at least that of a circle of the radius `viewing_distance_m` at the mean speed. That is the mean
+/// speed of the eye, or 0.3 times that by which turning moves the picture, which is more where the
+/// eye hardly moves. Its square is above 0.
 double reference_acceleration_m_per_s2(const motion::CubicPath& interpolated,
                                        double viewing_distance_m);
 
