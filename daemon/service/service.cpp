@@ -169,7 +169,7 @@ RunOutcome Service::drain() {
     const Clock::time_point now = Clock::now();
     if (now >= limit || broken_) {
       core_.log->warn("stopped while planning", {{"being_planned", core_.workers.running()},
-                                                 {"changes_not_kept", scenes_.unfinished()}});
+                                                 {"unfinished_changes", scenes_.unfinished()}});
       scenes_.give_up();
       if (!broken_) run_round(Clock::duration::zero());
       return RunOutcome::kAbandoned;

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "daemon/correction/ladder/follow_guide.h"
-#include "daemon/correction/ladder/leg_poses.h"
 #include "daemon/correction/narrow/corridor.h"
 #include "daemon/correction/narrow/kept_guide.h"
 #include "daemon/correction/narrow/threaded_guide.h"
 #include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/guide.h"
+#include "daemon/correction/path/leg_poses.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/search/ball_escape.h"
 #include "daemon/correction/search/cell_search.h"

@@ -19,12 +19,10 @@ using geometry::Vec4;
 using motion::CubicPath;
 using motion::CubicPiece;
 
-constexpr int kSamplesAPiece = 6;        // of the shift; even, for Simpson's rule
-constexpr double kBestSpacing = 12.0;    // from the derivative of the cost of a bump
-constexpr double kPercentile = 0.99;     // of the acceleration
-constexpr int kAccelerationSamples = 8;  // in a piece
-constexpr double kTurningShare =
-    0.3;  // of the picture's speed: it counts where the eye hardly moves
+constexpr int kSamplesAPiece = 6;                       // of the shift; even, for Simpson's rule
+constexpr double kBestSpacing = 12.0;                   // from the derivative of the cost of a bump
+constexpr double kPercentile = 0.99;                    // of the acceleration
+constexpr int kAccelerationSamples = 8;                 // in a piece
 constexpr double kLeastAcceleration_m_per_s2 = 1e-150;  // the least whose square is far above 0
 
 /// Second derivative of a cubic Bézier curve at u.

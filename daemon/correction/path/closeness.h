@@ -36,6 +36,10 @@ struct Closeness {
 /// and gentle corrections. [Units: radians]
 inline constexpr double kAccelerationWeight_rad = 0.018;
 
+/// Share of the speed by which turning moves the picture that counts in the reference acceleration:
+/// little enough to count only where the eye hardly moves.
+inline constexpr double kTurningShare = 0.3;
+
 /// Largest and mean shift of a part of a path. [Units: radians]
 struct Shift {
   double largest_rad = 0.0;
@@ -58,8 +62,8 @@ double closeness_cost(const motion::CubicPath& path, const motion::CubicPath& or
 
 /// The reference acceleration of an interpolated path: the 99th percentile of its acceleration, and
 /// at least that of a circle of the radius `viewing_distance_m` at the mean speed. That is the mean
-/// speed of the eye, or 0.3 times that by which turning moves the picture, which is more where the
-/// eye hardly moves. Its square is above 0.
+/// speed of the eye, or `kTurningShare` times that by which turning moves the picture if it is
+/// more. Its square is above 0.
 double reference_acceleration_m_per_s2(const motion::CubicPath& interpolated,
                                        double viewing_distance_m);
 

@@ -24,6 +24,8 @@ using std::chrono::milliseconds;
 
 constexpr double kMillisecondsPerSecond = 1e3;
 constexpr double kDayS = 86'400.0;
+/// Less is taken for a wrong unit.
+constexpr double kLeastDeadline_s = 1e-3;
 /// Largest counts and numbers of bytes: beyond all practical values, and exact as doubles.
 constexpr double kManyBytes = 1e15;
 
@@ -118,8 +120,8 @@ std::vector<Setting> planning_settings(DaemonOptions& options) {
   service::ServiceConfig& service = options.service;
   return {
       {"planning.workers", &service.workers, 0, service::kMaxWorkers},
-      {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
-      {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
+      {"planning.deadline_s", &service.deadline.default_s, kLeastDeadline_s, kDayS},
+      {"planning.max_deadline_s", &service.deadline.max_s, kLeastDeadline_s, kDayS},
       {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
       {"planning.drain_s", &service.drain_limit, 0, kDayS},
   };
@@ -128,8 +130,8 @@ std::vector<Setting> planning_settings(DaemonOptions& options) {
 std::vector<Setting> occupancy_settings(DaemonOptions& options) {
   service::ServiceConfig& service = options.service;
   return {
-      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, 1e-3, kDayS},
-      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, 1e-3, kDayS},
+      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, kLeastDeadline_s, kDayS},
+      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, kLeastDeadline_s, kDayS},
   };
 }
 
@@ -168,8 +170,8 @@ std::vector<Setting> scenes_settings(DaemonOptions& options) {
       {"scenes.cache_folder", &options.cache_folder, 0, 0, false, nullptr, Setting::Path::kFile},
       {"scenes.cache_bytes", &options.cache_bytes, 0, kManyBytes},
       {"scenes.workers", &service.scene_workers, 1, service::kMaxWorkers},
-      {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
-      {"scenes.max_deadline_s", &service.change_deadline.max_s, 1e-3, kDayS},
+      {"scenes.deadline_s", &service.change_deadline.default_s, kLeastDeadline_s, kDayS},
+      {"scenes.max_deadline_s", &service.change_deadline.max_s, kLeastDeadline_s, kDayS},
       {"scenes.scenes", &options.store.scenes, 1, 1e6},
       {"scenes.objects", &options.store.objects, 1, 1e6},
       {"scenes.triangles", &options.store.triangles, 1, 4e9},

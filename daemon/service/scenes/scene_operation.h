@@ -34,8 +34,8 @@ struct SceneReply {
 /// file. Where another process may have changed the scene, waits for its changes before a change is
 /// refused because of what the scene is or has (`SceneStore::catch_up`).
 ///
-/// Thread-safe, but the caller must run the changes of one scene one after the other: a scan reads
-/// the map before it changes it, so a concurrent change may be lost.
+/// Thread-safe. Concurrent changes of one scene take effect one after the other, each on what the
+/// one before it left.
 SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
                    const OperationContext& context);
 

@@ -130,7 +130,7 @@ Uploads::Upload* Uploads::find_or_begin(const UploadKey& key, Clock::time_point 
     const auto size = static_cast<std::size_t>(key.total_bytes);
     const auto pages = static_cast<std::size_t>(pages_of(key.total_bytes));
     if (!make_room(size, now)) return nullptr;
-    // What may throw comes before the upload is known.
+    // The upload is entered last: the allocations before may throw.
     Upload upload;
     upload.bytes = std::make_shared<UploadRoom>(size);
     upload.has_page.resize(pages);

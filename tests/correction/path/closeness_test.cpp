@@ -216,14 +216,19 @@ TEST(Closeness, ABumpOfTheBestSpacingCostsLeast) {
   }
 }
 
+/// Of an angle near 1 that is found from sines, relatively; far above an epsilon.
+constexpr double kTurnRounding = 1e-12;
+
 TEST(Closeness, TheReferenceAccelerationIsThatOfTheCurveOrOfAWideCircle) {
   EXPECT_DOUBLE_EQ(reference_acceleration_m_per_s2(straight(10.0, 2.0), 5.0), 2.0 * 2.0 / 5.0);
   // Turning on the spot moves the picture, too.
   std::vector<Keyframe> turn = {{0.0, {Vec3::Zero(), Quat::Identity()}},
                                 {2.0, {Vec3::Zero(), Quat::Identity()}}};
   turn[1].pose.orientation = Quat(Eigen::AngleAxisd(1.0, Vec3::UnitY()));
+  constexpr double kRate_rad_per_s = 0.5;
+  constexpr double kSpeed_m_per_s = kTurningShare * 4.0 * kRate_rad_per_s;
   EXPECT_NEAR(reference_acceleration_m_per_s2(motion::interpolate_cubic(turn), 4.0),
-              0.09 * 4.0 * 0.5 * 0.5, 1e-12);
+              kSpeed_m_per_s * kSpeed_m_per_s / 4.0, kTurnRounding);
   std::vector<Keyframe> still = turn;
   still[1].pose.orientation = Quat::Identity();
   const double least = reference_acceleration_m_per_s2(motion::interpolate_cubic(still), 4.0);

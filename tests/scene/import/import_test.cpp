@@ -16,6 +16,7 @@
 
 #include "daemon/base/base64.h"
 #include "daemon/scene/import/import_process.h"
+#include "tests/support/collada_triangle.h"
 
 namespace camway::scene {
 namespace {
@@ -134,26 +135,11 @@ std::string gltf(const std::array<float, 9>& positions) {
 
 /// Returns the triangle under two nested nodes that move it by (10, 0, 0) and (0, 20, 0).
 std::string collada(std::string_view opening = "", std::string_view closing = "") {
-  return R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
- <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
- <library_geometries><geometry id="g" name="g"><mesh>
-  <source id="p"><float_array id="a" count="9">1 2 3 4 2 3 1 5 3</float_array>
-   <technique_common><accessor source="#a" count="3" stride="3">
-    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-   </accessor></technique_common></source>
-  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
- </mesh></geometry></library_geometries>
- <library_visual_scenes><visual_scene id="s">)" +
-         std::string(opening) + R"(
+  return testing::collada_triangle("1 2 3 4 2 3 1 5 3",
+                                   testing::kColladaMetre, std::string(opening) + R"(
   <node id="outer" name="outer"><translate>10 0 0</translate>
    <node id="inner" name="inner"><translate>0 20 0</translate>
-    <instance_geometry url="#g"/></node></node>)" +
-         std::string(closing) + R"(
- </visual_scene></library_visual_scenes>
- <scene><instance_visual_scene url="#s"/></scene>
-</COLLADA>)";
+    <instance_geometry url="#g"/></node></node>)" + std::string(closing));
 }
 
 TEST_F(Import, ReadsObj) {

@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/collada_triangle.h"
 #include "tests/tools/camway/cli_runner.h"
 #include "tools/cameras/formats/camera_format.h"
 
@@ -283,25 +284,9 @@ TEST_F(CliCameras, TurnAndScaleAsTheScene) {
   EXPECT_EQ(request["keyframes"][1]["position"], json::parse("[2.5, 0.0, -1.0]"));
 }
 
-/// A triangle 100 units across, of 0.01 m each.
-constexpr const char* kColladaInCentimetres = R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
- <asset><unit name="centimeter" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
- <library_geometries><geometry id="g" name="g"><mesh>
-  <source id="p"><float_array id="a" count="9">0 0 0 1000 0 0 0 1000 1000</float_array>
-   <technique_common><accessor source="#a" count="3" stride="3">
-    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-   </accessor></technique_common></source>
-  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
- </mesh></geometry></library_geometries>
- <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
- </visual_scene></library_visual_scenes>
- <scene><instance_visual_scene url="#s"/></scene>
-</COLLADA>)";
-
 TEST_F(CliCameras, ScaleTheCameraFileAloneWhereTheSceneStatesItsUnit) {
-  folder_.write("room.dae", kColladaInCentimetres);
+  folder_.write("room.dae", testing::collada_triangle("0 0 0 1000 0 0 0 1000 1000",
+                                                      R"(<unit name="centimeter" meter="0.01"/>)"));
   folder_.write("cm.csv", "t,x,y,z,qw,qx,qy,qz\n0,100,200,200,1,0,0,0\n1,300,200,200,1,0,0,0\n");
   const auto import = [&](const std::string& scene, const std::string& flag) {
     return run_camway({"import", folder_.file("cm.csv"), "--request", folder_.file("r.json"),

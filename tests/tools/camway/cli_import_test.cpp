@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/collada_triangle.h"
 #include "tests/tools/camway/cli_runner.h"
 #include "tests/tools/camway/replay/log_builder.h"
 
@@ -89,21 +90,7 @@ TEST_F(CliImport, JudgesAPathACentimetreFromAWallFarAway) {
 
 /// Returns a wall at a million, in a format that assimp reads.
 std::string collada_wall() {
-  return R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
- <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
- <library_geometries><geometry id="g" name="g"><mesh>
-  <source id="p"><float_array id="a" count="9">1000000.03 -9 -9 1000000.03 9 -9 1000000.03 0 9</float_array>
-   <technique_common><accessor source="#a" count="3" stride="3">
-    <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-   </accessor></technique_common></source>
-  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
- </mesh></geometry></library_geometries>
- <library_visual_scenes><visual_scene id="s"><node id="n" name="n">
-  <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
- <scene><instance_visual_scene url="#s"/></scene>
-</COLLADA>)";
+  return testing::collada_triangle("1000000.03 -9 -9 1000000.03 9 -9 1000000.03 0 9");
 }
 
 TEST_F(CliImport, WarnsWhereSinglePrecisionIsCoarserThanTheRequest) {

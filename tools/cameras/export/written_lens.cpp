@@ -34,8 +34,7 @@ std::string open_angles(std::optional<double> fov_y_rad, const CameraFormat& for
     return fmt::format("{} has no field of view: that of the path is {}", format.name, proved);
   return fmt::format(
       "{} has no shape of the picture: the field of view of the path is {}, {:.7g} times as wide "
-      "as "
-      "high",
+      "as high",
       format.name, proved, std::tan(0.5 * options.fov_x_rad) / std::tan(0.5 * options.fov_y_rad));
 }
 

@@ -7,7 +7,7 @@
 
 namespace camway::tools {
 
-/// What a written file says of the fields of view that the proof is about.
+/// Comparison of the lens of a written file with the fields of view that were proved.
 struct WrittenLens {
   std::string fault;   ///< why it may not be used: it shows more than was proved; empty if not so
   std::string remark;  ///< what it leaves open or shows less of; empty if it says all

@@ -107,8 +107,8 @@ Json document_of(const FloatBuffer& buffer, Playback playback, const CameraWrite
   root["scene"] = 0;
   root["scenes"] = Json::array({{{"nodes", {0}}}});
   root["nodes"] = Json::array({{{"name", options.name}, {"camera", 0}}});
-  // Of the fields of view, not of the pixels: whole numbers of these round it, and a user may
-  // choose others, but the angles are what was proved.
+  // The fields of view were proved. The aspect of the picture in pixels is rounded, and may be any
+  // that a user chooses.
   const double aspect = std::tan(0.5 * options.fov_x_rad) / std::tan(0.5 * options.fov_y_rad);
   root["cameras"] = Json::array(
       {{{"name", options.name},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/ladder/leg_poses.h"
+#include "daemon/correction/path/leg_poses.h"
 
 #include <algorithm>
 #include <cmath>
